@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.at_random import random_frames, spread_matrix
+from quasistatic_ref.lab.scenes.at_random import divided, random_frames, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra, StepData
@@ -118,3 +118,73 @@ def equal_groups(rng: np.random.Generator) -> StepData:
         delta_q_bar_a=np.zeros(0), contacts=touching,
         extra=Extra(names, A, rng.choice([0.0, -1e-4, 1e-5], len(A))),
     )  # fmt: skip
+
+
+def resting_step(rng: np.random.Generator) -> StepData:
+    """A body on contacts in small integers: rows that depend on each other, and exact ties.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    StepData
+    """
+    n = int(rng.integers(1, 5))
+    n_c = int(rng.integers(1, 5))
+    axes = np.eye(3)[[2, 0, 1]]  # the normal is vertical
+    J = rng.integers(-1, 2, (n_c, 4, n)).astype(np.float64)
+    J[:, 2] = 1.0
+    phi = rng.choice([0.0, 0.0, 0.125], n_c)
+    mu_v = rng.choice([0.0, 0.5, 1.0], n_c)
+    mu_omega = rng.choice([0.0, 0.25], n_c)
+    frames = np.tile(axes, (n_c, 1, 1))
+    return StepData(
+        h=0.5, K_q=np.zeros((0, 0)), M_u=np.diag(rng.choice([1.0, 2.0, 8.0], n)),
+        tau_a=np.zeros(0), tau_u=rng.integers(-2, 2, n).astype(np.float64),
+        delta_q_bar_a=np.zeros(0),
+        contacts=contacts_of(phi, frames, J, mu_v, mu_omega, rng.choice([4, 6], n_c)),
+    )  # fmt: skip
+
+
+def designed_step(seed: int) -> StepData:
+    """A small step of one of four families, with loads and gaps of sizes from 2^-300 to 2^300.
+
+    The families are :func:`any_step`, :func:`equal_groups`, :func:`resting_step`, and any step
+    that is divided into groups, with rows of a user's own in each.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    StepData
+        Infeasible in some cases.
+    """
+    rng = np.random.default_rng(seed)
+    family = seed % 4
+    if family == 1:
+        step = equal_groups(rng)
+    elif family == 2:
+        step = resting_step(rng)
+    else:
+        sizes = rng.integers((0, 1, 0), (3, 4, 4)).tolist()
+        step = any_step(rng, *sizes, rng.choice([1.0, 1e4, 1e9]))
+    if family == 3:
+        step = divided(rng, step, 2)
+        own = int(rng.integers(0, 3))
+        A = np.eye(step.n_v)[rng.integers(step.n_v, size=own)] * rng.choice([-1.0, 1.0], (own, 1))
+        names = tuple(f"own {i}" for i in range(own))
+        step = step.replace(extra=Extra(names, A, rng.choice([-1e-3, 0.0, 1e-4], own)))
+    factor = 2.0 ** int(rng.choice([0, 0, 0, -30, 40, -300, 300]))
+    contacts = step.contacts
+    extra = step.extra
+    return step.replace(
+        tau_a=factor * step.tau_a,
+        tau_u=factor * step.tau_u,
+        delta_q_bar_a=factor * step.delta_q_bar_a,
+        contacts=replace(contacts, phi=factor * contacts.phi),
+        extra=Extra(extra.names, extra.A, factor * extra.b),
+    )

@@ -96,6 +96,12 @@ RESULTS = (
         ("validation/results/second_order.jsonl", "validation/results/second_order.md"),
     ),
     to_file("mjcf"),
+    Result(
+        "known_steps",
+        "validation.make.known_steps",
+        ("quasistatic_ref/optional/fast/compiled/known_steps.jsonl.gz",),
+    ),
+    to_file("prover_mutants"),
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),

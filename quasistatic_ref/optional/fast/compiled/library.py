@@ -2,11 +2,11 @@
 
 A compiler is looked for in this order: the command that ``QUASISTATIC_REF_CC`` names (``none`` asks
 for no compiled code at all), the system's ``cc``, ``gcc`` or ``clang``, and the Python package
-``ziglang``, which the extra ``[fast]`` brings. The library is kept in the user's cache folder,
-``XDG_CACHE_HOME`` or ``~/.cache``, under a name that follows from the source and the command.
-Before it comes there, its arithmetic is tested in a process of its own (``selftest.py``), because
-loading a library may already change the arithmetic of a process. Whatever goes wrong is said in a
-sentence, and steps are NumPy's.
+``ziglang``, which the extra ``[fast]`` brings. The library is kept in the user's cache folder
+(``cache.py``), under a name that follows from the source and the command. Before it comes there, it
+is tested in a process of its own (``selftest.py``): it might be wrong, and loading a library may
+already change the arithmetic of a process. A library whose load did not end is tested again.
+Whatever goes wrong is said in a sentence, and steps are NumPy's.
 """
 
 import ctypes
@@ -28,11 +28,13 @@ from quasistatic_ref import tolerances
 from quasistatic_ref.contact.crossings import EDGE_COSINE
 from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.formats.quoting import clipped, one_line
+from quasistatic_ref.optional.fast.compiled.cache import Cache, CompileError
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
-SELFTEST = "selftest.py"
+TESTED_BY = ("selftest.py", "known_steps.py", "known_steps.jsonl.gz")
+SELFTEST = "quasistatic_ref.optional.fast.compiled.selftest"
 CONSTANTS = {
     **{
         name: getattr(tolerances, name)
@@ -69,8 +71,8 @@ FUNCTIONS = {
 """What each function returns; its one argument is the address of a structure."""
 
 
-class CompileError(Exception):
-    """Why there is no library, in words."""
+chosen: str | None = None
+"""The file that this process loads, once it is set: the self-test's, of a library not yet kept."""
 
 
 def library() -> ctypes.CDLL:
@@ -97,15 +99,20 @@ def _found() -> ctypes.CDLL | str:
     if platform.system() == "Windows" or sys.maxsize < 2**32:
         return "it is made for 64-bit Linux and macOS only"
     try:
-        found = ctypes.CDLL(str(_made(compiler())))
-        for name, result in FUNCTIONS.items():
-            function = getattr(found, name)
-            function.argtypes = [ctypes.c_void_p]
-            function.restype = result
+        return _bound(chosen) if chosen else _kept(compiler())
     except CompileError as reason:
         return str(reason)
     except (OSError, AttributeError) as failure:  # a symbol that is missing is the second
         return f"it could not be compiled or loaded: {clipped(str(failure))}"
+
+
+def _bound(file: str) -> ctypes.CDLL:
+    """A library that is loaded, with the types of its functions."""
+    found = ctypes.CDLL(file)
+    for name, result in FUNCTIONS.items():
+        function = getattr(found, name)
+        function.argtypes = [ctypes.c_void_p]
+        function.restype = result
     return found
 
 
@@ -136,40 +143,47 @@ def compiler() -> list[str]:
     return command
 
 
-def _made(command: list[str]) -> Path:
-    """The library's file, made if it is not there."""
-    selftest = SOURCE.parent / SELFTEST
-    files = sorted(SOURCE.glob("*.[ch]"))
-    text = b"".join(file.read_bytes() for file in [*files, selftest])
-    key = hashlib.sha256(
-        text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
-    ).hexdigest()
-    folder = _cache() / "quasistatic_ref"
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    if folder.stat().st_uid != os.getuid():
-        raise CompileError(f"{folder} belongs to another user")
-    file = folder / f"fast-{key[:16]}.so"
-    if not file.exists():
+def _kept(command: list[str]) -> ctypes.CDLL:
+    """The library of a compiler: the one that is kept, or one that is made and tested."""
+    cache = Cache(key(command))
+    file = cache.library()
+    if file is not None and cache.was_left() and (complaint := _complaint(testing(file))):
+        print(f"quasistatic_ref: the library is replaced: {complaint}", file=sys.stderr, flush=True)
+        cache.remove(file)
+        file = None
+    if file is None:
         print("quasistatic_ref: compiling, once ...", file=sys.stderr, flush=True)
-        with tempfile.TemporaryDirectory(dir=folder) as made:
-            out = Path(made) / file.name
-            sources = [str(file) for file in files if file.suffix == ".c"]
-            compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
-            testing = [sys.executable, "-I", str(selftest), str(out)]
-            for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):
+        with tempfile.TemporaryDirectory(dir=cache.folder) as folder:
+            made = Path(folder) / "made.so"
+            works = (
+                (compiling(command, made), "could not compile it"),
+                (testing(made), "is not used"),
+            )
+            for work, failed in works:
                 if complaint := _complaint(work):
                     raise CompileError(f"{command[0]} {failed}: {complaint}")
-            os.replace(out, file)
-    return file
+            file = cache.keep(made)
+    with cache.loading():
+        return _bound(str(file))
 
 
-def _cache() -> Path:
-    """The user's cache folder; CompileError if there is none."""
-    try:
-        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    except RuntimeError:
-        problem = "there is no home folder to keep it in: set XDG_CACHE_HOME or HOME"
-        raise CompileError(problem) from None
+def key(command: list[str]) -> str:
+    """What follows from all that a library is made of, and tested by."""
+    files = [*sorted(SOURCE.glob("*.[ch]")), *(SOURCE.parent / name for name in TESTED_BY)]
+    text = b"".join(file.read_bytes() for file in files)
+    made_by = repr((command, FLAGS, sys.platform, platform.machine()))
+    return hashlib.sha256(text + made_by.encode()).hexdigest()
+
+
+def compiling(command: Sequence[str], out: Path, source: Path = SOURCE) -> list[str]:
+    """The command that makes a library of the C files of a folder."""
+    files = [str(file) for file in sorted(source.glob("*.c"))]
+    return [*command, *FLAGS, "-o", str(out), *files, "-lm"]
+
+
+def testing(library: Path) -> list[str]:
+    """The command that tests a library in a process of its own."""
+    return [sys.executable, "-P", "-m", SELFTEST, str(library)]
 
 
 def _complaint(command: Sequence[str]) -> str:
@@ -179,6 +193,7 @@ def _complaint(command: Sequence[str]) -> str:
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},  # the same packages
         start_new_session=True,
     ) as process:
         try:

@@ -1,50 +1,57 @@
 """The test that a compiled library has to pass: it finds what compilers do to bits."""
 
+import json
 import subprocess
 import sys
+from collections import Counter
 
 import pytest
 
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.optional.fast.compiled.known_steps import known_steps
+from quasistatic_ref.step.groups import group_steps
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from validation.make.known_steps import optimum_of
+from validation.make.prover_mutants import FLAGS, WRONG_COMPILERS
+from validation.tools.scripts import ROOT
 
 pytestmark = needs_compiler
-CHANGED = {
-    "-ffast-math": "x / ",  # by y or by 3, as the compiler likes
-    "-ffp-contract=fast -mfma": "x y + z",
-    "-fassociative-math -fno-signed-zeros -fno-trapping-math": "x + y - x",
-    "-freciprocal-math": "x / 3",
-    "-ffinite-math-only": "x == x",
-    "-fno-signed-zeros": "0 - x",
-    "-fsingle-precision-constant": "0.1 x",
-}
-"""Flags, and the first operation of which they change the bits."""
 
 
-def refusal(folder, flags):
-    """What the test says of a library of the tested operations alone, compiled with more flags."""
-    made = compiled("library")
-    out = str(folder / "made.so")
-    command = [
-        *made.compiler(),
-        *made.FLAGS,
-        *flags.split(),
-        "-o",
-        out,
-        str(made.SOURCE / "arithmetic.c"),
+@pytest.fixture(scope="module")
+def said():
+    """What the test says with each compiler; in a process that has no library yet."""
+    script = [sys.executable, "-m", "validation.make.prover_mutants", "--compilers"]
+    done = subprocess.run(script, cwd=ROOT, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("flags", FLAGS)
+def test_a_library_is_used_if_its_float64_is_right(said, flags):
+    changed = f"its arithmetic is not that of float64: {FLAGS[flags]}"
+    assert said[flags].startswith(changed) if FLAGS[flags] else said[flags] == ""
+
+
+@pytest.mark.parametrize("name", WRONG_COMPILERS)
+def test_a_compiler_that_gets_an_operation_of_the_proofs_wrong_is_refused(said, name):
+    """Its float64 is right: proofs are integers."""
+    assert said[name].startswith(("a sum of products has the digits", "its proofs are wrong"))
+
+
+def test_known_steps_are_of_every_kind():
+    steps = known_steps()
+    outcomes = Counter("".join(known.outcomes for known in steps))
+    assert min(outcomes["o"], outcomes["r"], outcomes["-"]) > 100
+    assert sum(known.optimum is None for known in steps) > 5
+    assert sum(len(group_steps(known.step)) > 1 for known in steps) > 50
+    assert sum(bool(known.step.extra.names) for known in steps) > 50
+    degenerate = [
+        known for known in steps if known.optimum and [False, True] in known.optimum["degeneracy"]
     ]
-    subprocess.run([*command, "-lm"], check=True, capture_output=True)
-    testing = [sys.executable, "-I", str(made.SOURCE.parent / made.SELFTEST), out]
-    return subprocess.run(testing, capture_output=True, text=True, check=False).stderr
+    assert len(degenerate) > 5
 
 
-@pytest.mark.parametrize("flags", ["", "-O0", "-march=native"])
-def test_a_library_whose_bits_are_right_passes(tmp_path, flags):
-    assert refusal(tmp_path, flags) == ""
-
-
-@pytest.mark.parametrize("flags", CHANGED)
-def test_a_library_whose_bits_are_others_is_refused(tmp_path, flags):
-    assert refusal(tmp_path, flags).startswith(
-        f"its arithmetic is not that of float64: {CHANGED[flags]}"
-    )
+def test_an_optimum_that_is_stored_is_that_of_the_exact_method():
+    """Of a sample: ``validation/make/known_steps.py`` writes all."""
+    for known in known_steps()[::16]:
+        assert json.loads(json_text(optimum_of(known.step))) == known.optimum

@@ -1,7 +1,7 @@
 /* The operations that all other files are made of, on numbers that show what a compiler has made of
-   them: selftest.py knows the bits of the results. */
+   them: selftest.py knows the bits and digits of the results. */
 
-#include "scene.h"
+#include "proof.h"
 
 /* Of n triples x, y, z eight results each; then two sums over the first `count` of them. */
 void arithmetic(const double *triples, int64_t n, int64_t count, double *out)
@@ -24,4 +24,39 @@ void arithmetic(const double *triples, int64_t n, int64_t count, double *out)
         products += triples[3 * i] * triples[3 * i + 1];
     *out++ = total;
     *out = products;
+}
+
+/* Of each sum of `terms` products of three factors, alternately added and subtracted, its digits; of
+   each of as many numbers its digits, cut at 2^-GRID. In `found` whether something was lost of the
+   sum, its value, and twice whether the nearest float64 is shown and which that is: of the sum, and of
+   its quotient by h; whether something of the number is lost that is not to be cut; and whether a
+   third number does not fit. */
+void fixed_point(const double *factors, const double *cut, const double *edge, int64_t sums,
+                 int64_t terms, double h, int64_t *digits, double *found)
+{
+    for (int64_t s = 0; s < sums; s++, factors += 3 * terms, digits += 2 * DIGITS, found += 8) {
+        Sum sum = EMPTY;
+        Number of[2];
+        lost = 0;
+        for (int64_t i = 0; i < terms; i++) {
+            Number x = number(exact(factors[3 * i]));
+            product(&x, exact(factors[3 * i + 1]), &x);
+            add_product(&sum, &x, exact(factors[3 * i + 2]), i % 2 ? -1 : 1);
+        }
+        carried(&sum, of);
+        of[1] = number(digits_of(cut[s], GRID, 1));
+        for (int k = 0; k < 2; k++)
+            for (int j = 0; j < DIGITS; j++)
+                digits[k * DIGITS + j] = j >= of[k].low && j < of[k].high ? of[k].d[j] : 0;
+        found[0] = lost;
+        found[1] = value(of);
+        found[2] = nearest(of, 0.0, 1.0, 1.0, found + 3);
+        found[4] = nearest(of, 0.0, h, 1.0, found + 5);
+        lost = 0;
+        digits_of(cut[s], GRID, 0);
+        found[6] = lost;
+        lost = 0;
+        exact(edge[s]);
+        found[7] = lost;
+    }
 }

@@ -1,0 +1,180 @@
+"""Steps whose exact optima are stored, and what the prover of a library makes of them.
+
+The steps have ties, groups, rows of a user's own and numbers of very different size, and some have
+no solution. ``validation/make/known_steps.py`` makes the file from the core's exact method.
+"""
+
+import gzip
+import json
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.optional.fast.compiled.certificate import NOT_POSED, GroupProof, Prover
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
+from quasistatic_ref.solve.units import DenseStepInBothUnits
+from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.files import step_from_record
+from quasistatic_ref.step.groups import Group, group_steps
+
+FILE = Path(__file__).parent / "known_steps.jsonl.gz"
+
+RIGHT = "right"
+"""The guess that is the working set of the stored optimum."""
+
+
+class Known(NamedTuple):
+    """A step, and what is known of it.
+
+    Parameters
+    ----------
+    step : StepData
+    optimum : dict or None
+        Fields of its ExactOptimum, and the degeneracy of each group: whether its multipliers are
+        unique and its displacement differentiable. None of a step without solution.
+    outcomes : str
+        What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
+        that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
+        for neither.
+    """
+
+    step: StepData
+    optimum: dict[str, Any] | None
+    outcomes: str
+
+
+@cache
+def known_steps() -> list[Known]:
+    """The stored steps."""
+    with gzip.open(FILE, "rt", encoding="utf-8") as lines:
+        records = [json.loads(line) for line in lines]
+    return [
+        Known(step_from_record(one["step"]), one["optimum"], one["outcomes"]) for one in records
+    ]
+
+
+def guesses(step: StepData, optimum: dict[str, Any] | None) -> dict[str, Array]:
+    """Multipliers of answers that guess some rows, each of shape (m,): only the first is right.
+
+    A working set has no row to spare: without one of its rows, its minimiser is another. Nor is the
+    optimum the minimiser on rows of which one has a slack there.
+    """
+    pressed = np.zeros(step.m)
+    if optimum is None:
+        pressed[:1] = 1.0
+        return {"of its first row": pressed}
+    working = np.array(optimum["working_set"], dtype=np.int64)
+    pressed[working] = 1.0
+    found = {RIGHT: pressed}
+    if len(working):
+        found["without its last row"] = pressed.copy()
+        found["without its last row"][working[-1]] = 0.0
+    loose = np.flatnonzero(optimum["slack"])
+    if len(loose):
+        found["with a row that has a slack"] = pressed.copy()
+        found["with a row that has a slack"][loose[0]] = 1.0
+    return found
+
+
+class Tried(NamedTuple):
+    """What one proof has come to.
+
+    Parameters
+    ----------
+    group : Group
+    number : int
+        Of the group among those of the step.
+    guess : str
+        Its words.
+    changed : bool
+        Whether the guess differs from the right one in rows of this group.
+    found : ExactOptimum, Refuted or None
+    units : ndarray, shape (2,), or None
+        Natural length and size that the library found [m per (N m s)^0.5, (N m s)^0.5]; None where
+        it did not pose the step.
+    of : DenseStepInBothUnits
+        The step of the group.
+    """
+
+    group: Group
+    number: int
+    guess: str
+    changed: bool
+    found: Proof
+    units: Array | None
+    of: DenseStepInBothUnits
+
+
+def tried(known: Known) -> Iterator[Tried]:
+    """All proofs of the groups of a step, on all guesses, by the library of this process."""
+    step = known.step
+    divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
+    both = DenseStepInBothUnits(step)
+    prover = Prover(step, divided)
+    every = guesses(step, known.optimum)
+    right = every.get(RIGHT, np.full(step.m, -1.0))
+    for words, lam in every.items():
+        prover.optimum(both, lam, np.zeros(step.m))
+        for number, (group, own) in enumerate(divided):
+            proof = prover.proofs[number]
+            changed = bool((lam != right)[group.rows].any())
+            found: Proof = None
+            units = None
+            if isinstance(proof, GroupProof) and proof.code != NOT_POSED:
+                guess: Indices = np.flatnonzero(lam[group.rows])
+                units = proof.s["units"].copy()
+                found = proof.optimum(own.si_step, guess, own.units)
+            yield Tried(group, number, words, changed, found, units, own)
+
+
+def letter(found: Proof) -> str:
+    """How the outcome of a proof is stored."""
+    if isinstance(found, ExactOptimum):
+        return "o"
+    return "r" if isinstance(found, Refuted) else "-"
+
+
+def wrong(known: Known) -> str | None:
+    """What a library makes of a step that is wrong, in words; None if all is right."""
+    for i, one in enumerate(tried(known)):
+        if one.units is not None and one.units.tolist() != [*one.of.units[1:]]:
+            return f"its natural units are {one.units.tolist()} in place of {one.of.units[1:]}"
+        stored = known.outcomes[i] if i < len(known.outcomes) else "-"
+        if stored != "-" and letter(one.found) != stored:
+            return f"a guess {one.guess} is not decided"
+        if isinstance(one.found, Refuted) and not one.changed:
+            return "the right guess is refuted"
+        if not isinstance(one.found, ExactOptimum):
+            continue
+        if one.changed:
+            return f"a guess {one.guess} is proved"
+        unlike = different(one, known.optimum or {})
+        if unlike:
+            return f"{unlike} of an optimum is wrong"
+    return None
+
+
+def different(one: Tried, optimum: dict[str, Any]) -> str | None:
+    """The first field of an optimum, proved on the right guess, that is not the stored one's."""
+    found = one.found
+    assert isinstance(found, ExactOptimum)
+    rows = one.group.rows
+    coordinates = one.group.coordinates
+    for name, at in (
+        ("delta_q", coordinates), ("net", coordinates), ("lam", rows), ("slack", rows),
+    ):  # fmt: skip
+        right = np.array(optimum[name], dtype=np.float64)[at]
+        if getattr(found, name).tobytes() != right.tobytes():
+            return name
+    lam = found.lam[list(found.working_set)].tolist()
+    if found.smallest_active_multiplier != min(lam, default=None):
+        return "the smallest multiplier"
+    slack = found.slack[found.slack > 0].tolist()
+    if found.smallest_inactive_slack != (min(slack, default=None) if found.differentiable else 0.0):
+        return "the smallest slack"
+    degeneracy = [found.multipliers_unique, found.differentiable]
+    return None if degeneracy == optimum["degeneracy"][one.number] else "degeneracy"

@@ -1,0 +1,84 @@
+"""The stored steps of the prover's self-test: ``python -m validation.make.known_steps``.
+
+Optima are those of the core's exact method. A step is taken while its proofs differ in kind from
+those of the steps before, so that a small file has many kinds. What the library makes of each guess
+is stored, too: a library that decides less is not used.
+"""
+
+import gzip
+import io
+import json
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.certify.exact import group_optimum, joined_optimum
+from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.optional.fast.compiled import library
+from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_record
+from quasistatic_ref.step.groups import group_steps
+from tests.oracles.random_steps import designed_step
+from validation.tools.scripts import asked
+
+SEEDS = 3000
+EACH = 6
+"""Steps of one kind: of equal family, size and outcomes of proofs."""
+MOST = 320
+
+
+def optimum_of(step: StepData) -> dict[str, Any] | None:
+    """The exact optimum as it is stored; None of a step without solution."""
+    divided = group_steps(step)
+    try:
+        optima = [group_optimum(step, group, own, []) for group, own in divided]
+    except StepInfeasible:
+        return None
+    found = asdict(joined_optimum(step, [group for group, _ in divided], optima))
+    found["degeneracy"] = [[one.multipliers_unique, one.differentiable] for one in optima]
+    stored = ("delta_q", "net", "lam", "slack", "working_set", "degeneracy")
+    return {name: found[name] for name in stored}
+
+
+def main() -> int:
+    """Write the file."""
+    options = asked(__doc__, out=Path)
+    folder = tempfile.TemporaryDirectory()
+    untested = Path(folder.name) / "untested.so"  # the file is what would test it
+    subprocess.run(library.compiling(library.compiler(), untested), check=True)
+    library.chosen = str(untested)
+    kinds: Counter[Any] = Counter()
+    lines = []
+    for seed in range(SEEDS):
+        step = designed_step(seed)
+        optimum = optimum_of(step)
+        divided = group_steps(step)
+        if optimum is None and len(divided) > 1:
+            continue  # the group without solution is not known
+        outcomes = "".join(letter(one.found) for one in tried(Known(step, optimum, "")))
+        kind = seed % 4, step.n_v, len(divided), "".join(sorted(set(outcomes)))
+        if kinds[kind] == EACH or (optimum is not None and not set("or") & set(outcomes)):
+            continue
+        kinds[kind] += 1
+        record = {"step": step_record(step), "optimum": optimum, "outcomes": outcomes}
+        lines.append(json_text(record))
+        if len(lines) == MOST:
+            break
+    made = io.BytesIO()
+    with gzip.GzipFile(fileobj=made, mode="wb", mtime=0) as packed:
+        packed.write("\n".join(lines).encode())
+    out = options.out or FILE
+    out.write_bytes(made.getvalue())
+    letters = Counter("".join(json.loads(line)["outcomes"] for line in lines))
+    print(f"{len(lines)} steps, {len(made.getvalue())} bytes, outcomes {dict(letters)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

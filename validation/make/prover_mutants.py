@@ -1,0 +1,282 @@
+"""Wrong provers that the self-test has to refuse: ``python -m validation.make.prover_mutants``.
+
+Each operator of the C files that prove optima is replaced by another one, one at a time, as a wrong
+compiler would. Each such library is compiled and tested like a new one (``selftest.py``), in a
+process of its own. Five compilers that get one operation of 128-bit integers wrong are tried, too.
+The page (``--out``) counts the libraries that are refused, and lists the others with the reason why
+they change no answer. ``--every`` N takes one operator of N, ``--only`` those of one file, and
+``--compilers`` none. Exit status 1 if one passes without a reason.
+"""
+
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from quasistatic_ref.optional.fast.compiled import library, selftest
+from quasistatic_ref.optional.fast.compiled.known_steps import known_steps
+from validation.tools.scripts import ROOT, asked, shown
+
+FILES = (
+    "fixed_point.h", "rounding.c", "span.c", "kkt.c", "certificate.c", "groups.c", "contraction.c",
+)  # fmt: skip
+"""Those that prove."""
+REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
+"""Of each file, lines that are not refused, and why these mutants change no answer."""
+SECONDS = 20
+"""A mutant that takes longer does not end, and is refused."""
+BYTES = 4 << 30
+"""Of memory, lest a mutant takes all."""
+OTHER = {
+    "+": "-", "-": "+", "*": "+", "/": "*", "%": "/", "<<": ">>", ">>": "<<", "&": "|", "|": "&",
+    "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
+    "+=": "-=", "-=": "+=", "|=": "&=", "&=": "|=", "++": "--", "--": "++",
+}  # fmt: skip
+TOKEN = re.compile(
+    r"/\*.*?\*/|^#.*?$|'.'|->|<<|>>|&&|\|\||\+\+|--|[-+*/%&|<>=!]=|\w+(?:\.\w*)?(?:p[-+]\d+)?|[-+*/%&|<>]",
+    re.DOTALL | re.MULTILINE,
+)
+WRONG_COMPILERS = {
+    "the low half of a product": (
+        "to[j] += above + (__int128)digit[j] * low;",
+        "to[j] += above + (((__int128)digit[j] * low) ^ ((digit[j] & low & 1024) != 0));",
+    ),
+    "the high half of a product": (
+        "above = (__int128)digit[j] * high;",
+        "above = (__int128)digit[j] * (int32_t)high;",
+    ),
+    "a carry": (
+        "__int128 digit = sum->d[j] + carry;",
+        "__int128 digit = sum->d[j] + (int64_t)(carry << 32 >> 32 << 32 >> 32) % (1 << 20);",
+    ),
+    "a borrow": (
+        "carry = (digit + ((__int128)1 << (BITS - 1))) >> BITS;",
+        "carry = (digit + ((__int128)1 << (BITS - 1))) / ((__int128)1 << BITS);",
+    ),
+    "the sign of a slack": (
+        "m->refuted |= value(&x) < 0.0;",
+        "m->refuted |= value(&x) < -1e300;",
+    ),
+}
+"""What a compiler gets wrong: a text of the sources, and what it computes in its place."""
+
+FLAGS = {
+    "": "", "-O0": "", "-march=native": "",
+    "-ffast-math": "x / ",  # by y or by 3, as the compiler likes
+    "-ffp-contract=fast -mfma": "x y + z",
+    "-fassociative-math -fno-signed-zeros -fno-trapping-math": "x + y - x",
+    "-freciprocal-math": "x / 3",
+    "-ffinite-math-only": "x == x",
+    "-fno-signed-zeros": "0 - x",
+    "-fsingle-precision-constant": "0.1 x",
+}  # fmt: skip
+"""After the package's own, and the first operation of which they change the bits, if any."""
+
+PAGE = """# Wrong provers, and the self-test of the compiled library
+
+Written by `python -m validation.make.prover_mutants --out FILE`. Operators of the C files that
+prove optima, each replaced by another one. `refused`: the self-test has found a difference, the
+library ended the process, or it did not end. `same code`: the compiler makes the same code of both.
+`harmless`: it changes no answer, for the reason below. `passed`: none of these.
+
+| file | mutants | refused | same code | harmless | passed |
+|---|---|---|---|---|---|
+{counts}
+
+Compilers, the first ones right, that change float64, or get an operation of 128-bit integers or a
+sign wrong:
+
+| compiler | outcome |
+|---|---|
+{compilers}
+
+## Those that are not refused
+
+| file | line | code | reason |
+|---|---|---|---|
+{left}
+"""
+
+
+class Mutant(NamedTuple):
+    """A file of which one operator is another one.
+
+    Parameters
+    ----------
+    file : str
+    line : int
+        Counted from 1.
+    code : str
+        That line, mutated.
+    text : str
+        All of the file.
+    """
+
+    file: str
+    line: int
+    code: str
+    text: str
+
+
+def mutants(file: str, every: int) -> Iterator[Mutant]:
+    """One operator of so many of a file, replaced."""
+    text = (library.SOURCE / file).read_text()
+    found = [match for match in TOKEN.finditer(text) if match[0] in OTHER]
+    for match in found[::every]:
+        changed = text[: match.start()] + OTHER[match[0]] + text[match.end() :]
+        line = text.count("\n", 0, match.start())
+        yield Mutant(file, line + 1, changed.splitlines()[line].strip(), changed)
+
+
+class Builder:
+    """Libraries of changed sources; files that did not change are compiled once.
+
+    Parameters
+    ----------
+    folder : Path
+        Of what is made.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.plain: dict[str, bytes] = {}
+        for file in library.SOURCE.glob("*.[ch]"):
+            (folder / file.name).write_text(file.read_text())
+        self.objects = sorted(file.stem for file in library.SOURCE.glob("*.c"))
+        assert self.compiled(self.objects)
+        self.plain = {name: (folder / f"{name}.o").read_bytes() for name in self.objects}
+        self.of_header = [
+            name for name in self.objects if "proof.h" in (folder / f"{name}.c").read_text()
+        ]
+
+    def compiled(self, names: list[str], more: str = "") -> bool:
+        """Compile some files, quickly, or with `more` flags as they are; whether that is done."""
+        flags = [flag for flag in library.FLAGS if flag != "-shared"]
+        flags += more.split() if more else ["-O1"]
+        files = [f"{name}.c" for name in names]
+        strict = ["-Werror=incompatible-pointer-types", "-Werror=int-conversion", "-w"]
+        command = [*library.compiler(), *flags, *strict, "-c", *files]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, check=False)
+        return done.returncode == 0
+
+    def outcome(self, file: str, text: str, more: str = "") -> str:
+        """What a library comes to of which a file is changed, or compiled with `more` flags.
+
+        Returns
+        -------
+        str
+            Why it is not used; empty if it is.
+        """
+        changed = self.folder / file
+        before = changed.read_text()
+        names = self.of_header if file.endswith(".h") else [changed.stem]
+        try:
+            changed.write_text(text)
+            if not self.compiled(names, more):
+                return "does not compile"
+            made = [(self.folder / f"{name}.o").read_bytes() for name in names]
+            if text != before and made == [self.plain[name] for name in names]:
+                return "same code"
+            out = self.folder / "mutant.so"
+            objects = [f"{name}.o" for name in self.objects]
+            linking = [*library.compiler(), "-shared", "-o", str(out), *objects, "-lm"]
+            subprocess.run(linking, cwd=self.folder, check=True)
+            return tested(out)
+        finally:
+            changed.write_text(before)
+            for name in names:
+                (self.folder / f"{name}.o").write_bytes(self.plain[name])
+
+    def compilers(self) -> dict[str, str]:
+        """What the self-test says with each of the compilers that are tried."""
+        found = {}
+        plain = (library.SOURCE / "arithmetic.c").read_text()
+        for flags in FLAGS:
+            found[flags] = self.outcome("arithmetic.c", plain, flags)
+        for name, (right, wrong) in WRONG_COMPILERS.items():
+            file = next(f for f in FILES if right in (library.SOURCE / f).read_text())
+            text = (library.SOURCE / file).read_text()
+            found[name] = self.outcome(file, text.replace(right, wrong))
+        return found
+
+
+def tested(file: Path) -> str:
+    """What the self-test says of a library; empty if it passes."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if not child:
+        os.close(reading)
+        resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+        signal.alarm(SECONDS)
+        try:
+            found = selftest.refusal(str(file)) or ""
+        except BaseException as failure:  # whatever ends the process is no pass
+            found = f"{type(failure).__name__}: {failure}"
+        os.write(writing, found.encode()[:4000])
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading) as said:
+        words = said.read()
+    status = os.waitpid(child, 0)[1]
+    return f"it was ended by signal {status}" if status else words
+
+
+def main() -> int:
+    """Try all; exit status 1 if a wrong library passes without a reason."""
+    options = asked(__doc__, every=1, only="", compilers=False, out=Path)
+    known_steps()  # once, for all that are forked
+    reasons = tomllib.loads(REASONS.read_text())
+    counts = []
+    left = []
+    passed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        builder = Builder(Path(folder))
+        every = builder.compilers()
+        compilers = [
+            f"| {name or 'no more flags'} | {said[:80] or 'passes'} |"
+            for name, said in every.items()
+        ]
+        passed += sum(not every[name] for name in WRONG_COMPILERS)
+        if options.compilers:
+            print(json.dumps(every))
+            return int(passed > 0)
+        for file in FILES:
+            if options.only not in ("", file):
+                continue
+            kinds: Counter[str] = Counter()
+            for one in mutants(file, options.every):
+                said = builder.outcome(one.file, one.text)
+                if said == "does not compile":
+                    continue
+                reason = "" if said else reasons.get(file, {}).get(one.code, "")
+                kind = said if said == "same code" else "refused" if said else "harmless"
+                if not said and not reason:
+                    kind = "passed"
+                    passed += 1
+                    reason = "PASSED"
+                kinds[kind] += 1
+                if not said:
+                    code = one.code.replace("|", "\\|")
+                    left.append(f"| {file} | {one.line} | `{code}` | {reason} |")
+                    print(f"{kind} {file}:{one.line} {one.code}", file=sys.stderr, flush=True)
+            cells = [kinds[kind] for kind in ("refused", "same code", "harmless", "passed")]
+            counts.append(f"| {file} | {kinds.total()} | {' | '.join(map(str, cells))} |")
+            print(counts[-1], file=sys.stderr, flush=True)
+    page = PAGE.format(
+        counts="\n".join(counts), compilers="\n".join(compilers), left="\n".join(left)
+    )
+    shown(page, options.out)
+    return int(passed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
