@@ -12,7 +12,7 @@ from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
@@ -22,6 +22,7 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
+from quasistatic_ref.optional.fast.rechecked import GROUP, REFUTED, WHOLE, check, is_due
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import DenseStepInBothUnits, HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import read_only
@@ -126,6 +127,9 @@ class Kept:
 
         def proof(guess: Indices) -> Proof:
             found: Proof = None if in_c is None else in_c.optimum(step, guess, both.units)
+            kind = REFUTED if isinstance(found, Refuted) else GROUP
+            if found is not None and is_due(kind, step.n_v):
+                check(step, guess, found)
             return in_balls().confirmed(guess) if found is None else found
 
         guess = _guess(both, lam, slack)
@@ -173,6 +177,8 @@ class KeptGroup:
         """
         decided: ExactOptimum | None = None if in_c is None else in_c.decided()
         if decided is not None:
+            if is_due(GROUP, len(self.group.coordinates)):
+                check(self.step(whole.si_step), in_c.guess, decided)
             return decided
         own = self.in_both_units(whole)
         rows = self.group.rows
@@ -267,6 +273,9 @@ class Proofs:
             parts = self.divided(step, near, coupling)
             prover = self._prover(both)
             optimum = None if prover is None else prover.optimum(both, lam, slack)
+            if optimum is not None and is_due(WHOLE, len(parts[0].group.coordinates)):
+                in_c = prover.proofs[0]
+                check(parts[0].step(step), in_c.guess, in_c.decided())
             if optimum is None:
                 tried = [None] * len(parts) if prover is None else prover.proofs
                 each = zip(parts, tried, strict=True)

@@ -94,6 +94,11 @@ def why_not() -> str | None:
     return found if isinstance(found, str) else None
 
 
+def described() -> str:
+    """The compiler and the file of the library, in words."""
+    return f"compiler {shlex.join(compiler())}, library {library()._name}"
+
+
 @cache
 def _found() -> ctypes.CDLL | str:
     if platform.system() == "Windows" or sys.maxsize < 2**32:
