@@ -38,6 +38,18 @@ def needed_part(module: str, word: str) -> ModuleType:
     return found
 
 
+def fast_part(module: str) -> ModuleType | None:
+    """A module of ``optional/fast``, which means nothing without compiled code; None, and said.
+
+    Raises
+    ------
+    InputError
+        If that folder is missing.
+    """
+    usable = needed_part("fast.speed", "fast").usable()
+    return needed_part(f"fast.{module}", "fast") if usable else None
+
+
 def needed_package(package: str, extra: str, what: str) -> Any:
     """A package that an extra of the installation brings.
 

@@ -30,8 +30,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
-from quasistatic_ref.optional.fast.tracker import ball_tree, tracker_bound
-from quasistatic_ref.optional.fast.tracker import tracker as tracked
+from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
@@ -207,7 +206,11 @@ def cases():
 
 
 def tracker():
-    return vars(ball_tree) | vars(tracker_bound) | vars(tracked) | {"UNSEEN": UNSEEN}
+    """Constants of the short lists."""
+    source = (library.SOURCE / "closest.c").read_text()
+    names = ("RATIO", "SHORT", "WIDE")
+    found = {name: re.search(rf"\b{name}(?: =)? ([\d.]+)", source) for name in names}
+    return {"UNSEEN": UNSEEN} | {name: float(value[1]) for name, value in found.items()}
 
 
 def highs():
@@ -293,15 +296,13 @@ def solids():
 
 @cache
 def profile():
-    """The tables, mean steps over the paper's, and signed distances of a step."""
-    means = table("step_profile.md", "Means")
-    steps = {row["backend, distances"]: float(row["step"]) for row in means}
+    """The medians, these over the paper's step, and signed distances of a step."""
+    medians = table("step_profile.md", "Medians")
+    steps = {row["backend, distances"]: float(row["step"]) for row in medians}
     words = r"evaluates (\d+) signed distances, with the tracker (\d+) in the mean"
     return {
-        "medians": table("step_profile.md", "Medians"),
-        "means": means,
+        "medians": medians,
         "times": {name: us / PAPERS for name, us in steps.items()},
-        "proved": steps["clarabel certified, tracker"] / 1e3,
         "distances": [float(n) for n in re.search(words, text("step_profile.md")).groups()],
     }
 

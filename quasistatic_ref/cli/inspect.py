@@ -117,10 +117,14 @@ def steps_by(scenario: Scenario) -> str:
     """What takes the steps of a scenario, in words."""
     if not scenario.fast:
         return "the plain path, which is the definition; --fast takes the same steps sooner"
-    from quasistatic_ref.optional.fast.compiled import compiled, why_not
+    from quasistatic_ref.optional.fast.compiled.library import why_not
+    from quasistatic_ref.optional.fast.compiled.solids import measured
 
-    in_c = compiled("step")
-    return f"NumPy: {why_not()}" if in_c is None else in_c.taken_by(scenario.simulator())
+    if (reason := why_not()) is not None:
+        return f"the plain path: {reason}"
+    others = ", ".join(dict.fromkeys(p.name for p in scenario.pairs if not measured(p)))
+    known = "compiled code"
+    return f"{known}; closest points of {others} by the plain path" if others else known
 
 
 def tied_at_start(scenario: Scenario) -> list[str]:

@@ -72,8 +72,7 @@ class ClosestPoints(NamedTuple):
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
     """The contacts of all pairs, in order, each pair's in ascending distance, by brute force.
 
-    :class:`~quasistatic_ref.optional.fast.tracker.tracker.ContactTracker` gives the same, bit for
-    bit, sooner.
+    :class:`~quasistatic_ref.optional.fast.compiled.pairs.Pairs` gives the same bits sooner.
 
     Raises
     ------

@@ -18,7 +18,7 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import fast_part, needed_part
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     Wrenches,
@@ -263,11 +263,11 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         rubbing = needed_part("extensions.scenario_rises", "joint_friction and support")
         pairs, rises = rubbing.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
     entries_of_J = 0
-    if fast:  # its default depends on the size of the scene
-        backends = needed_part("fast.backends", "fast")
+    backends = fast_part("backends") if fast else None
+    if backends is not None:  # its default depends on the size of the scene
         n_c = sum(pair.n_c for pair in pairs)
         entries_of_J = backends.entries_of_J(system, n_c, law == CONVEX and not len(rises))
-    backend = _backend(solver, certify, named, entries_of_J, fast)
+    backend = _backend(solver, certify, named, entries_of_J, backends)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -306,15 +306,13 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
 
 
 def _backend(
-    solver: TableReader, certify: str, cone_name: str, entries_of_J: int, fast: bool
+    solver: TableReader, certify: str, cone_name: str, entries_of_J: int, fast: Any
 ) -> str:
     """The name of the backend, looked up here rather than in the first step."""
     name: str | None = value(solver, SOLVER, "backend")
     try:
-        if fast:
-            backend: str = needed_part("fast.backends", "fast").fast_backend(
-                name, cone_name, certify, entries_of_J
-            )
+        if fast is not None:
+            backend: str = fast.fast_backend(name, cone_name, certify, entries_of_J)
             return backend
         name = DEFAULT if name is None else name
         check_backend(name, cone_name, certify)

@@ -17,7 +17,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import fast_part, needed_part
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
@@ -111,7 +111,8 @@ class Simulator(Shown):
         `accuracy` and `certify` are arguments too.
     fast : bool
         Whether to take the same steps sooner: as a
-        :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator`, which this then is.
+        :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator`, which this then is, if
+        there is a compiler.
         Wherever an answer is certified exactly, q, delta_q, A'lam and slacks have the same bits.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
@@ -153,7 +154,8 @@ class Simulator(Shown):
 
     def __new__(cls, *arguments: Any, fast: bool = False, **settings: Any) -> Simulator:
         """A simulator, or the one of `optional/fast`; its arguments are those of the class."""
-        kind: type[Simulator] = needed_part("fast.simulator", "fast").FastSimulator if fast else cls
+        compiled = fast_part("simulator") if fast else None
+        kind: type[Simulator] = cls if compiled is None else compiled.FastSimulator
         return super().__new__(kind)
 
     __signature__: ClassVar[Signature]

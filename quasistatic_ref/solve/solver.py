@@ -15,7 +15,7 @@ from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import fast_part, needed_part
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
@@ -309,7 +309,8 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
         CVXPY. By default Clarabel; with `fast` DAQP.
     fast : bool
         Whether to solve as ``optional/fast`` does: by the backend's own
-        interface where it has one, and with a quick proof of the optimum before the exact method.
+        interface where it has one, and with a quick proof of the optimum before the exact method;
+        it needs a compiler.
 
     Raises
     ------
@@ -318,8 +319,9 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     InputError
         If `fast` is wanted, and its folder is not there.
     """
-    if fast:
-        solver: Solver = needed_part("fast.solver", "fast").fast_solver(step, name)
+    compiled = fast_part("solver") if fast else None
+    if compiled is not None:
+        solver: Solver = compiled.fast_solver(step, name)
         return solver
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)

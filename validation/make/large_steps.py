@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -18,9 +19,7 @@ from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.measuring.environment import machine
-from quasistatic_ref.optional.fast.geometry import PosedGeometry
-from quasistatic_ref.optional.fast.posed import constants
-from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.optional.fast import simulator as fast
 from validation.tools.scripts import asked, shown
 
 Shape = tuple[int, int, int]
@@ -81,14 +80,10 @@ class Cost:
 def cost(shape: Shape, way: str, steps: int = STEPS, k: int = 4, certify: str = "off") -> Cost:
     """What steps of boxes that are pulled over a floor cost."""
     backend, form = way.split()
-    some, other = (pile(shape, k, backend=name, certify=certify) for name in (backend, "clarabel"))
+    with patch.object(fast, "sparse_from", lambda *_: int(form == "sparse")):
+        some = pile(shape, k, backend=backend, certify=certify)
+    other = pile(shape, k, backend="clarabel", certify=certify)
     simulator = some.simulator
-    simulator.compiled = None  # compiled rows are dense ones'
-    geometry = BlockGeometry if form == "sparse" else PosedGeometry
-    simulator.geometry = geometry(simulator.layout, simulator.system.column_map)
-    system = simulator.system
-    M_u = system.mass_blocks if form == "sparse" else system.M_u(some.q)
-    simulator.constant = constants(simulator.h, simulator.K_q, 0, M_u, simulator.layout.rows)
     q = some.q
     times = []
     bounds = []

@@ -1,38 +1,61 @@
-"""The simulator of `fast`: the same steps, with what can be kept between them."""
+"""The simulator of `fast`: the same steps, with their data from compiled code."""
 
+from operator import itemgetter
 from typing import Any
+
+import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.backends import (
     default_backend,
     entries_of_J,
     fast_backend,
     sparse_from,
 )
-from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.geometry import PosedGeometry
-from quasistatic_ref.optional.fast.posed import constants, posed
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.optional.fast.compiled.answer import as_said
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
+from quasistatic_ref.optional.fast.compiled.pairs import Pairs
+from quasistatic_ref.optional.fast.compiled.poses import Poses
+from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
+from quasistatic_ref.optional.fast.compiled.screws import Screws
+from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, constants, posed
+from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
+from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver, solver_for
-from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, Units
+from quasistatic_ref.step.arrays import without_warnings
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
+"""The fields of a step among those that C has written."""
+
+SURELY = 1 - 2.0**-40
+"""Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
 
 
 class FastSimulator(Simulator):
     """As :class:`~quasistatic_ref.simulate.simulator.Simulator`, in less time.
 
-    It keeps which points of the clouds may come among the closest, and poses steps that are right
-    by construction, without checking each number. If its default backend, named or not, fails at a
-    step that is not certified in full, Clarabel solves the step.
+    Closest points, J, the data of a step and its standard form come from compiled code, in every
+    scene; contacts of pairs that it does not know are those of the plain path. The numbers are
+    right by construction, and not checked one by one. Where J is dense, the first step's are
+    compared with those of the plain path, which takes all steps if they differ. If the default
+    backend, named or not, fails at a step that is not certified in full, Clarabel solves the step.
 
     Parameters
     ----------
@@ -43,11 +66,11 @@ class FastSimulator(Simulator):
     ----------
     spare : Solver or None
         A second solver, Clarabel's, once it was needed.
-    compiled : CompiledStep or None
-        :meth:`step` in compiled code, with the same bits; None if there is none for this simulator.
+    compared : bool
+        Whether the first step was compared.
+    by_c : bool
+        Whether compiled code takes the steps.
     """
-
-    geometry: Any  # PosedGeometry, or BlockGeometry of a large scene
 
     def usable_backend(self) -> str:
         """The backend that was named, or the default of this scene; BackendError as in the base."""
@@ -61,54 +84,183 @@ class FastSimulator(Simulator):
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
         system = self.system
+        layout = self.layout
         entries = self.entries()
         self.default_backend = default_backend(self.cone, self.certify, entries)
         self.spare: Solver | None = None
-        self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.backend, self.cone) if entries else 0
-        large = part("large.sparse_jacobian")
-        if large is not None and 0 < least <= entries:
-            self.geometry = large.BlockGeometry(self.layout, system.column_map)
+        large = part("large.block_columns") if 0 < least <= entries else None
+        columns: Columns
+        if large is None:
+            self.blocks: Any = None
+            self.geometry = ContactGeometry(layout, system.column_map)
+            columns = every_column(self.geometry)
         else:
-            self.geometry = PosedGeometry(self.layout, system.column_map)
-        M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
-        rows = self.layout.rows
-        self.constant = constants(self.h, self.K_q, system.n_a, M_u, rows, self.cone)
-        in_c = compiled("step")
-        self.compiled: Any = None if in_c is None else in_c.compiled_step(self)
+            self.blocks = large.block_columns(layout, system.column_map)
+            columns = self.blocks
+        M_u = system.M_u(system.q_start) if large is None else system.mass_blocks
+        self.constant = constants(self.h, self.K_q, system.n_a, M_u, layout.rows, self.cone)
+        self.same: dict[str, Any] = self.constant._asdict()
+        mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        self.friction = {
+            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
+        }  # fmt: skip
+        self.poses = Poses(system)
+        self.numbers = Scene(self.poses, columns, self.constant, mu, self.gravity_factor)
+        self.contacts = Pairs(self.pairs, self.poses.R, self.poses.t, self.numbers.points)
+        self.screws = Screws(system, self.poses)
+        compiled = library()
+        self.form = compiled.step_data
+        self.reach = compiled.reach
+        self.has_rows = cone(self.cone).polyhedral
+        self.compared = large is not None
+        self.by_c = True
+        self.named: tuple[list[int], tuple[str, ...]] = [], ()
+        self.fitted: Solver | None = None
+        self.hessian: HessianInBothUnits | None = None
+        self.program: NaturalProgram | None = None
 
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
-        """One step, as in the base; by compiled code where that takes it, with the same numbers."""
-        if self.compiled is not None:
-            taken: StepResult | None = self.compiled(self, q, q_bar_a, force)
-            if taken is not None:
-                return taken
-        return super().step(q, q_bar_a, force)
+        """One step, as in the base."""
+        if not self.by_c:
+            return super().step(q, q_bar_a, force)
+        lap = Stopwatch()
+        q = np.asarray(q, dtype=np.float64)
+        self.poses.move(q)
+        self.contacts.find(self.poses)
+        lap("distances")
+        step, form, points = self.posed_step(q, q_bar_a, force)
+        if not self.compared:
+            self.compared = True
+            self.by_c = self.is_plain(step, form, q, q_bar_a, force)
+            if not self.by_c:
+                return super().step(q, q_bar_a, force)
+        lap("rows")
+        solution = self.solution_of(step, form, q)
+        limits = self.limits
+        if not self.gap >= -limits.penetration:
+            limits.check_penetration(step)
+        step = solution.step
+        lap("solve")
+        lap.separate("proof", solution.statistics.proof_time, "solve")
+        q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
+        self.poses.move(q_next)
+        if not self.reach(self.numbers.address) <= SURELY * limits.reach**2:
+            limits.check_reach(step, self.system.links, self.poses.kinematics().t)
+        lap("integrate")
+        return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
-        """The contacts of all pairs, as in the base."""
-        return self.tracker.closest_points(kinematics.R, kinematics.t)
+    def posed_step(
+        self, q: Array, q_bar_a: Array, force: Array | float
+    ) -> tuple[StepData, StandardForm, ClosestPoints]:
+        """The problem of one step, its matrices and closest points, from those that are written.
 
-    def step_data(
+        The arrays A and b of the matrices are overwritten by the next step. In blocks, A has those
+        columns only; in a curved cone A and b are empty.
+
+        Raises
+        ------
+        StepDataError
+            If the force has another shape.
+        """
+        numbers = self.numbers
+        if not isinstance(force, float) and np.shape(force) not in ((), numbers["force"].shape):
+            self.generalised_force(q, force)  # which says so
+        numbers["force"][:] = force
+        numbers["delta_q_bar_a"][:] = delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
+        delta_q_bar_a.setflags(write=False)
+        self.poses.weigh(self.gravity)
+        self.gap = self.form(numbers.address)
+        *found, d1, d2, J, tau, g = TAKEN(numbers.taken())
+        points = ClosestPoints(*found)
+        constant = self.constant_here()
+        n_a = len(delta_q_bar_a)
+        own = {
+            "tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a,
+            "contacts": self.posed_contacts(points, d1, d2, J),
+        }  # fmt: skip
+        step = posed(constant.kind, self.same, own)
+        return step, StandardForm(constant.H, g, numbers["A"], numbers["b"]), points
+
+    def constant_here(self) -> Constants:
+        """What steps have in common, with M_u at the poses; StepDataError if it is not definite."""
+        mass = self.system.varying_mass
+        if mass is not None:
+            constant = self.constant.at(mass.at(self.poses.kinematics()))
+            if constant is not self.constant:
+                self.constant = constant
+                self.same = constant._asdict()
+                self.fitted = None
+        return self.constant
+
+    def posed_contacts(self, points: ClosestPoints, d1: Array, d2: Array, J: Array) -> Contacts:
+        """The contacts at those points, from d1, d2 (n_c, 3) [-], J (n_c, 4, ...) [m, rad]."""
+        layout = self.layout
+        listed = points.point.tolist()
+        if listed != self.named[0]:
+            self.named = listed, layout.contact_names(points.point)
+        name = self.named[1]
+        if self.blocks is not None:
+            made: Contacts = self.blocks.contacts(layout, name, points, d1, d2, J)
+            return made
+        own = {"name": name, "phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}
+        return posed(PosedContacts, self.friction, own)
+
+    def is_plain(
         self,
+        step: StepData,
+        form: StandardForm,
         q: Array,
         q_bar_a: Array,
         force: Array | float,
-        points: ClosestPoints,
-        kinematics: Kinematics,
-    ) -> StepData:
-        """The problem of one step, as in the base, not checked number by number."""
-        system = self.system
-        n_a = self.system.n_a
-        contacts = self.geometry.contacts(points, kinematics)
-        delta_q_bar_a = system.actuated_difference(q, q_bar_a)
-        tau = self.generalised_force(q, force)
-        constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
-        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
-        for array in loads.values():
-            read_only(array)
-        return posed(constant.kind, constant._asdict(), {**loads, "contacts": contacts})
+    ) -> bool:
+        """Whether the numbers of a dense step, and its matrices, are those of the plain path."""
+        kinematics = self.system.kinematics(q)
+        points = self.closest_points(kinematics)
+        plain = self.step_data(q, q_bar_a, force, points, kinematics)
+        return plain == step and (not self.has_rows or bits(form) == bits(standard_form(plain)))
+
+    def solution_of(self, step: StepData, form: StandardForm, q: Array) -> StepSolution:
+        """The solution of a step from q whose matrices are there; errors as of the base's step."""
+        if self.extension is not None:
+            return self.extended(step, q)
+        if self.law != CONVEX or not self.has_rows:
+            return self.solution(step)
+        try:
+            return self.solution_from(step, form)
+        except StepNotSolved as failure:
+            return self.by_clarabel(step, failure)
+
+    def solution_from(self, step: StepData, form: StandardForm) -> StepSolution:
+        """The solution of the step whose matrices are there; StepNotSolved if there is none."""
+        solver = self.solver
+        if solver is None or solver is not self.fitted:  # what fits one step fits all of them
+            self.fitted = solver = self.fitting_solver(step)
+        accuracy = self.accuracy
+        certify = self.certify
+        both: StepInBothUnits
+        if isinstance(solver, SparseSolver):
+            both = without_warnings(solver.from_blocks, step, form)
+            return without_warnings(solved, both, solver, accuracy, certify)
+        units = None
+        hessian = self.hessian
+        if isinstance(solver, FastSolver):
+            units = self.units(solver, step)
+            hessian = solver.hessian
+            said = as_said(step, solver, units, accuracy) if certify == "off" else None
+            if said is not None:
+                return said
+        both = without_warnings(KeptStepInBothUnits, step, hessian, form, units)
+        self.hessian = both.hessian
+        return without_warnings(solved, both, solver, accuracy, certify)
+
+    def units(self, solver: FastSolver, step: StepData) -> Units | None:
+        """The natural units in which the program of the step is written; None if it is not."""
+        program = self.program
+        if program is None or not program.fits(solver, step):
+            self.program = program = natural_program(self.numbers, solver, step)
+        return None if program is None else program.written()
 
     def solution(self, step: StepData) -> StepSolution:
         """A step solved; where the default backend fails, by Clarabel."""

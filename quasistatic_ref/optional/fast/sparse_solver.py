@@ -20,6 +20,7 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -104,6 +105,13 @@ class SparseSolver(NativeSolver):
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in SI units and in natural units."""
         both: StepInBothUnits = self.kind.in_both_units(step)
+        return both
+
+    def from_blocks(self, step: StepData, form: StandardForm) -> StepInBothUnits:
+        """The same from the matrices of a step, of which A has the columns of its blocks."""
+        A = self.kind.pattern.matrix(form.A)
+        own: Any = StandardForm(self.kind.pattern.H, form.g, A, form.b)
+        both: StepInBothUnits = self.kind.in_both_units(step, own)
         return both
 
     def error_bound(self, both: Any, delta_q: Array, lam: Array) -> float:

@@ -59,9 +59,9 @@ class LargeSteps:
         self.P = triu(natural, format="csc")
         self.bound = FloatBound(natural)
 
-    def in_both_units(self, step: StepData) -> "SparseStep":
-        """A step of this kind in both units."""
-        return SparseStep(step, self)
+    def in_both_units(self, step: StepData, form: StandardForm | None = None) -> "SparseStep":
+        """A step of this kind in both units, from its sparse standard form if that is known."""
+        return SparseStep(step, self, sparse_form(step, self.pattern) if form is None else form)
 
 
 class SparseStep:
@@ -72,6 +72,8 @@ class SparseStep:
     step : StepData
         SI units.
     kind : LargeSteps
+    form : StandardForm
+        Sparse, in SI units.
 
     Raises
     ------
@@ -79,10 +81,9 @@ class SparseStep:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, step: StepData, kind: LargeSteps) -> None:
+    def __init__(self, step: StepData, kind: LargeSteps, form: Any) -> None:
         self.si_step = step
         self.kind = kind
-        form: Any = sparse_form(step, kind.pattern)
         S = kind.coordinate
         rows = form.A.data * S[kind.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))

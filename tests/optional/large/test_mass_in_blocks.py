@@ -3,21 +3,22 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import ModelError, StepDataError
 from quasistatic_ref.lab.scenes.piles import BOX, pile
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
 from quasistatic_ref.optional.fast import posed
-from quasistatic_ref.optional.fast.posed import PosedStep, constants
-from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import StepData
 from tests.helpers import always_in_blocks
-from tests.tolerances import ROUNDING
 
 BOXES = (2, 1, 2)
 GRASP = ["solver.backend=piqp", "solver.certify=residual", "steps=4"]
@@ -37,33 +38,25 @@ def scene(name):
     return scenario.simulator(), scenario.targets(0.01), 0.0
 
 
-def run(name, record="full"):
-    """Some steps of a scene."""
-    simulator, target, force = scene(name)
-    start = simulator.system.q_start
-    own = force + np.zeros(simulator.system.n_v)
-    return rollout(
-        simulator, start, target, 4, force=lambda t, q: own, record=record, progress=False
-    )
-
-
 def step_of(name):
     simulator, target, force = scene(name)
     return simulator, simulator.step(simulator.system.q_start, target, force).step
 
 
 @pytest.mark.parametrize("name", ["pile", "grasp"])
-def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, monkeypatch):
-    blocks = run(name)
-    monkeypatch.setattr(BlockGeometry, "in_blocks", False)
-    assert type(step_of(name)[1]) is PosedStep
-    dense = run(name)
-    for key, values in dense.arrays.items():
-        assert blocks.arrays[key].tobytes() == values.tobytes(), key
-    largest = "largest_drag_share"  # of sums of products, in another order
-    apart = {largest: 0, "findings": 0}  # in blocks, the doctor solves no step once more
-    assert blocks.header | apart == dense.header | apart
-    np.testing.assert_allclose(blocks.header[largest], dense.header[largest], rtol=ROUNDING)
+def test_a_step_in_blocks_has_the_numbers_of_the_plain_path(name):
+    simulator, target, force = scene(name)
+    q = simulator.system.q_start
+    blocks = simulator.step(q, target, force).step
+    kinematics = simulator.system.kinematics(q)
+    points = closest_points(simulator.pairs, kinematics)
+    simulator.geometry = ContactGeometry(simulator.layout, simulator.system.column_map)
+    dense = Simulator.step_data(simulator, q, target, force, points, kinematics)
+    for key in ("tau_a", "tau_u", "delta_q_bar_a", "M_u", "H"):
+        assert getattr(blocks, key).tobytes() == getattr(dense, key).tobytes(), key
+    for key in ("phi", "n", "d1", "d2", "J"):
+        found = getattr(blocks.contacts, key)
+        assert found.tobytes() == getattr(dense.contacts, key).tobytes(), key
 
 
 def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):

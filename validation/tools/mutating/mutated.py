@@ -36,7 +36,6 @@ SETS = {
     "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
-    "FOLLOWED": "tracker_bound tracker",
     "LARGE": "bound_formulas float_bound",
     "CONTACT": "eq02_relative_velocity eq03_contact_jacobian",
 }
@@ -100,9 +99,6 @@ contact/jacobian.py
     CONTACT
 contact/pairs.py
     jacobian
-optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
-optional/fast/tracker/ball_tree.py optional/fast/tracker/cloud_pairs.py
-    FOLLOWED
 optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
     CURVED
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
@@ -123,7 +119,7 @@ contact/separations.py
     flat_on_flat depth_ties
 contact/solids/solid_pair.py
     separations polytope_pair CURVED
-optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse_contacts.py
+optional/large/block_columns.py optional/large/blocks.py optional/large/sparse_contacts.py
 optional/large/sparse_form.py
     SPARSE
 model/body.py

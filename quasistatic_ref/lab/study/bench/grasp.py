@@ -1,4 +1,4 @@
-"""The 13 x 80 step of the bunny: native, through CVXPY, and the solver alone."""
+"""The 13 x 80 step of the bunny: fast, plain, and the solver alone."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -11,7 +11,6 @@ import numpy as np
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
-from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT
@@ -56,58 +55,8 @@ def places(steps: int) -> Places:
     return Places(scenario, visited, goals)
 
 
-def interfaces(at: Places, repeat: int) -> dict[str, Any]:
-    """The step with DAQP natively, next to other interfaces and DAQP alone on the same program."""
-    run = _Run(by_numpy(at.scenario), at)
-    native = run.simulator
-    through = replace(at.scenario, fast=False).simulator()
-    run.step(0)  # builds the program that both solve
-    solver = native.solver
-    assert isinstance(solver, NativeSolver)
-    assert isinstance(solver.program, Program)
-    alone_call = bare_daqp(solver.program)
-    # Each in turn with a step of a native run, and that after others: it then finds the caches as
-    # a step of a run does, and not as CVXPY left them.
-    others: dict[str, Callable[[Array, Array], Job]] = {
-        "DAQP alone": lambda q, goal: alone_call,
-        "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
-    }
-    before = min(BEFORE, len(at.q) - 1)
-    medians: dict[str, float] = {}
-    ratios: dict[str, float] = {}
-    for name, other in others.items():
-        rounds: list[dict[str, Job]] = [
-            {f"before, {k - j}": partial(run.step, j) for j in range(k - before, k)}
-            | {"native": partial(run.step, k), name: other(at.q[k], at.goals[k])}
-            for k in range(before, len(at.q), 2)
-        ]
-        # The slow ones wait for their turn on a busy machine, and that is not their time.
-        clock = time.perf_counter if name == "DAQP alone" else time.thread_time
-        times = in_turn(rounds, repeat, clock)
-        medians.setdefault("step, native", microseconds(times["native"]))
-        medians[name], ratios[name] = microseconds(times[name]), ratio(times[name], times["native"])
-    return {
-        "microseconds": medians,
-        "over_solver": 1 / ratios["DAQP alone"],
-        "cvxpy_over_native": ratios["step, through CVXPY"],
-    }
-
-
-BEFORE = 5
-"""Native steps before the one that is measured. The first after a step through CVXPY takes 1.4
-times as long as in a run, the second 1.2 times, the fifth as long but for a twentieth."""
-
-
-def by_numpy(scenario: Scenario) -> FastSimulator:
-    """The simulator of a scenario with `fast`, all of whose steps are taken by NumPy."""
-    simulator = scenario.simulator()
-    assert isinstance(simulator, FastSimulator)
-    simulator.compiled = None
-    return simulator
-
-
-class CompiledSteps:
-    """Compiled steps in turn with DAQP alone, and certified ones, in several parts of a run.
+class GraspSteps:
+    """Steps in turn with DAQP alone, and certified ones, in several parts of a run.
 
     A machine that is shared may be slower for seconds or minutes. Least times of several parts are
     less likely to be all from such a phase.
@@ -118,16 +67,13 @@ class CompiledSteps:
     """
 
     def __init__(self, at: Places) -> None:
-        fast = at.scenario.simulator()
-        assert isinstance(fast, FastSimulator)
-        run = _Run(fast, at)
+        run = _Run(at.scenario.simulator(), at)
         proved = _Run(replace(at.scenario, certify=CERTIFY[0]).simulator(), at)
         run.step(0)
         solver = run.simulator.solver
         assert isinstance(solver, NativeSolver)
         assert isinstance(solver.program, Program)
         alone = bare_daqp(solver.program)
-        self.compiled = fast.compiled is not None
         self.rounds: list[dict[str, Job]] = [
             {"before": partial(run.step, k - 1), "step": partial(run.step, k), "DAQP alone": alone}
             for k in range(1, len(at.q), 2)
@@ -138,12 +84,11 @@ class CompiledSteps:
         self.parts: list[dict[str, Array]] = []
 
     def take(self, repeat: int) -> None:
-        """Take all steps `repeat` times; none where nothing is compiled."""
-        if self.compiled:
-            self.parts.append(in_turn(self.rounds, repeat) | in_turn(self.certified, repeat))
+        """Take all steps `repeat` times."""
+        self.parts.append(in_turn(self.rounds, repeat) | in_turn(self.certified, repeat))
 
-    def found(self) -> dict[str, float] | None:
-        """What the parts have come to; None where nothing is compiled.
+    def found(self) -> dict[str, float]:
+        """What the parts have come to.
 
         Returns
         -------
@@ -151,8 +96,6 @@ class CompiledSteps:
             Medians of both and the 99th percentile of the second [us], the first over DAQP's call
             [-].
         """
-        if not self.compiled:
-            return None
         times = least(self.parts)
         return {
             "step": microseconds(times["step"]),
@@ -163,7 +106,7 @@ class CompiledSteps:
 
 
 class _Run:
-    """A native run along the same targets: each step starts where the one before ended."""
+    """A run along the same targets: each step starts where the one before ended."""
 
     def __init__(self, simulator: Simulator, at: Places) -> None:
         self.at = at
@@ -191,14 +134,6 @@ def certification(at: Places, repeat: int) -> Mapping[str, Any]:
     ]
     times = in_turn(rounds, repeat, time.thread_time)
     return {kind: microseconds(t) for kind, t in times.items()}
-
-
-def residual_over_off(at: Places, repeat: int) -> float:
-    """A step with a bound of its error over one that claims nothing, both by NumPy [-]."""
-    run = {kind: _Run(by_numpy(replace(at.scenario, certify=kind)), at) for kind in CERTIFY[1:]}
-    rounds = [{kind: partial(run[kind].step, k) for kind in run} for k in range(len(at.q))]
-    times = in_turn(rounds, repeat, time.thread_time)
-    return ratio(times[CERTIFY[1]], times[CERTIFY[2]])
 
 
 def bare_daqp(program: Program) -> Callable[[], Any]:

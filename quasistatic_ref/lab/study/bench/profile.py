@@ -1,20 +1,16 @@
-"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances.
-
-The steps are those of NumPy also where a compiler is at hand.
-"""
+"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances."""
 
 from collections.abc import Mapping
-from functools import cache, partial
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.lab.study.bench.grasp import by_numpy
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.bench.timing import seconds
 from quasistatic_ref.optional.fast.adapters.program import Adapter
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.backends import DEFAULT, installed
@@ -26,16 +22,16 @@ BACKENDS = ("clarabel", "piqp", "osqp", "daqp")
 
 SOLVE = ("solver's call", "rest of the solve")
 """The lap ``solve`` of the simulator's stopwatch, in two. The call is that of the solver's own
-interface: new data handed over, solution, its arrays copied. The rest makes the program (A and b of
-Eq. (8), H and g of Eq. (13), natural units) and the answer (SI units, checks, and the certificate
-where one is given)."""
+interface: new data handed over, solution, its arrays copied. The rest makes the program in natural
+units and the answer (SI units, checks, and the certificate where one is given)."""
 
 PARTS = (*SOLVE, "distances", "rows", "integrate")
 """Parts of a step. ``distances`` are the closest points, their selection and normals; ``rows`` are
-J, M_u, tau and delta_q_bar_a; ``integrate`` is the new configuration and its kinematics."""
+J, M_u, tau, delta_q_bar_a, and A, b and g of them; ``integrate`` is the new configuration and its
+kinematics."""
 
 TRACKER, BRUTE_FORCE = "tracker", "brute force"
-"""Where the distances come from: the simulator's default, or all of them in every step."""
+"""Of which points the distances are: of short lists, as a simulator has it, or of all."""
 
 CERTIFIED = "full"
 UNCERTIFIED = "off"
@@ -124,6 +120,7 @@ def profiles(steps: int) -> Profiles:
     """
     names = [name for name in BACKENDS if name in installed("native")]
     runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]
+    everything = every_distance(grasp_scenario(DEFAULT, UNCERTIFIED))
     brute = []
     gaps = []
     for first in range(0, steps, TURN):
@@ -131,9 +128,9 @@ def profiles(steps: int) -> Profiles:
         for run in runs:
             taken = [run.step(k) for k in turn]
         for q, phi in taken:  # those of the certified run
-            all_points = partial(closest_points, run.scenario.pairs, run.kinematics(q))
-            brute.append(seconds(all_points))
-            gaps.append(np.abs(all_points().phi - phi).max())
+            everything.poses.move(q)
+            brute.append(seconds(lambda: everything.contacts.find(everything.poses)))
+            gaps.append(np.abs(everything.numbers["phi"] - phi).max())
     every = np.array(brute)
     found = [p for run in runs for p in (run.profile(TRACKER), run.profile(BRUTE_FORCE, every))]
     return Profiles(tuple(found), float(max(gaps)))
@@ -146,9 +143,8 @@ class _Run:
         self.backend = backend
         self.certify = certify
         self.scenario = grasp_scenario(backend, certify)
-        self.simulator = by_numpy(self.scenario)
+        self.simulator = compiled_simulator(self.scenario)
         self.q = self.scenario.system.q_start
-        self.kinematics = self.scenario.system.kinematics
         self.calls: list[float] = []
         self.laps: list[list[float]] = []
         # The solver that the simulator makes for itself, with a clock at the backend's call.
@@ -204,26 +200,34 @@ def tracked_distances(scenario: Scenario, steps: int) -> Array:
     """Signed distances that the tracker evaluates in each of the first `steps`, shape (steps,).
 
     Those of its lists; and where a list does not suffice, those of all points of the pair, from
-    which a new one is made, and of the new lists. The first list of a pair takes the normal that it
-    starts from out of all points too. (Clouds of more points than ``ball_tree.SMALL`` have a tree,
-    and lists that are made from fewer.)
+    which a new one is made.
     """
-    simulator = by_numpy(scenario)
+    simulator = compiled_simulator(scenario)
     q = scenario.system.q_start
-    tracker = simulator.tracker
-    counts = np.zeros(steps)
-    a_pair = all_distances(scenario) // len(scenario.pairs)
+    total = np.zeros(1 + steps)
     for k in range(steps):
-        before = tracker.lists_made
-        listed = _listed(tracker)
         q = simulator.step(q, scenario.targets(scenario.h * (k + 1))).q
-        made = tracker.lists_made - before
-        counts[k] = listed if k else all_distances(scenario)
-        if made:
-            counts[k] += made * a_pair + _listed(tracker)
-    return counts
+        total[k + 1] = sum(each.number("evaluated") for each in simulator.contacts.clouds)
+    return np.diff(total)
 
 
-def _listed(tracker: ContactTracker) -> int:
-    """How many points are on the lists of a tracker."""
-    return sum(len(each.list.index) for each in tracker.lists if each.made)
+def every_distance(scenario: Scenario) -> FastSimulator:
+    """A simulator whose lists are all points."""
+    simulator = compiled_simulator(scenario)
+    for each in simulator.contacts.clouds:
+        each.put({"width": each.number("points")})
+    return simulator
+
+
+def compiled_simulator(scenario: Scenario) -> FastSimulator:
+    """The simulator of a scenario with `fast`.
+
+    Raises
+    ------
+    InputError
+        If there is no compiler.
+    """
+    simulator = scenario.simulator()
+    if not isinstance(simulator, FastSimulator):
+        raise InputError("is measured where there is a compiler", field="fast")
+    return simulator

@@ -11,14 +11,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.derived import of_derivatives
 from quasistatic_ref.lab.study.bench.grasp import (
-    CompiledSteps,
+    GraspSteps,
     certification,
-    interfaces,
     places,
-    residual_over_off,
 )
 from quasistatic_ref.lab.study.bench.solids import SCENES, solid_scenes
 from quasistatic_ref.lab.study.measuring import environment
+from quasistatic_ref.parts import fast_part
 from quasistatic_ref.solve.backends import installed
 
 Tell = Callable[[str], None]
@@ -43,10 +42,12 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If DAQP, which the comparison is with, is not installed.
+        If DAQP, which the comparison is with, is not installed, or there is no compiler.
     """
     if "daqp" not in installed("native"):
         raise InputError("compares the step with DAQP: pip install daqp", field="bench")
+    if fast_part("simulator") is None:
+        raise InputError("measures compiled steps", field="bench")
     steps = 6 if quick else 250
     repeat = 1 if quick else REPEAT
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
@@ -56,18 +57,16 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     some = places(4 if quick else 60)
     scenes = [*SCENES][:1] if quick else [*SCENES]
     each: dict[str, Callable[[], Any]] = {
-        "interfaces": lambda: interfaces(at, repeat),
         "certification": lambda: certification(some, twice),
-        "residual_over_off": lambda: residual_over_off(some, repeat),
         "derivatives": lambda: of_derivatives(2 if quick else 100, twice),
         "solids": lambda: solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS),
     }
-    compiled = CompiledSteps(at)
+    grasp = GraspSteps(at)
     for name, measured in each.items():
         tell(name)
         found[name] = measured()
-        compiled.take(repeat)
-    found["compiled"] = compiled.found()
+        grasp.take(repeat)
+    found["grasp"] = grasp.found()
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found

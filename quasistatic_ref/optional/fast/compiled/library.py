@@ -40,7 +40,7 @@ CONSTANTS = {
         name: getattr(tolerances, name)
         for name in (
             "FILLED", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE", "OVER_FACE", "REPEATED",
-            "SAME_NORMAL", "SKEW", "TIED_FACES", "UPRIGHT",
+            "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
         )
     },
     "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,
@@ -56,7 +56,6 @@ PATIENCE = 120.0
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
-    "solid_pairs": ctypes.c_int,
     "step_data": ctypes.c_double,
     "reach": ctypes.c_double,
     "half_turns": ctypes.c_int,

@@ -1,16 +1,47 @@
-"""A simulator's contacts as the structures of scene.h."""
+"""The contacts of a simulator's steps as the structure of scene.h: J, A, b and the load."""
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.optional.fast.compiled.poses import Poses
-from quasistatic_ref.optional.fast.compiled.solids import SolidPairs, solid
 from quasistatic_ref.optional.fast.compiled.structure import Structure
-from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
-from quasistatic_ref.step.cones import cone_function, cone_matrix
+from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """The columns of joints that move contacts, and where each belongs in J.
+
+    Parameters
+    ----------
+    joint_column, place : ndarray of int, shape (n_c or 1, n_x)
+        Columns of pinocchio's Jacobian, and those of the contact's J to which they are added; one
+        row where they are those of all contacts.
+    alpha, beta : ndarray, shape (n_c, n_x)
+        1.0 where the column moves alpha's or beta's body, else 0.0.
+    kept : int
+        Columns of a contact's J.
+    """
+
+    joint_column: Indices
+    place: Indices
+    alpha: Array
+    beta: Array
+    kept: int
+
+
+def every_column(geometry: ContactGeometry) -> Columns:
+    """All columns, for a dense J."""
+    owner = geometry.column_map.owner
+    alpha, beta = geometry.moves[:, :, 0]
+    return Columns(np.arange(len(owner))[None], owner[None], alpha, beta, geometry.column_map.n_v)
 
 
 class Scene(Structure):
@@ -20,103 +51,74 @@ class Scene(Structure):
     ----------
     poses : Poses
         Where pinocchio writes the poses of the links.
-    geometry : PosedGeometry
+    columns : Columns
     constant : Constants
-        In a polyhedral cone.
+    mu : ndarray, shape (n_c, 3)
+        Friction of the contacts, as in :class:`~quasistatic_ref.step.contacts.Contacts` [-, m].
     weighs : ndarray, shape (n_v,)
         1.0 for each coordinate that feels gravity, else 0.0 [-].
-    tracker : ContactTracker or None
-        Of all pairs, where compiled code measures each.
+
+    Attributes
+    ----------
+    points : ClosestPoints
+        From which the contacts are made: to be written first.
     """
 
     def __init__(
         self,
         poses: Poses,
-        geometry: PosedGeometry,
+        columns: Columns,
         constant: Constants,
+        mu: Array,
         weighs: Array,
-        tracker: ContactTracker | None,
     ) -> None:
-        column_map = geometry.column_map
         layout = constant.row_layout
-        n_c = len(layout.counts)
-        m = int(layout.offsets[-1])
+        rows = layout.counts
+        friction_cone = cone(constant.cone)
+        if not friction_cone.polyhedral:
+            rows = np.zeros_like(rows)
+        n_c = len(rows)
+        m = int(rows.sum())
         n_a = len(constant.K_q)
-        n_x = len(column_map.owner)
-        n_v = column_map.n_v
+        n_v = poses.column_map.n_v
+        n_x = columns.alpha.shape[1]
+        kept = columns.kept
         super().__init__("scene.h", "Scene")
         self.given = given = np.dtype(
             [
                 *((name, np.int64, (n_c,)) for name in ("point", "tie")),
                 ("phi", np.float64, (n_c,)),
                 *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
-                ("J", np.float64, (n_c, 4, n_v)), ("tau", np.float64, (n_v,)),
+                ("J", np.float64, (n_c, 4, kept)), ("tau", np.float64, (n_v,)),
                 ("g", np.float64, (n_v,)),
             ]
         )  # fmt: skip
         self._bytes = np.zeros(given.itemsize, np.uint8)
         written = np.ndarray((), given, self._bytes)
-        self.tracker = tracker
-        self.lists_made = 0
-        alpha, beta = geometry.moves[:, :, 0]
+        terms = cone_terms(constant.cone) if friction_cone.polyhedral else {}
         self.put(
             {
-                "clouds": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
+                "n_c": n_c, "n_v": n_v, "n_a": n_a, "kept": kept, "moving": n_x,
+                "same": int(len(columns.place) != n_c or n_c == 1),
                 "links": len(poses.R), "t": poses.t, "column": poses.columns,
-                "owner": column_map.owner, "moves_alpha": alpha, "moves_beta": beta,
-                "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
-                **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
-                "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),
+                "joint_column": columns.joint_column, "place": columns.place,
+                "moves_alpha": columns.alpha, "moves_beta": columns.beta,
+                "mu_v": mu[:, 0], "mu_omega": mu[:, 2], "rows": rows,
+                **terms, **{name: written[name] for name in given.names or ()},
+                "A": np.zeros((m, kept)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * kept),
                 "h": np.array([constant.h]), "weighs": weighs, "gravity": poses.gravity,
                 "force": np.zeros(n_v), "K_q": constant.K_q, "delta_q_bar_a": np.zeros(n_a),
             },
         )  # fmt: skip
-        if tracker is not None:
-            self.pairs = SolidPairs(tracker.pairs, poses.R, poses.t, self._arrays)
-            self.put({"solids": self.pairs.address})
-            if tracker.lists:
-                self._put_clouds(tracker)
+        self.points = ClosestPoints._make(self[name] for name in ClosestPoints._fields)
 
     def taken(self) -> NDArray[np.void]:
         """What C has written of a step, of shape (): its arrays by their names."""
         # A copy of the bytes is read-only; copying field by field takes ten times as long.
         return np.ndarray((), self.given, self._bytes.tobytes())
 
-    @property
-    def listed(self) -> bool:
-        """Whether there are short lists of all clouds."""
-        return self.tracker is not None and (self.lists_made > 0 or not self.tracker.lists)
 
-    def relist(self) -> None:
-        """Take over the tracker's short lists, where it has made new ones."""
-        tracker = self.tracker
-        if tracker is None or not tracker.lists or tracker.lists_made == self.lists_made:
-            return
-        self.lists_made = tracker.lists_made
-        clouds = tracker.clouds
-        self.put(
-            {
-                "first": clouds.start, "index": clouds.index, "points": clouds.points,
-                "bounds": clouds.offset.shape[1], "slope": clouds.slope, "offset": clouds.offset,
-            },
-        )  # fmt: skip
-
-    def _put_clouds(self, tracker: ContactTracker) -> None:
-        """What does not change of the pairs with a cloud, in their order."""
-        clouds = tracker.clouds
-        most = max(pair.n_c for pair in clouds.pairs)
-        self.solids = [solid(side.shape) for side in clouds.solids]
-        self.put(
-            {
-                "clouds": clouds.P, "pair": np.flatnonzero(tracker.has_cloud),
-                "swaps": clouds.solid_is_beta.astype(np.int64),
-                "solid": np.array([one.address for one in self.solids]),
-                "nearest": np.zeros(most), "rank": np.zeros(most, np.int64),
-            },
-        )  # fmt: skip
-
-
-def cone_terms(name: str) -> dict[str, Array | Indices]:
+def cone_terms(name: str) -> dict[str, Any]:
     """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which terms exist; (R, 3).
 
     A term with coefficient zero differs from no term: it can change the sign of a zero.

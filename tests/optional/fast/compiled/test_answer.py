@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast import simulator
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
-from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -17,7 +17,7 @@ def results(scenario, fast, steps=12):
     simulator = scenario.simulator()
     q = scenario.system.q_start
     if not fast:
-        simulator.compiled = None
+        simulator.by_c = False
     for k in range(steps):
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         q = result.q
@@ -26,21 +26,20 @@ def results(scenario, fast, steps=12):
 
 def counted(monkeypatch):
     """How many answers are taken in few calls, and how many are not."""
-    step = compiled("step")
     found = []
-    plain = step.as_said
+    plain = simulator.as_said
 
     def watched(*arguments):
         said = plain(*arguments)
         found.append(said is not None)
         return said
 
-    monkeypatch.setattr(step, "as_said", watched)
+    monkeypatch.setattr(simulator, "as_said", watched)
     return found
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "stack"])
-def test_runs_of_which_nothing_is_claimed_have_the_bits_of_numpy(monkeypatch, name):
+def test_runs_of_which_nothing_is_claimed_have_the_bits_of_the_long_way(monkeypatch, name):
     scenario = load_scenario(name, UNCERTIFIED, fast=True)
     found = counted(monkeypatch)
     for one, other in zip(results(scenario, True), results(scenario, False), strict=True):
@@ -100,11 +99,11 @@ def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(monkeypatch):
     assert not any(found)
 
 
-def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_numpy():
+def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_the_plain_path():
     """Nine free bodies have 54 coordinates, and a part at most 48."""
     ways = [pile((9, 1, 1), backend="daqp") for _ in range(2)]
     assert len(ways[0].simulator.system.workspace().parts) == 2
-    ways[1].simulator.compiled = None
+    ways[1].simulator.by_c = False
     q = [way.q for way in ways]
     for _ in range(3):
         one, other = (
@@ -112,4 +111,4 @@ def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_numpy():
         )
         assert one == other
         q = [one.q, other.q]
-    assert ways[0].simulator.compiled is not None
+    assert ways[0].simulator.by_c

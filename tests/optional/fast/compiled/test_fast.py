@@ -1,8 +1,9 @@
-"""Compiled steps against those of NumPy: equal to the last bit, the signs of zeros included."""
+"""Compiled steps against those of the plain path: equal bits, the signs of zeros included."""
 
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +12,15 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, written
-from tests.properties.test_tracker import CLOUDS, SHAPES, cloud
+from tests.optional.fast.compiled.test_fast_pairs import CLOUDS, SHAPES, cloud
 
 ROOT = Path(__file__).parents[4]
 KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-space")
@@ -94,14 +96,15 @@ def places(system, rng):
         yield q, 1e-3 * rng.normal(size=system.n_v)
 
 
-def of_numpy(simulator, q, q_bar_a, force):
+def of_plain(simulator, q, q_bar_a, force):
+    """What the plain path makes of a step."""
     kinematics = simulator.system.kinematics(q)
     points = closest_points(simulator.pairs, kinematics)
-    step = simulator.step_data(q, q_bar_a, force, points, kinematics)
-    return points, step, standard_form(step)
+    step = Simulator.step_data(simulator, q, q_bar_a, force, points, kinematics)
+    return step, standard_form(step), points
 
 
-def arrays(points, step, form):
+def arrays(step, form, points):
     contacts = {name: getattr(step.contacts, name) for name in ("phi", "n", "d1", "d2", "J")}
     own = {name: getattr(step, name) for name in ("tau_a", "tau_u", "delta_q_bar_a", "H")}
     return {**points._asdict(), **contacts, **own, **form._asdict()}
@@ -112,30 +115,27 @@ def differing(one, other):
 
 
 def compared(system, pairs, cone, rng):
-    """Names of the arrays in which compiled steps differ from NumPy's."""
+    """Names of the arrays in which compiled steps differ from the plain path's."""
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
-    made = {"h": 0.01, "K_q": K_q, "certify": "off", "cone": cone}
-    one, other = (Simulator(system, pairs, **made, fast=True) for _ in range(2))
-    assert one.compiled is not None
+    simulator = Simulator(system, pairs, h=0.01, K_q=K_q, certify="off", cone=cone, fast=True)
     wrong = set()
     for q, move in places(system, rng):
         force = rng.normal(size=system.n_v)
         goal = system.integrate(q, move)[: system.n_q_a]
-        expected = arrays(*of_numpy(other, q, goal, force))
-        one.compiled.poses.move(q)
-        one.compiled.find_points(one)
-        *data, gap = one.compiled.step_data(one, q, goal, force)
-        found = arrays(*data)
-        assert gap == expected["phi"].min()
+        expected = arrays(*of_plain(simulator, q, goal, force))
+        simulator.poses.move(q)
+        simulator.contacts.find(simulator.poses)
+        found = arrays(*simulator.posed_step(q, goal, force))
+        assert simulator.gap == expected["phi"].min()
         wrong.update(differing(found, expected))
-        after = one.compiled.screws.integrate(move)
+        after = simulator.screws.integrate(move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)
 
 
 @needs_compiler
 @pytest.mark.parametrize("cone", CONES)
-def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_numpy(tmp_path, cone):
+def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_the_plain_path(tmp_path, cone):
     rng = np.random.default_rng(CONES.index(cone))
     system = bodies(tmp_path)
     pairs = [*shapes_and_clouds(system, KNOWN, rng), *solids(system, rng)]
@@ -143,15 +143,45 @@ def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_numpy(tmp_path, 
 
 
 @needs_compiler
-def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path):
+def test_pairs_that_compiled_code_does_not_know_are_those_of_the_plain_path(tmp_path):
     rng = np.random.default_rng(11)
     system = bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
     pairs += solids(system, rng)
     assert compared(system, pairs, "pyramid", rng) == []
     simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
-    said = compiled("step").taken_by(simulator)
-    assert said == "compiled code; closest points by NumPy, which p6, p7, p8 need"
+    known = zip(pairs, simulator.contacts.known, strict=True)
+    assert [pair.name for pair, is_known in known if not is_known] == ["p6", "p7"]
+
+
+@needs_compiler
+@pytest.mark.parametrize("contacts", [True, False])
+def test_whatever_follows_the_numbers_of_a_step_are_those_of_the_plain_path(tmp_path, contacts):
+    """An extension, Coulomb's law, the ellipsoid, other backends, and a scene without contacts."""
+    rng = np.random.default_rng(5)
+    system = bodies(tmp_path)
+    pairs = solids(system, rng)[:1] if contacts else []
+    K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
+    following = (
+        {"extension": lambda q: Extension(lambda s: [s.delta_q_u[0] <= 1.0])},
+        {"law": "coulomb"},
+        {"cone": "ellipsoid"},
+        {"backend": "clarabel", "certify": "residual"},
+        {"backend": "none"},
+        *([{"backend": "scs", "certify": "off"}] if contacts else []),  # it needs rows
+    )
+    q = system.q_start
+    for settings in following:
+        plain, fast = (
+            Simulator(system, pairs, h=0.01, K_q=K_q, **settings, fast=speed)
+            for speed in (False, True)
+        )
+        one, other = (some.step(q, q[: system.n_q_a]) for some in (plain, fast))
+        assert fast.by_c
+        assert one.step == other.step, settings
+        assert [bits(one.points), bits(one.step)] == [bits(other.points), bits(other.step)]
+        if settings.get("certify", "full") == "full" and settings.get("cone") is None:
+            assert one.q.tobytes() == other.q.tobytes(), settings
 
 
 def test_clouds_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path():
@@ -167,7 +197,7 @@ def test_clouds_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path():
         for made in ({"backend": "none"}, {"backend": "daqp", "fast": True}):
             simulator = Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)), **made)
             result = simulator.step(system.q_start, np.zeros(0))
-            found.append(arrays(result.points, result.step, standard_form(result.step)))
+            found.append(arrays(result.step, standard_form(result.step), result.points))
         assert differing(*found) == []
 
 
@@ -193,16 +223,16 @@ NO_COMPILERS = {
 }
 NOT_COMPILED = f"""
 import os, pathlib
-from quasistatic_ref.optional.fast.compiled import compiled, why_not
+from quasistatic_ref.optional.fast import speed
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
-scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
 def taken():
-    for cached in (compiled, why_not, library._found):
+    for cached in (speed.usable, library._found):
         cached.cache_clear()
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     simulator = scenario.simulator()
     simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
-    print(simulator.compiled, compiled("step"), why_not())
+    print(type(simulator).__name__, simulator.backend, library.why_not())
 patience = library.PATIENCE
 for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
     library.PATIENCE = 0.5 if "sleep" in os.environ["QUASISTATIC_REF_CC"] else patience
@@ -218,40 +248,27 @@ taken()
 """
 
 
-def test_without_a_compiler_numpy_takes_the_steps(tmp_path):
+def test_without_a_compiler_the_plain_path_takes_the_steps_and_says_so(tmp_path):
     said, error = python(NOT_COMPILED, XDG_CACHE_HOME=str(tmp_path))
-    *lines, no_library, no_home = [line.removeprefix("None None ") for line in said.splitlines()]
+    plain = "Simulator clarabel "
+    *lines, no_library, no_home = [line.removeprefix(plain) for line in said.splitlines()]
     assert lines == [*NO_COMPILERS.values()], error
     assert no_library.startswith("true is not used: it cannot be loaded: ")
     assert no_home == "there is no home folder to keep it in: set XDG_CACHE_HOME or HOME"
+    told = [line for line in error.splitlines() if line.startswith("quasistatic-ref: fast needs")]
+    assert len(told) == len(NO_COMPILERS) + 2
+    assert all(reason in line for reason, line in zip(lines, told, strict=False))
+    assert all('pip install "quasistatic-ref[fast]"' in line for line in told)
 
 
 @needs_compiler
-def test_a_step_that_numpy_forms_otherwise_is_left_to_numpy():
+@pytest.mark.parametrize("name", ["coefficient", "moves_beta"])
+def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name):
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one = scenario.simulator()
-    other = scenario.simulator()
-    one.compiled.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
-    other.compiled = None
+    one.numbers[name][:] *= 2  # as if the compiled code were wrong
     q = scenario.system.q_start
     goal = scenario.targets(scenario.h)
-    assert one.step(q, goal) == other.step(q, goal)
-    assert one.compiled is None
-
-
-@needs_compiler
-def test_simulators_that_compiled_code_does_not_take_say_why():
-    step = compiled("step")
-    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
-    simulator = scenario.simulator()
-    assert step.unknown(simulator) is None
-    assert step.taken_by(simulator).startswith("compiled code")
-    for settings, reason in (
-        (["solver.backend=scs"], "'scs' has no interface of its own here"),
-        (["cone=ellipsoid"], "the ellipsoid has no rows"),
-    ):
-        other = load_scenario("sphere_spin", ["record=light", *settings], fast=True).simulator()
-        assert other.compiled is None
-        assert step.taken_by(other) == f"NumPy: {reason}"
-    simulator.extension = lambda q: None
-    assert step.taken_by(simulator) == "NumPy: the scene has an extension"
+    expected = replace(scenario, fast=False).simulator().step(q, goal)
+    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    assert not one.by_c

@@ -4,7 +4,7 @@
 #include "solids.h"
 
 /* shapes: support_value, of a sphere, capsule, box or mesh. */
-static double support_value(const Solid *solid, const double *n)
+double support_value(const Solid *solid, const double *n)
 {
     double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])}, most = -INFINITY;
     if (solid->kind != MESH)

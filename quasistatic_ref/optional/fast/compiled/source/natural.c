@@ -3,8 +3,7 @@
    Units are powers of two, of lengths that are sums; BLAS takes those in an order of its own. A
    unit is decided only if it is the same for all that the sums of any order may come to. */
 
-#include <math.h>
-#include <stdint.h>
+#include "solid.h"
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct Natural {
@@ -23,7 +22,7 @@ typedef struct Natural {
 #define OFF 0x1p-40     /* sums of n terms and n such sums, n <= 1024, differ by less: 4 n 2^-53 */
 
 /* The k-th smallest of n numbers, which change places. */
-static double ranked(double *x, int64_t n, int64_t k)
+double ranked(double *x, int64_t n, int64_t k)
 {
     int64_t low = 0, high = n - 1;
     while (low < high) {

@@ -1,6 +1,7 @@
 /* Tangents, J, A and b of contacts from their closest points, Eqs. (2)-(8); the load of Eq. (13). */
 
 #include "scene.h"
+#include "solid.h"
 
 /* contact/jacobian: tangents. */
 static void tangents(const double *n, double *d1, double *d2)
@@ -35,7 +36,8 @@ static void columns_at(const double *col, int64_t n_x, const double *r, const do
 /* contact/jacobian: J of one contact. Columns that mimic others are added to theirs. */
 static void jacobian(const Scene *s, const double *col, int64_t c, double *own, double *J)
 {
-    int64_t n_x = s->n_x, n_v = s->n_v;
+    int64_t n_x = s->moving, n_v = s->kept;
+    const int64_t *place = s->place + (s->same ? 0 : c * n_x);
     double *of_alpha = own, *of_beta = own + 4 * n_x;
     columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
     columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
@@ -45,8 +47,16 @@ static void jacobian(const Scene *s, const double *col, int64_t c, double *own, 
         for (int64_t x = 0; x < n_x; x++) {
             double f = s->moves_beta[c * n_x + x] * of_beta[i * n_x + x]
                      - s->moves_alpha[c * n_x + x] * of_alpha[i * n_x + x];
-            J[i * n_v + s->owner[x]] += f; /* to 0.0, so that zero is never -0.0 */
+            J[i * n_v + place[x]] += f; /* to 0.0, so that zero is never -0.0 */
         }
+}
+
+/* The columns of the joints that move a contact, by rows. */
+static void gathered(const Scene *s, int64_t c, double *col)
+{
+    for (int64_t x = 0; x < s->moving; x++)
+        for (int i = 0; i < 6; i++)
+            col[i * s->moving + x] = s->column[s->joint_column[c * s->moving + x]][i];
 }
 
 /* step/friction: frame_jacobian of one axis, times a coefficient of friction. */
@@ -78,13 +88,12 @@ static void load(Scene *s)
 /* The tangents, J, A and b of all contacts from their closest points, and the load. The least gap. */
 double step_data(Scene *s)
 {
-    int64_t n_v = s->n_v, n_x = s->n_x, row = 0;
+    int64_t n_v = s->kept, n_x = s->moving, row = 0;
     double least = INFINITY;
     double *col = s->work, *own = col + 6 * n_x, *motion = own + 8 * n_x;
-    for (int64_t x = 0; x < n_x; x++)
-        for (int i = 0; i < 6; i++)
-            col[i * n_x + x] = s->column[x][i];
     for (int64_t c = 0; c < s->n_c; c++) {
+        if (c == 0 || !s->same)
+            gathered(s, c, col);
         double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c, *J = s->J + 4 * n_v * c;
         least = s->phi[c] < least ? s->phi[c] : least;
         tangents(s->n + 3 * c, d1, d2);
@@ -109,4 +118,14 @@ double step_data(Scene *s)
     }
     load(s);
     return least;
+}
+
+/* The squared distances of all links' origins from that of the world, added up. */
+double reach(const Scene *s)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < s->links; i++)
+        for (int k = 0; k < 3; k++)
+            sum += s->t[i][k] * s->t[i][k];
+    return sum;
 }

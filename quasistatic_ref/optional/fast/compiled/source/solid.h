@@ -43,6 +43,9 @@ static inline double larger(double a, double b) { return a > b ? a : b; }
 
 static inline double smaller(double a, double b) { return a < b ? a : b; }
 
+/* The k-th smallest of n numbers, which change places. */
+double ranked(double *x, int64_t n, int64_t k);
+
 static inline double limited(double x) { return smaller(larger(x, 0.0), 1.0); }
 
 static inline double along(const double *row, double x, double y, double z)

@@ -165,7 +165,7 @@ static void sort(const Contact *every, const int64_t *late, int64_t count, int64
     }
 }
 
-static void write(SolidPairs *s, int64_t c, const Contact *contact)
+void put(Pairs *s, int64_t c, const Contact *contact)
 {
     s->phi[c] = contact->phi + 0.0; /* zero is 0.0, never -0.0 */
     s->point[c] = contact->point;
@@ -177,7 +177,7 @@ static void write(SolidPairs *s, int64_t c, const Contact *contact)
     }
 }
 
-void poses_of(const SolidPairs *s, int64_t p, double *at_a, double *at_b)
+void poses_of(const Pairs *s, int64_t p, double *at_a, double *at_b)
 {
     int64_t a = s->link_a[p], b = s->link_b[p];
     placed(s->R[a], s->t[a], s->on_a + 12 * p, at_a);
@@ -185,7 +185,7 @@ void poses_of(const SolidPairs *s, int64_t p, double *at_a, double *at_b)
 }
 
 /* contact/distance: pair_closest_points. */
-static int closest_of_pair(SolidPairs *s, int64_t p)
+static int closest_of_pair(Pairs *s, int64_t p)
 {
     Pair pair = {.a = s->a[p], .b = s->b[p]};
     int64_t count = s->count[p];
@@ -198,7 +198,7 @@ static int closest_of_pair(SolidPairs *s, int64_t p)
     if (!nearest_of_solids(&pair, &nearest))
         return 0;
     if (count == 1) {
-        write(s, s->start[p], &nearest);
+        put(s, s->start[p], &nearest);
         return 1;
     }
     int64_t found = every_candidate(&pair, &nearest, count, s->candidates);
@@ -213,23 +213,23 @@ static int closest_of_pair(SolidPairs *s, int64_t p)
     sort(s->candidates, s->late, found, s->order);
     sort(s->candidates, 0, kept, s->order);
     for (int64_t i = 0; i < kept; i++)
-        write(s, s->start[p] + i, s->candidates + s->order[i]);
+        put(s, s->start[p] + i, s->candidates + s->order[i]);
     double beyond = larger(FILLED, 2 * nearest.phi);
     for (int64_t i = kept; i < count; i++) {
         nearest.phi = beyond;
         nearest.point = s->corners[p] + 1 + i - kept;
-        write(s, s->start[p] + i, &nearest);
+        put(s, s->start[p] + i, &nearest);
     }
     return 1;
 }
 
 /* The closest points of all pairs; 0 where Python has to measure some. */
-int solid_pairs(SolidPairs *s)
+int closest_points(Pairs *s)
 {
     int all = 1;
     for (int64_t p = 0; p < s->pairs; p++) {
-        s->decided[p] = s->a[p] && closest_of_pair(s, p);
-        all &= s->decided[p] != 0 || !s->a[p];
+        s->decided[p] = s->cloud[p] ? closest_of_cloud(s, p) : s->a[p] && closest_of_pair(s, p);
+        all &= s->decided[p] != 0;
     }
     return all;
 }

@@ -1,4 +1,4 @@
-/* Pairs of solids, and what the files that find their closest points share. */
+/* Pairs of shapes, and what the files that find their closest points share. */
 
 #ifndef SOLIDS_H
 #define SOLIDS_H
@@ -15,12 +15,31 @@ typedef struct {
     int64_t point, tie;
 } Contact;
 
+/* A pair of a cloud and a solid. structure.py reads this: 64-bit integers, then pointers. */
+typedef struct {
+    /* Whether the cloud is alpha's; how many points it has; those that the next list is to have, that the
+       list has, and that were measured so far; steps since the list was made. */
+    int64_t is_alpha, points, width, listed, evaluated, age;
+    const Solid *solid;
+    const double *point, *box; /* in the cloud's frame: the points, and 8 corners of the box around them */
+    /* The list: numbers of its points, ascending. Every other point is at least as high above the plane
+       with normal n that touches the solid as the first bound says, or as far as the second: where the
+       corners were at these places in the solid's frame. */
+    int64_t *index;
+    double *bounds, *n, *corners;
+    double *phi, *height, *score; /* room, of as many as there are points */
+    double *nearest;              /* of as many as contacts, as the next */
+    int64_t *rank;
+} Cloud;
+
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t pairs;
     const double *const *R, *const *t; /* of the links: R by columns, as pinocchio keeps it */
-    /* Of each pair: both solids, or two zeros where it has a cloud or Python measures it; the shapes'
-       links and places on them (3 x 4); k, where its contacts go and how many they are, and the corners of both. */
+    /* Of each pair: its cloud, or both solids; zeros where it is another, or Python measures it. The
+       shapes' links and places on them (3 x 4); k, where its contacts go and how many they are, and the
+       corners of both. */
+    Cloud *const *cloud;
     const Solid *const *a, *const *b;
     const int64_t *link_a, *link_b;
     const double *on_a, *on_b;
@@ -32,7 +51,7 @@ typedef struct {
     int64_t *decided;
     double *phi, *n, *alpha, *beta;
     int64_t *point, *tie;
-} SolidPairs;
+} Pairs;
 
 /* Two solids in the world, and what of their distances is rounding. */
 typedef struct {
@@ -48,9 +67,15 @@ int64_t every_candidate(const Pair *pair, const Contact *nearest, int64_t n_c, C
 int64_t crossings(const Pair *pair, const Contact *nearest, int64_t first, Contact *found);
 Contact swapped(const Contact *contact);
 
-/* The world's poses of the two shapes of pair p. */
-void poses_of(const SolidPairs *s, int64_t p, double *at_a, double *at_b);
+double support_value(const Solid *solid, const double *n);
 
-int solid_pairs(SolidPairs *s);
+/* The world's poses of the two shapes of pair p. */
+void poses_of(const Pairs *s, int64_t p, double *at_a, double *at_b);
+
+/* Write contact c. */
+void put(Pairs *s, int64_t c, const Contact *contact);
+
+int closest_of_cloud(Pairs *s, int64_t p);
+int closest_points(Pairs *s);
 
 #endif

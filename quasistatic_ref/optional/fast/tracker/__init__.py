@@ -1,1 +1,0 @@
-"""Closest points of clouds that are followed from step to step."""

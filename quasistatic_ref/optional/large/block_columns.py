@@ -1,0 +1,87 @@
+"""Which columns of J the contacts of many bodies keep: those that move one of their two bodies."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.step.data import Array, Indices, Mask
+
+
+@dataclass(frozen=True, eq=False)
+class BlockColumns:
+    """The columns of J that each contact keeps, and the columns of joints that are added to them.
+
+    Parameters
+    ----------
+    column : ndarray of int, shape (n_c, w)
+        As of :class:`~quasistatic_ref.optional.large.blocks.Blocks`; read-only.
+    joint_column, place : ndarray of int, shape (n_c, n_x)
+        Columns of pinocchio's Jacobian, and to which of the w columns each is added. Where a
+        contact has fewer than n_x, the others move none of its bodies.
+    alpha, beta : ndarray, shape (n_c, n_x)
+        1.0 where the column moves alpha's or beta's body, else 0.0.
+    n_v : int
+        Number of coordinates.
+    """
+
+    column: Indices
+    joint_column: Indices
+    place: Indices
+    alpha: Array
+    beta: Array
+    n_v: int
+
+    @property
+    def kept(self) -> int:
+        """How many columns of its J a contact keeps."""
+        return int(self.column.shape[1])
+
+    def contacts(
+        self,
+        layout: ContactLayout,
+        name: tuple[str, ...],
+        points: ClosestPoints,
+        d1: Array,
+        d2: Array,
+        J: Array,
+    ) -> SparseContacts:
+        """The contacts at those points, from d1, d2 (n_c, 3) [-], and J (n_c, 4, w) [m, rad]."""
+        blocks = Blocks(self.column, J, self.n_v)
+        friction = layout.mu_v, layout.mu_omega, layout.rows
+        return SparseContacts(name, points.phi, points.n, d1, d2, blocks, *friction)
+
+
+def block_columns(layout: ContactLayout, column_map: ColumnMap) -> BlockColumns:
+    """Those of a simulator's contacts."""
+    # Joints' columns in the order of their coordinates; a mimic's is that of another.
+    by_coordinate = np.argsort(column_map.owner, kind="stable")
+    owner = column_map.owner[by_coordinate]
+    moves = column_map.moves[:, 0, by_coordinate] > 0
+    a = moves[layout.link_alpha]
+    b = moves[layout.link_beta]
+    contact, rank, joint_column = _ragged(a | b)
+    shape = (len(a), 1 + int(rank.max(initial=-1)))
+    coordinate = np.zeros((len(a), column_map.n_v), dtype=bool)
+    coordinate[contact, owner[joint_column]] = True
+    at, position, v = _ragged(coordinate)
+    column = np.full((len(a), 1 + int(position.max(initial=-1))), column_map.n_v)
+    column[at, position] = v
+    column.setflags(write=False)  # one array for all steps
+    joints, place = np.zeros((2, *shape), dtype=np.int64)
+    joints[contact, rank] = by_coordinate[joint_column]
+    place[contact, rank] = (coordinate.cumsum(axis=1) - 1)[contact, owner[joint_column]]
+    alpha, beta = np.zeros((2, *shape))
+    alpha[contact, rank] = a[contact, joint_column]
+    beta[contact, rank] = b[contact, joint_column]
+    return BlockColumns(column, joints, place, alpha, beta, column_map.n_v)
+
+
+def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
+    """Row, rank in the row and column of each mark."""
+    row, column = np.nonzero(marked)
+    return row, marked.cumsum(axis=1)[row, column] - 1, column
