@@ -105,7 +105,8 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     inactive = np.flatnonzero(signs)
     tight = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
     spanned = minimiser.spanned(tight)
-    unspanned = [i for i in tight if i not in spanned]
+    others = set(tight) - set(spanned)
+    unspanned = [i for i in tight if i in others]
     smooth = differentiable(form, working, unspanned)
     unique = multipliers_unique(form, working, spanned, unspanned)
 

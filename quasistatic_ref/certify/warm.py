@@ -13,6 +13,8 @@ from quasistatic_ref.step.data import Array
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
 wrong start costs steps of the active-set method, not correctness."""
+BLOCK = 256
+"""Most rows whose dependences are formed at once: the time for that is cubic in their number."""
 
 
 def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
@@ -37,8 +39,21 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
 
 
 def _basic(A: Array, lam: Array) -> Array:
-    """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows."""
+    """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows.
+
+    A block of rows after the other, each with the rows that are kept of those before it.
+    """
     lam = lam.copy()
+    kept = np.arange(0)
+    for first in range(0, len(A), BLOCK):
+        rows = np.concatenate([kept, np.arange(first, min(first + BLOCK, len(A)))])
+        lam[rows] = _basic_of_block(A[rows], lam[rows])
+        kept = rows[lam[rows] > 0]
+    return lam
+
+
+def _basic_of_block(A: Array, lam: Array) -> Array:
+    """Return the same of so few rows that all of their dependences can be formed."""
     dependences = np.eye(len(A))
     if A.size:
         _, size, directions = np.linalg.svd(A.T)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -128,7 +129,8 @@ def rollout(
         remaining, unit="step", total=steps, done=remaining.start, shown=progress
     )
     last: StepResult | None = None
-    with Interrupt() as interrupt:
+    lock: Any = nullcontext() if saved is None else saved.lock
+    with lock, Interrupt() as interrupt:
         for k in bar:
             t = recorder.t
             q = recorder.q
@@ -148,7 +150,7 @@ def rollout(
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(q_bar_a, last)
-    return recorder.trajectory()
+        return recorder.trajectory()
 
 
 def start_cold(simulator: Simulator) -> None:

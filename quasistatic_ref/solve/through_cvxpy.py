@@ -7,16 +7,20 @@ from typing import Protocol
 import cvxpy as cp
 import numpy as np
 
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, phi_within_reach
+from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, phi_within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
 """CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
 another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
+
+MOST_CONTACTS = 2000
+"""Most contacts that are compiled: 6 s, in a time that grows with their square."""
 
 
 class CompiledProgram(Protocol):
@@ -48,6 +52,16 @@ class CvxpySolver(BackendSolver):
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
         self.problem = CvxpyProblem(template)
+
+    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+        """The backend's answer, unless CVXPY would compile the step for minutes: StepNotSolved."""
+        if (n_c := both.si_step.contacts.n_c) > MOST_CONTACTS:
+            status = (
+                f"not called: CVXPY takes too long to compile {n_c} contacts, more than "
+                f"{MOST_CONTACTS}; with fast = true it is not used"
+            )
+            raise StepNotSolved(self.name, status, both.si_step, accuracy)
+        return super().answer(both, accuracy)
 
     def write(self, both: DenseStepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""

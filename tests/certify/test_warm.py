@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.certify.warm import BLOCK, warm_rows
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
 from tests.tolerances import ROUNDING
@@ -35,3 +35,13 @@ def test_independent_rows_are_kept_that_carry_the_same_impulse(A):
     assert (lam > 0).all()
     off = A[rows].T @ lam - A.T @ pressed
     assert np.abs(off).max(initial=0.0) <= ROUNDING * np.abs(A).max()
+
+
+def test_rows_of_a_patch_of_very_many_points_are_reduced_block_by_block():
+    """All dependences at once would be a matrix of (rows x rows): hours for a patch of points."""
+    A = np.random.default_rng(1).integers(-2, 3, (24 * BLOCK, 3))
+    lam = np.ones(len(A))
+    rows = warm_rows(A, lam, np.zeros(len(A)))
+    assert len(rows) == np.linalg.matrix_rank(A[rows]) == 3
+    carried = np.linalg.solve(A[rows].T, A.sum(axis=0))
+    assert (carried > 0).all()  # a cone holds what is carried

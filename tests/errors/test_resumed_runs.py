@@ -8,11 +8,14 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.optional.runs import saved_files
 from quasistatic_ref.optional.runs.saved_files import saved_folder, saved_steps
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate import rollout as module
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
@@ -22,6 +25,18 @@ COLD_EVERY = 4
 
 class Killed(BaseException):
     """What ends a run here as a signal would: nothing in the package catches it."""
+
+
+class KilledAt(Observer):
+    """Kills a run before a step."""
+
+    def __init__(self, k):
+        self.k = k
+
+    def before(self, recorder):
+        """Kill it."""
+        if recorder.steps == self.k:
+            raise Killed
 
 
 @pytest.fixture(autouse=True)
@@ -227,16 +242,48 @@ SPOILT = {
     "cut": lambda file: file.write_bytes(file.read_bytes()[:-100]),
     "another archive": lambda file: np.savez(file, t=np.zeros(3)),
     "a header of words": lambda file: np.savez(file, header=np.frombuffer(b"x", dtype=np.uint8)),
-    "a file less": lambda file: file.with_name("000000000.npz").unlink(),
+    "no steps": lambda file: np.savez(file, header=json_array({"steps": 0})),
 }
 
 
 @pytest.mark.parametrize("spoil", SPOILT)
-def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil):
+def test_a_run_goes_on_from_the_good_files_and_keeps_the_others_aside(
+    tmp_path, scene, capsys, spoil
+):
     path = tmp_path / "scene.npz"
-    ran(load_scenario(scene), path, killed_at=2)
+    whole = tmp_path / "whole" / "scene.npz"
+    scenario = load_scenario(scene)
+    ran(scenario, whole)
+    ran(scenario, path, killed_at=2)
     SPOILT[spoil](saved_folder(path) / "000000001.npz")
-    assert main(["run", str(scene), "--out", str(tmp_path), "--resume", "--quiet"]) == 2
-    said = capsys.readouterr().err.splitlines()
-    assert len(said) == 1
-    assert f"{saved_folder(path)}/000000001.npz: " in said[0]
+    left = {file.name: file.read_bytes() for file in saved_folder(path).iterdir()}
+    arguments = ["run", str(scene), "--out", str(tmp_path), "--quiet"]
+    assert main(arguments) == 2  # nothing is lost for want of a word
+    assert "--resume" in capsys.readouterr().err
+    assert main([*arguments, "--resume"]) == 0
+    said = next(line for line in capsys.readouterr().err.splitlines() if "kept in" in line)
+    aside = tmp_path / "scene.npz.left_out"
+    assert f"{saved_folder(path)}/000000001.npz: " in said
+    assert f"are kept in {aside};" in said
+    kept = {file.name: file.read_bytes() for file in aside.iterdir()}
+    assert kept == {"000000001.npz": left["000000001.npz"]}
+    assert path.read_bytes() == whole.read_bytes()
+
+
+def test_two_runs_do_not_write_into_one_folder(tmp_path, scene):
+    """The second is refused while the first goes on; when that is killed, its lock is gone."""
+    path = tmp_path / "run.npz"
+    scenario = load_scenario(scene, {"steps": STEPS}, fast=True)
+    said = []
+
+    class Second(Observer):
+        def before(self, recorder):
+            with pytest.raises(InputError) as caught:
+                ran(scenario, path, resume=True)
+            said.append(str(caught.value))
+
+    with contextlib.suppress(Killed):
+        scenario.run(progress=False, save=path, save_every=0.0, observers=[Second(), KilledAt(3)])
+    assert set(said) == {f"{saved_folder(path)}: is being written by another run; wait for its end"}
+    ran(scenario, path, resume=True)
+    assert len(trajectory_read(path)) == STEPS

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve import through_cvxpy
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import NoSolver, solver_for
@@ -265,3 +266,17 @@ def test_the_bound_of_an_error_is_finite_in_a_polyhedral_cone(step):
     bound = solve_step(step, certify="residual").certificate.error_bound
     assert bound is not None
     assert 0 < bound < 1
+
+
+def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answer(
+    step, monkeypatch
+):
+    asked = solve_step(step)
+    monkeypatch.setattr(through_cvxpy, "MOST_CONTACTS", 2)  # of its three
+    proved = solve_step(step)
+    assert proved.statistics.status.startswith("failed: not called: CVXPY takes too long")
+    assert proved.certificate.kind == "exact"
+    assert proved.delta_q.tobytes() == asked.delta_q.tobytes()
+    with pytest.raises(StepNotSolved, match=r"3 contacts, more than 2; with fast = true"):
+        solve_step(step, certify="off")
+    assert solve_step(step, fast=True, certify="off").statistics.status == "optimal"

@@ -1,8 +1,12 @@
 """A report as Markdown, its figures in the folder ``figures`` next to it; and any table."""
 
+import re
 from collections.abc import Iterable, Sequence
 
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
+
+_TAG = re.compile(r"<(?=[A-Za-z/!?])")
+"""Where Markdown begins HTML of its own."""
 
 
 def markdown_page(report: Report) -> str:
@@ -12,9 +16,9 @@ def markdown_page(report: Report) -> str:
     ----------
     report : Report
     """
-    lines = [f"# {report.title}", ""]
+    lines = [f"# {_escaped(report.title)}", ""]
     for section in report.sections:
-        lines += [f"## {section.title}", ""]
+        lines += [f"## {_escaped(section.title)}", ""]
         for block in section.blocks:
             lines += [*_block(block), ""]
     return "\n".join(lines).rstrip() + "\n"
@@ -22,16 +26,18 @@ def markdown_page(report: Report) -> str:
 
 def _block(block: Block) -> list[str]:
     if isinstance(block, str):
-        return [block]
+        return [_escaped(block)]
     if isinstance(block, Picture):
-        return [f"![{block.caption}]({block.file})", "", f"{block.caption}{_rows(block.where)}"]
+        caption = _escaped(block.caption)
+        return [f"![{caption}]({block.file})", "", f"{caption}{_rows(block.where)}"]
     if isinstance(block, Code):
-        return ["```text", *block.text.splitlines(), "```"]
+        fence = max(["```", *(ticks + "`" for ticks in re.findall("`{3,}", block.text))], key=len)
+        return [f"{fence}text", *block.text.splitlines(), fence]
     return _table(block)
 
 
 def _table(table: Table) -> list[str]:
-    title = f"**{table.title}**{_rows(table.where)}"
+    title = f"**{_escaped(table.title)}**{_rows(table.where)}"
     return [title, "", *markdown_table(table.columns, table.rows, table.left)]
 
 
@@ -53,8 +59,13 @@ def markdown_table(
 
 
 def _line(cells: Sequence[object]) -> str:
-    return f"| {' | '.join(str(cell).replace('|', chr(92) + '|') for cell in cells)} |"
+    return f"| {' | '.join(_escaped(str(cell)).replace('|', chr(92) + '|') for cell in cells)} |"
 
 
 def _rows(where: str) -> str:
-    return f" *Rows:* {where}." if where else ""
+    return f" *Rows:* {_escaped(where)}." if where else ""
+
+
+def _escaped(text: str) -> str:
+    """Text in which a name that holds HTML, such as ``<script>``, is shown, not obeyed."""
+    return _TAG.sub("&lt;", text)

@@ -67,18 +67,27 @@ def begun_or_resumed(
     settings = run_settings(simulator, recorder.start, recorder.record)
     saved = SavedSteps(path, settings, recorder.notes, EVERY if every is None else every)
     recorder.observers.append(saved)
-    if not first:
-        return saved
+    try:
+        if first:
+            _taken_over(saved, recorder, given, first // cold_every * cold_every)
+    except BaseException:
+        saved.lock.release()
+        raise
+    return saved
+
+
+def _taken_over(
+    saved: SavedSteps, recorder: Recorder, given: Mapping[str, tuple[Any, Checked]], cold: int
+) -> None:
+    """Hand the saved steps to the recorder, and those from the step `cold` on to the solver."""
     for name, (function, _) in given.items():
         if callable(function) and needed_arguments(function, name) == 3:
             problem = "cannot be asked again: the results of saved steps are not kept"
             raise InputError(problem, field=name)
-    start_cold(simulator)
-    cold = first // cold_every * cold_every
+    start_cold(recorder.simulator)
     for part, extra in list(saved.parts()):
         again = _posed_again(part, recorder, given["target"][1], given["force"][1], cold)
         recorder.take(part | again, extra)
-    return saved
 
 
 def _posed_again(

@@ -7,7 +7,10 @@ it: it is a function of q, and made again. docs/guides/file_formats.md describes
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import hashlib
+import itertools
 import os
 import shutil
 import sys
@@ -125,6 +128,7 @@ class SavedSteps(Observer):
         self.every = every
         self.kept = kept
         self.folder = saved_folder(path)
+        self.lock = Lock(self.folder)
         self._saved = 0  # parts of the recorder that are on disk
         self._begun = self._latest = time.monotonic()
         self._failing = False
@@ -137,28 +141,29 @@ class SavedSteps(Observer):
         Raises
         ------
         InputError
-            If they are of another run, naming what differs, or a file is spoilt.
+            If they are of another run, naming what differs. From the first file on that is spoilt,
+            or does not follow, files are kept aside, and one sentence on standard error says so.
         """
-        expected = 0
-        for path in _files(self.folder):
+        forces = FORCES if self.settings["record"] == "forces" else ()
+        good, problem = _longest_prefix(self.folder, {*PER_STEP, *forces, "q", "tau", *self.kept})
+        for path in good:
             header, part = npz_record(path, WHAT)
             with about_file(path):
-                extra = self._checked(TableReader(header), part, expected)
-            expected += len(part["t"])
+                self._check_settings(header["settings"])
+                extra = tuple(TableReader(header).words("extra"))
             yield part, extra
             self._saved += 1
+        if problem is not None:
+            self._set_aside([path for path in _files(self.folder) if path not in good], problem)
 
-    def _checked(self, top: TableReader, part: StepArrays, expected: int) -> tuple[str, ...]:
-        """Names of an extension's rows, of a part that begins with the expected step."""
-        top.text("format", choices=(FORMAT,))
-        fits = top.integer("version") == VERSION and top.integer("first") == expected
-        self._check_settings(top.take("settings"))
-        steps = top.integer("steps", least=1)
-        forces = FORCES if self.settings["record"] == "forces" else ()
-        missing = not {*PER_STEP, *forces, "q", "tau", *self.kept} <= set(part)
-        if not fits or missing or any(a.ndim == 0 or len(a) != steps for a in part.values()):
-            raise InputError(f"is not what follows step {expected}; remove it and later files")
-        return tuple(top.words("extra"))
+    def _set_aside(self, files: list[Path], problem: InputError) -> None:
+        """Keep files that do not follow from those before them, and say so."""
+        aside = _free_name(Path(f"{self.path}.left_out"))
+        aside.mkdir()
+        for path in files:
+            path.rename(aside / path.name)
+        words = f"{problem}; it and later files, {len(files)} in all, are kept in {aside}"
+        print(f"quasistatic-ref: {words}; their steps are taken again", file=sys.stderr)
 
     def _check_settings(self, then: Any) -> None:
         if not isinstance(then, dict):
@@ -230,6 +235,59 @@ class SavedSteps(Observer):
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+class Lock:
+    """A folder of saved steps that this object alone writes into, made if it is not there.
+
+    The system holds it, and lets go when the process ends, however it ends: none is left behind.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Raises
+    ------
+    InputError
+        If another run writes into it, or it cannot be made.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._descriptor: int | None = None
+        while self._descriptor is None:
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+                descriptor = os.open(folder, os.O_RDONLY)
+            except OSError as error:
+                reason = error.strerror or str(error)
+                raise InputError(f"cannot be written: {reason}", file=folder) from None
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if os.path.samestat(os.fstat(descriptor), os.stat(folder)):
+                    self._descriptor = descriptor
+            except BlockingIOError:
+                problem = "is being written by another run; wait for its end"
+                raise InputError(problem, file=folder) from None
+            except FileNotFoundError:
+                pass  # the run before has just removed it
+            finally:
+                if self._descriptor is None:
+                    os.close(descriptor)
+
+    def release(self) -> None:
+        """Let others write; an empty folder is removed."""
+        if self._descriptor is not None:
+            with contextlib.suppress(OSError):  # it holds saved steps, or is gone
+                self.folder.rmdir()
+            os.close(self._descriptor)
+            self._descriptor = None
+
+    def __enter__(self) -> Lock:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.release()
+
+
 def first_step(path: str | Path, steps: int, resume: bool) -> int:
     """The step that a run begins with: 0, or that after the saved ones.
 
@@ -248,6 +306,9 @@ def first_step(path: str | Path, steps: int, resume: bool) -> int:
         If the run would lose steps that are there: a longer trajectory, or saved steps that it does
         not go on from; or if the file holds something else.
     """
+    folder = saved_folder(path)
+    if folder.is_dir():
+        Lock(folder).release()
     there = steps_in(path)
     saved = saved_steps(path)
     if there > steps:
@@ -256,18 +317,18 @@ def first_step(path: str | Path, steps: int, resume: bool) -> int:
             "another folder, or remove it"
         )
         raise InputError(problem, file=path)
-    if saved and not resume:
+    if _files(folder) and not resume:
         problem = (
             f"holds the first {saved} steps of a run that did not end; go on from there with "
             "--resume (in Python: resume=True), or remove that folder"
         )
-        raise InputError(problem, file=saved_folder(path))
+        raise InputError(problem, file=folder)
     if saved > steps:
         problem = (
             f"holds the first {saved} steps of a run, and this one has {steps}; go on with at "
             "least as many, or remove that folder"
         )
-        raise InputError(problem, file=saved_folder(path))
+        raise InputError(problem, file=folder)
     return saved
 
 
@@ -282,20 +343,50 @@ def saved_folder(path: str | Path) -> Path:
 
 
 def saved_steps(path: str | Path) -> int:
-    """How many steps are saved of a run whose trajectory's file is `path`.
+    """How many steps are saved of a run whose trajectory's file is `path`, without a gap."""
+    good, _ = _longest_prefix(saved_folder(path), set())
+    return sum(_npz_header(file, WHAT)["steps"] for file in good)
 
-    Raises
-    ------
-    InputError
-        If the last file is spoilt.
+
+def _longest_prefix(folder: Path, needed: set[str]) -> tuple[list[Path], InputError | None]:
+    """The files that follow each other from step 0 on, and what is wrong with the next one.
+
+    Parameters
+    ----------
+    folder : Path
+    needed : set of str
+        Names of arrays that each file has.
     """
-    files = _files(saved_folder(path))
-    if not files:
-        return 0
-    header = _npz_header(files[-1], WHAT)
-    with about_file(files[-1]):
-        top = TableReader(header)
-        return top.integer("first", least=0) + top.integer("steps", least=0)
+    good: list[Path] = []
+    expected = 0
+    for path in _files(folder):
+        try:
+            header, part = npz_record(path, WHAT)
+            with about_file(path):
+                expected += _steps_after(TableReader(header), part, expected, needed)
+        except InputError as error:
+            return good, error
+        good.append(path)
+    return good, None
+
+
+def _steps_after(top: TableReader, part: StepArrays, expected: int, needed: set[str]) -> int:
+    """How many steps a file holds, of which the first is the expected one."""
+    top.text("format", choices=(FORMAT,))
+    fits = top.integer("version") == VERSION and top.integer("first") == expected
+    steps = top.integer("steps", least=1)
+    top.words("extra")
+    top.table("settings")
+    missing = not needed <= set(part)
+    if not fits or missing or any(a.ndim == 0 or len(a) != steps for a in part.values()):
+        raise InputError(f"is not what follows step {expected}")
+    return steps
+
+
+def _free_name(path: Path) -> Path:
+    """The path, or that with the first number behind it that is free."""
+    numbered = (path.with_name(f"{path.name}.{i}") for i in itertools.count(2))
+    return next(p for p in (path, *itertools.islice(numbered, 1000)) if not p.exists())
 
 
 def _files(folder: Path) -> list[Path]:

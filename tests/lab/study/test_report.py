@@ -11,6 +11,7 @@ from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn
 from quasistatic_ref.lab.page.html import html_page, sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.page.parts import Code, Report, Section, Table
 from quasistatic_ref.lab.study.report.comparison import noise_of
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.report.rows import rows_of
@@ -225,3 +226,15 @@ def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
         "h = 0.01 s": 2,
         "h = 0.02 s": 3,
     }
+
+
+def test_names_are_shown_in_markdown_not_obeyed():
+    name = "<script>alert(1)</script>"
+    table = Table(name, f"solver {name}", ("solver", name), ((name, "1 < 2"),))
+    blocks = (f"Of {name}.", table, Code(f"{name}\n```\n{name}"))
+    page = markdown_page(Report(name, (Section(name, blocks),)))
+    outside, code, after = page.split("````")
+    assert "<" not in outside.replace("1 < 2", "")
+    assert outside.count("&lt;script>alert(1)&lt;/script>") == 7
+    assert code == f"text\n{name}\n```\n{name}\n"  # a block of code, longer than that in it
+    assert after == "\n"
