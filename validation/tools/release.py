@@ -102,6 +102,7 @@ RESULTS = (
         ("quasistatic_ref/optional/fast/compiled/known_steps.jsonl.gz",),
     ),
     to_file("prover_mutants"),
+    to_file("designed_steps"),
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),

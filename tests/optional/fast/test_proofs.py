@@ -24,7 +24,8 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
-from tests.oracles.random_steps import equal_groups, mixed_step
+from tests.oracles.random_steps import designed_step, equal_groups, mixed_step
+from validation.make import designed_steps
 from validation.make.grouped_proofs import unlike
 
 
@@ -121,6 +122,12 @@ def outcome(step, solver):
         return type(refused)
     optimum = found.certificate
     return bits((found.delta_q, found.net_impulse)), optimum.multipliers_unique
+
+
+def test_both_speeds_have_the_optimum_in_fractions():
+    """A sample: ``validation/make/designed_steps.py`` compares 20,000."""
+    words = [designed_steps.outcome(designed_step(seed)) for seed in range(100000, 100040)]
+    assert set(words) == {"same optimum", "no solution"}
 
 
 def test_what_is_kept_for_a_step_refuses_numbers_of_another_shape():

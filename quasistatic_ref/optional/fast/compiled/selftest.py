@@ -85,7 +85,8 @@ def factors() -> list[list[float]]:
     """Factors of sums of products, three of each product, of all sizes, signs and lengths.
 
     In every third sum the first two products cancel but for their last bits, in every fifth the
-    third factors are powers of two, and every seventh number is zero or one with carries to come.
+    third factors are powers of two, and in every seventh all bits of the factors are ones. Some
+    sums lie in the middle of two float64 numbers, or next to it.
     """
     found = []
     for k in range(SUMS):
@@ -104,7 +105,12 @@ def factors() -> list[list[float]]:
             one[6:] = [0.0] * len(one[6:])
         if k % 16 == 9:
             one[3:] = [0.0] * len(one[3:])
-            one[1:3] = 1.0, 1.0
+            one[:3] = math.ldexp(1.0, 11 * (k % 32) - 200), 1.0, 1.0
+        if k % 16 in (1, 13):
+            unit = math.ldexp(1.0, 7 * (k // 16) - 40)
+            one = [2.0**53, unit, 1.0, -unit, 1.0, 1.0, *[0.0] * (3 * TERMS - 6)]
+            if k % 16 == 13:
+                one[6:9] = (-1) ** (k // 16) * 2.0**-20, unit, 1.0
         found.append(one)
     return found
 
@@ -118,11 +124,11 @@ def cut_numbers() -> list[float]:
 
 
 def edges() -> list[float]:
-    """Numbers at the ends of what fits, and what is no number."""
+    """What is no number, numbers at the ends of what fits, and numbers of all sizes between."""
     large = [math.ldexp(1.5, k) for k in range(155, 170)]
-    small = [math.ldexp(one, -k) for one in (1.0, 1.0 + 2.0**-52) for k in range(838, 898)]
-    found = [*itertools.chain(*SPECIAL), *large, *small]
-    return (found * 2)[:SUMS]
+    small = [math.ldexp(one, -k) for one in (1.0, 1.0 + 2.0**-52) for k in range(840, 900, 2)]
+    between = [math.ldexp(-math.sqrt(2), k) for k in range(-890, 164, 16)]
+    return [*itertools.chain(*SPECIAL), *large, *small, *between][:SUMS]
 
 
 def fits(x: float) -> bool:
@@ -147,19 +153,21 @@ def wrong_digits(library: ctypes.CDLL) -> str | None:
     given = (ctypes.c_double * (SUMS * 3 * TERMS))(*itertools.chain(*every))
     numbers = (ctypes.c_double * SUMS)(*cut), (ctypes.c_double * SUMS)(*edge)
     digits = (ctypes.c_int64 * (SUMS * 2 * DIGITS))()
-    found = (ctypes.c_double * (SUMS * 8))()
+    found = (ctypes.c_double * (SUMS * 9))()
     sizes = ctypes.c_int64(SUMS), ctypes.c_int64(TERMS)
     library.fixed_point(given, *numbers, *sizes, ctypes.c_double(STEP), digits, found)
     lost = 0
     for k, one in enumerate(every):
         of_sum = digits[2 * DIGITS * k : 2 * DIGITS * k + DIGITS]
         of_cut = digits[2 * DIGITS * k + DIGITS : 2 * DIGITS * (k + 1)]
-        was_lost, near, *nearest, not_cut, beyond = found[8 * k : 8 * k + 8]
+        was_lost, near, *nearest, not_cut, beyond, worth_edge = found[9 * k : 9 * k + 9]
         kept = Fraction(math.trunc(Fraction(cut[k]) * 2**GRID), 2**GRID)
         if worth(of_cut) != kept or bool(not_cut) != (kept != Fraction(cut[k])):
             return f"{cut[k]}, cut, has the digits {of_cut}"
         if bool(beyond) == fits(edge[k]):
             return f"whether {edge[k]} fits is {not beyond}"
+        if not beyond and abs(worth_edge - edge[k]) > abs(edge[k]) / 2**50:
+            return f"the value of {edge[k]} is {worth_edge}"
         if was_lost:
             lost += 1
             continue
@@ -170,9 +178,15 @@ def wrong_digits(library: ctypes.CDLL) -> str | None:
             return f"the value of a sum is {near}"
         quotients = zip(nearest[::2], nearest[1::2], (x, x / Fraction(STEP)), strict=True)
         for shown, rounded, right in quotients:
-            if shown != 1.0 or rounded != float(right):
+            if shown != (not is_tie(right)) or (shown and rounded != float(right)):
                 return f"a quotient is rounded to {rounded} in place of {float(right)}"
     return None if lost == LOST else f"{lost} sums do not fit in place of {LOST}"
+
+
+def is_tie(x: Fraction) -> bool:
+    """Whether a number lies in the middle of two float64 numbers."""
+    near = float(x)
+    return 2 * abs(x - Fraction(near)) == Fraction(math.ulp(near))
 
 
 def worth(digits: list[int]) -> Fraction:

@@ -30,13 +30,14 @@ void arithmetic(const double *triples, int64_t n, int64_t count, double *out)
    each of as many numbers its digits, cut at 2^-GRID. In `found` whether something was lost of the
    sum, its value, and twice whether the nearest float64 is shown and which that is: of the sum, and of
    its quotient by h; whether something of the number is lost that is not to be cut; and whether a
-   third number does not fit. */
+   third number does not fit, and its value. */
 void fixed_point(const double *factors, const double *cut, const double *edge, int64_t sums,
                  int64_t terms, double h, int64_t *digits, double *found)
 {
-    for (int64_t s = 0; s < sums; s++, factors += 3 * terms, digits += 2 * DIGITS, found += 8) {
+    for (int64_t s = 0; s < sums; s++, factors += 3 * terms, digits += 2 * DIGITS, found += 9) {
         Sum sum = EMPTY;
         Number of[2];
+        memset(of, 0x55, sizeof of); /* nothing may depend on digits that are not set */
         lost = 0;
         for (int64_t i = 0; i < terms; i++) {
             Number x = number(exact(factors[3 * i]));
@@ -56,7 +57,8 @@ void fixed_point(const double *factors, const double *cut, const double *edge, i
         digits_of(cut[s], GRID, 0);
         found[6] = lost;
         lost = 0;
-        exact(edge[s]);
+        Number x = number(exact(edge[s]));
         found[7] = lost;
+        found[8] = lost ? 0.0 : value(&x);
     }
 }

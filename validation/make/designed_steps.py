@@ -1,0 +1,119 @@
+"""Small steps that are hard to prove, at both speeds: ``python -m validation.make.designed_steps``.
+
+The steps of ``tests.oracles.random_steps.designed_step`` have exact ties, rows that depend on each
+other, equal groups with different rows of a user's own, and loads and gaps of sizes from 2^-300 to
+2^300. Each is solved plainly and by ``fast``. Both must have the same bits, and these must be those
+of the optimum in fractions, which is proved on the working set of the answer without the package.
+Of a step without solution both must give a proof that holds in fractions. ``--count`` steps, 20,000
+unless it is said, from ``--first`` on, which are added to the counts of the page of those before.
+Exit status 1 if one of them is wrong. Takes some minutes.
+"""
+
+import sys
+from collections import Counter
+from contextlib import suppress
+from pathlib import Path
+
+from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.fast.rechecked import DETERMINED
+from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import ACCURACY
+from tests.oracles.random_steps import designed_step
+from tests.oracles.rational_kkt import exact, proved
+from tests.oracles.solution_truth import program, proof, rounded
+from validation.tools.scripts import asked, shown
+
+FAMILIES = ("any step", "equal groups with own rows", "ties in integers", "divided, with own rows")
+OUTCOMES = ("same optimum", "no solution", "ill-posed", "wrong")
+PAGE = """# Small steps that are hard to prove, at both speeds
+
+Written by `python -m validation.make.designed_steps --out FILE`, which says what is compared.
+`same optimum`: plain and `fast` have the same bits, which are those of the optimum in fractions.
+`no solution`: both prove it, and the proofs hold in fractions. `ill-posed`: both refuse the step,
+since its optimum is absurdly long.
+
+| family | steps | {columns} |
+|---|---|{lines}|
+{rows}
+"""
+
+
+def by_fast(step: StepData) -> object:
+    """The optimum by `fast`, started from DAQP where that has an answer."""
+    solver: Solver = solver_for(step, "daqp", fast=True)
+    both = solver.in_both_units(step)
+    answer: NaturalAnswer | None = None
+    with suppress(StepNotSolved):  # the exact method starts cold
+        answer = solver.answer(both, ACCURACY)
+    return solver.optimum(both, answer)
+
+
+def outcome(step: StepData) -> str:
+    """What both speeds come to; "wrong: ..." if that is not the truth."""
+    found = []
+    for speed in (step_optimum, by_fast):
+        try:
+            found.append(speed(step))
+        except (StepInfeasible, StepIllPosed) as refused:
+            found.append(refused)
+    plain, fast = found
+    if type(plain) is not type(fast):
+        return f"wrong: {type(plain).__name__} and {type(fast).__name__}"
+    if isinstance(plain, StepIllPosed):
+        return "ill-posed"
+    if isinstance(plain, StepInfeasible):
+        right = all(proof(step, exact(one.farkas.exact)) for one in found)
+        return "no solution" if right else "wrong: a proof that there is no solution"
+    for name in DETERMINED:
+        if bits(getattr(plain, name)) != bits(getattr(fast, name)):
+            return f"wrong: {name} differs"
+    of = program(step)
+    try:
+        x, lam, slack = proved(of, fast.working_set)
+    except ArithmeticError as failure:
+        return f"wrong: {failure}"
+    net = lam @ of[2][list(fast.working_set)]
+    pairs = (fast.delta_q, x), (fast.net, net), (fast.slack, slack)
+    right = all([rounded(v) for v in truth] == list(numbers) for numbers, truth in pairs)
+    positive = [rounded(v) for v in lam] == fast.lam[list(fast.working_set)].tolist()
+    return "same optimum" if right and positive and all(v > 0 for v in lam) else "wrong: a number"
+
+
+def counts_before(out: Path | None, first: int) -> list[Counter[str]]:
+    """The counts of each family on the page of the steps before the first; else none."""
+    if not first or out is None:
+        return [Counter() for _ in FAMILIES]
+    rows = [line.split(" | ") for line in out.read_text().splitlines()]
+    kept = {row[0][2:]: [int(cell.strip(" |")) for cell in row[2:]] for row in rows[-4:]}
+    found = [Counter(dict(zip(OUTCOMES, kept[family], strict=True))) for family in FAMILIES]
+    assert sum(count.total() for count in found) == first
+    return found
+
+
+def main() -> int:
+    """Compare all; exit status 1 if one is wrong."""
+    options = asked(__doc__, count=20000, first=0, out=Path)
+    counts = counts_before(options.out, options.first)
+    for seed in range(options.first, options.first + options.count):
+        words = outcome(designed_step(seed))
+        kind = words.split(":")[0]
+        counts[seed % len(FAMILIES)][kind] += 1
+        if kind == "wrong":
+            print(seed, words, file=sys.stderr, flush=True)
+    rows = [
+        f"| {family} | {count.total()} | {' | '.join(str(count[kind]) for kind in OUTCOMES)} |"
+        for family, count in zip(FAMILIES, counts, strict=True)
+    ]
+    columns = " | ".join(OUTCOMES)
+    page = PAGE.format(
+        columns=columns, lines="|".join("---" for _ in OUTCOMES), rows="\n".join(rows)
+    )
+    shown(page, options.out)
+    return int(any(count["wrong"] for count in counts))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
