@@ -6,7 +6,7 @@ for no compiled code at all), the system's ``cc``, ``gcc`` or ``clang``, and the
 (``cache.py``), under a name that follows from the source and the command. Before it comes there, it
 is tested in a process of its own (``selftest.py``): it might be wrong, and loading a library may
 already change the arithmetic of a process. A library whose load did not end is tested again.
-Whatever goes wrong is said in a sentence, and steps are NumPy's.
+Whatever goes wrong is said in a sentence, and the plain path takes the steps.
 """
 
 import ctypes
