@@ -117,6 +117,12 @@ def status(options: argparse.Namespace) -> int:
     except BrokenPipeError:  # the reader of our output, such as `head`, went away
         sys.stderr.close()
         return 0
+    except ImportError as error:
+        library = re.match(r"(\S+\.so\S*): cannot open shared object", str(error))
+        if library is None:
+            raise
+        problem = f"{library[1]}, which a package needs, is not installed on this system"
+        return _failed(f"{problem}; libgomp.so.1 comes by: apt-get install libgomp1", 2)
     except MemoryError:
         return _failed("this needs more memory than there is", 2)
     except OSError as error:  # files are wrapped where they are used: without a name, it is ours

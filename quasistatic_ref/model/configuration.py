@@ -1,6 +1,11 @@
-"""A configuration q from outside, checked before anything is computed from it."""
+"""A configuration q from outside, checked before anything is computed from it.
+
+pinocchio and coal compute on with a quaternion of any length, and say nothing: at length 2 a box's
+gaps are those of a larger box, and the optimum of its step is proved for these gaps.
+"""
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,37 +26,120 @@ W_FIRST = [1.0, 0.0, 0.0, 0.0]
 def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     """Copy of q, finite, of shape (n_q,), its quaternions of length one.
 
-    Quaternions off by more than rounding are normalised; the others keep their bits, so that a
-    recorded q replays as it was. (pinocchio and coal compute on with NaN and with a zero
-    quaternion, and say nothing.)
+    What is off by rounding alone keeps its bits, so that a recorded q replays as it was; between
+    that and what :class:`UnitParts` refuses, a quaternion is divided by its length.
 
     Raises
     ------
     ModelError
         If it is not a configuration; the message names the joint.
     """
-    checked = checked_numbers(q, "q", ModelError) + 0.0
-    if checked.shape != (n_q,):
-        raise ModelError(f"must have shape ({n_q},)", field="q", value=checked.shape)
+    checked = _entries(joints, n_q, q)
+    UnitParts(joints).check(checked)
     for joint in joints:
-        part = checked[joint.q]
-        field = f"q[{joint.name}]"
-        if not np.isfinite(part).all():
-            raise ModelError("must be finite", field=field, value=part.tolist())
-        if joint.kind not in UNIT_PART:
-            continue
-        unit = part[UNIT_PART[joint.kind] :]
-        size = length(unit)
-        if abs(size - 1) > UNIT_QUATERNION:
-            what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
-            problem = f"its {what} must have length one"
-            raise ModelError(problem, field=field, value=unit.tolist())
-        if joint.kind == "floating" and unit.tolist() == W_FIRST:
+        if joint.kind == "floating" and checked[joint.q][3:].tolist() == W_FIRST:
             problem = (
                 "looks like the identity as [w x y z]; quaternions are [x y z w], and the identity "
                 "is [0 0 0 1] (half a turn about x is [1 0 0 1e-16])"
             )
-            raise ModelError(problem, field=field, value=W_FIRST)
-        if abs(size - 1) > UNIT_ROUNDING:
-            unit /= size
-    return checked
+            raise ModelError(problem, field=f"q[{joint.name}]", value=W_FIRST)
+    return normalised(joints, checked)
+
+
+def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
+    """Copy of q, finite, of shape (n_q,), its quaternions divided by their lengths.
+
+    Raises
+    ------
+    ModelError
+        If a number is not finite, the shape another one, or a length zero.
+    """
+    checked = _entries(joints, n_q, q)
+    for joint in joints:
+        if joint.kind in UNIT_PART and not checked[unit_part(joint)].any():
+            problem = f"its {_name(joint)} has length 0, which gives no direction"
+            raise ModelError(problem, field=f"q[{joint.name}]")
+    return normalised(joints, checked)
+
+
+class UnitParts:
+    """The quaternions, and pairs (cos, sin), of joints: each must have length one.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        Those without such a part are skipped.
+    """
+
+    def __init__(self, joints: Sequence[Joint]) -> None:
+        self._joints = [joint for joint in joints if joint.kind in UNIT_PART]
+        parts = [np.arange(joint.q.stop)[unit_part(joint)] for joint in self._joints]
+        self._entries = np.concatenate([np.zeros(0, np.int64), *parts])
+        self._starts = np.array([0, *accumulate(map(len, parts))][:-1], np.int64)
+
+    def check(self, q: Array) -> None:
+        """Refuse a part whose length is off by more than rounding.
+
+        Parameters
+        ----------
+        q : ndarray
+            All entries of q, or the first of them, those of these joints.
+
+        Raises
+        ------
+        ModelError
+            It names the joint, the length, and what divides by it.
+        """
+        lengths = np.sqrt(np.add.reduceat(np.square(q.take(self._entries)), self._starts))
+        wrong = np.abs(lengths - 1) > UNIT_QUATERNION
+        if not wrong.any():
+            return
+        first = int(wrong.argmax())
+        joint = self._joints[first]
+        problem = (
+            f"its {_name(joint)} must have length one, not {lengths[first]:.10g}; "
+            "system.normalised(q) divides it by its length"
+        )
+        raise ModelError(problem, field=f"q[{joint.name}]", value=q[unit_part(joint)].tolist())
+
+
+def unit_part(joint: Joint) -> slice:
+    """Where in q a joint's quaternion, or (cos, sin), stands."""
+    return slice(joint.q.start + UNIT_PART[joint.kind], joint.q.stop)
+
+
+def normalised(joints: Sequence[Joint], q: Array) -> Array:
+    """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
+
+    Those that are of length one but for rounding keep their bits, and those of length zero stay.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+    q : ndarray, shape (n_q,)
+    """
+    found = q + 0.0
+    for joint in joints:
+        if joint.kind in UNIT_PART:
+            unit = found[unit_part(joint)]
+            size = length(unit)
+            if size > 0 and abs(size - 1) > UNIT_ROUNDING:
+                unit /= size
+    return found
+
+
+def _entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
+    """Copy of q, if it is finite and of shape (n_q,); ModelError else, which names the joint."""
+    entries = checked_numbers(q, "q", ModelError) + 0.0
+    if entries.shape != (n_q,):
+        raise ModelError(f"must have shape ({n_q},)", field="q", value=entries.shape)
+    for joint in joints:
+        part = entries[joint.q]
+        if not np.isfinite(part).all():
+            raise ModelError("must be finite", field=f"q[{joint.name}]", value=part.tolist())
+    return entries
+
+
+def _name(joint: Joint) -> str:
+    """What its unit part is called."""
+    return "quaternion" if joint.kind == "floating" else "(cos, sin)"

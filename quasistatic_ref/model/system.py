@@ -21,7 +21,11 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
-from quasistatic_ref.model.configuration import configuration
+from quasistatic_ref.model.configuration import (
+    UnitParts,
+    configuration,
+    unit_configuration,
+)
 from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order, with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import (
@@ -43,9 +47,11 @@ __all__ = ["Body", "Kinematics", "System"]
 class System(Shown):
     """Bodies in one world.
 
-    Methods that take q do not check it, as :meth:`checked` does. They share a workspace: a System
-    is for one thread (who takes a step holds `lock`), a copy for another. Copies and pickles hold
-    the URDFs' texts, and read no file. Equal systems have equal bodies and files.
+    Methods that take q refuse quaternions, and pairs (cos, sin), that are not of length one;
+    :meth:`normalised` mends them, and :meth:`checked` checks the rest of q, too. They share a
+    workspace: a System is for one thread (who takes a step holds `lock`), a copy for another.
+    Copies and pickles hold the URDFs' texts, and read no file. Equal systems have equal bodies and
+    files.
 
     Parameters
     ----------
@@ -82,6 +88,8 @@ class System(Shown):
     shapes : tuple of PlacedShape
         Every collision shape of every URDF, e.g. ``gripper/left_finger#0``.
     q_start : ndarray, shape (n_q,)
+    units, actuated_units : UnitParts
+        What checks the lengths of quaternions, and of pairs (cos, sin), of q and of q_a.
     ignored : tuple of str
         What stands in the URDFs and the model does not use, e.g. ``arm: link[tool].visual``.
     notes : tuple of str
@@ -141,6 +149,8 @@ class System(Shown):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
         self._turning = [joint for joint in self.joints if joint.kind in screw.TURNING]
+        self.units = UnitParts(self.joints)
+        self.actuated_units = UnitParts([joint for joint in self.joints if joint.actuated])
         others = [joint for joint in self.joints if joint.kind not in screw.TURNING]
         self._scalars = [(joint.q.start, joint.v.start) for joint in others]
         self.coordinates: tuple[Coordinate, ...] = tuple(
@@ -199,6 +209,7 @@ class System(Shown):
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         q = with_shape(q, "q", (self.n_q,))
+        self.units.check(q)
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
         here = q.tolist()
         there = q.tolist()
@@ -213,6 +224,8 @@ class System(Shown):
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
         q = with_shape(q, "q", (self.n_q,))
         q_next = with_shape(q_next, "q", (self.n_q,))
+        self.units.check(q)
+        self.units.check(q_next)
         return self._change(q.tolist(), q_next.tolist(), self.n_v)
 
     def _change(self, here: list[float], there: list[float], n: int) -> Array:
@@ -236,6 +249,8 @@ class System(Shown):
         """
         q = with_shape(q, "q", (self.n_q,))
         q_a = with_shape(q_a, "q_a", (self.n_q_a,))
+        self.units.check(q)
+        self.actuated_units.check(q_a)
         return self._change(q.tolist(), q_a.tolist(), self.n_a)
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
@@ -254,6 +269,18 @@ class System(Shown):
             If it is not a configuration; the message names the joint.
         """
         return configuration(self.joints, self.n_q, q)
+
+    def normalised(self, q: ArrayLike) -> Array:
+        """Copy of q whose quaternions, and pairs (cos, sin), are divided by their lengths.
+
+        For a q that comes with fewer digits than float64 has: from float32, or from a file.
+
+        Raises
+        ------
+        ModelError
+            If a number is not finite, the shape is not (n_q,), or a length is zero.
+        """
+        return unit_configuration(self.joints, self.n_q, q)
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
@@ -282,8 +309,10 @@ class System(Shown):
 
         The last result is kept, because the q at the end of a step is the q of the next one.
         """
-        bits = np.asarray(q, dtype=np.float64).tobytes()
+        q = np.asarray(q, dtype=np.float64)
+        bits = q.tobytes()
         if self._latest is None or self._latest[0] != bits:
+            self.units.check(q)
             self._workspace.move(self._order.model_q(q))
             self._latest = bits, Kinematics(*self._workspace.poses(), self.column_map)
         return self._latest[1]

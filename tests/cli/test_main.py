@@ -138,3 +138,16 @@ def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsy
     assert main(["backends"]) == 2
     printed = capsys.readouterr().err
     assert printed == "quasistatic-ref: study.sqlite: cannot be used: No space left on device\n"
+
+
+def test_a_library_that_the_system_lacks_is_named_with_what_installs_it(monkeypatch, capsys):
+    def importing(*arguments):
+        message = "libgomp.so.1: cannot open shared object file: No such file or directory"
+        raise ImportError(message)
+
+    monkeypatch.setattr(solve_command, "run", importing)
+    assert main(["solve", "step.json"]) == 2
+    assert capsys.readouterr().err == (
+        "quasistatic-ref: libgomp.so.1, which a package needs, is not installed on this system; "
+        "libgomp.so.1 comes by: apt-get install libgomp1\n"
+    )

@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.configuration import configuration
+from quasistatic_ref.model.configuration import (
+    UnitParts,
+    configuration,
+    normalised,
+    unit_configuration,
+)
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.optional.derivatives.step_jax import normalised
 
 JOINTS = (
     Joint("box/base", "floating", False, slice(0, 7), slice(0, 6)),
@@ -47,7 +51,7 @@ def test_a_configuration_has_no_negative_zeros() -> None:
 def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length() -> None:
     q = normalised(JOINTS, Q)
     longer = q.copy()
-    factor = 1 + 2.0**-30  # above rounding, below what is refused
+    factor = 1 + 2.0**-31  # above rounding, below what is refused
     longer[UNITS["quaternion"]] = [0.0, 0.0, 0.0, factor]
     longer[UNITS["turn"]] = [-factor, 0.0]
     found = configuration(JOINTS, len(q), longer)
@@ -64,3 +68,38 @@ def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order()
     q[UNITS["quaternion"]] = [1.0, 0.0, 0.0, 0.0]
     with pytest.raises(ModelError, match=r"looks like the identity as \[w x y z\]"):
         configuration(JOINTS, len(q), q)
+
+
+def test_the_length_that_is_refused_is_named_with_its_remedy() -> None:
+    q = normalised(JOINTS, Q)
+    UnitParts(JOINTS).check(q)
+    q[UNITS["quaternion"]] *= 2
+    words = (
+        r"q\[box/base\]: its quaternion must have length one, not 2; "
+        r"system.normalised\(q\) divides it by its length"
+    )
+    for refusing in (UnitParts(JOINTS).check, lambda q: configuration(JOINTS, len(q), q)):
+        with pytest.raises(ModelError, match=words):
+            refusing(q)
+    assert np.allclose(unit_configuration(JOINTS, len(q), q), normalised(JOINTS, Q), atol=1e-15)
+
+
+@pytest.mark.parametrize("name", UNITS)
+def test_float32_is_refused_and_rounding_is_not(name: str) -> None:
+    q = normalised(JOINTS, Q)
+    checked = UnitParts(JOINTS).check
+    for factor, refused in ((1 + 5e-10, False), (1 - 5e-10, False), (1 + 2e-9, True), (0.5, True)):
+        other = q.copy()
+        other[UNITS[name]] *= factor
+        if refused:
+            with pytest.raises(ModelError, match="must have length one"):
+                checked(other)
+        else:
+            checked(other)
+
+
+def test_a_part_of_length_zero_has_no_direction() -> None:
+    q = normalised(JOINTS, Q)
+    q[UNITS["turn"]] = 0
+    with pytest.raises(ModelError, match=r"q\[arm/spin\]: its \(cos, sin\) has length 0"):
+        unit_configuration(JOINTS, len(q), q)

@@ -8,7 +8,7 @@ E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradie
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
 from typing import Any
@@ -17,8 +17,7 @@ import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, NotDifferentiable
-from quasistatic_ref.model.configuration import UNIT_PART
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable, derivatives
 from quasistatic_ref.optional.derivatives.gradient import Derivatives
@@ -28,8 +27,7 @@ from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import length
-from quasistatic_ref.tolerances import NEARLY, UNIT_ROUNDING
+from quasistatic_ref.tolerances import NEARLY
 
 BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")
 """The derivatives by what a step is given: q, q_bar_a and the force."""
@@ -256,23 +254,3 @@ def _rates(
 def _lacking(of: Derivatives, names: tuple[str, ...]) -> tuple[Reason, ...]:
     """Why the derivatives by some of `names` do not exist."""
     return tuple(why for why in of.reasons if {*why.fields} & {*names})
-
-
-def normalised(joints: Sequence[Joint], q: Array) -> Array:
-    """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
-
-    Those that are of length one but for rounding keep their bits, and those of length zero stay.
-
-    Parameters
-    ----------
-    joints : sequence of Joint
-    q : ndarray, shape (n_q,)
-    """
-    found = q + 0.0
-    for joint in joints:
-        if joint.kind in UNIT_PART:
-            unit = found[joint.q][UNIT_PART[joint.kind] :]
-            size = length(unit)
-            if size > 0 and abs(size - 1) > UNIT_ROUNDING:
-                unit /= size
-    return found

@@ -127,6 +127,8 @@ class FastSimulator(Simulator):
             return super().step(q, q_bar_a, force)
         lap = Stopwatch()
         q = np.asarray(q, dtype=np.float64)
+        self.system.units.check(q)
+        self.system.actuated_units.check(np.asarray(q_bar_a, dtype=np.float64))
         self.poses.move(q)
         self.contacts.find(self.poses)
         lap("distances")
