@@ -273,11 +273,6 @@ def bench():
     return table("benchmarks/bench.md")
 
 
-def interfaces():
-    """Medians of a step of the bunny [us]."""
-    return json.loads(text("benchmarks/bench.json"))["interfaces"]["microseconds"]
-
-
 def solvers():
     """The solver's call over MuJoCo's step, by scene."""
     scenes = json.loads(text("benchmarks/bench.json"))["solids"]

@@ -19,6 +19,7 @@ STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_certified_runs_have_the_same_bits_at_both_speeds(name):
     steps = STEPS.get(name, 6)
@@ -36,6 +37,7 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=EXACT + 1e-12 * np.abs(one).max())
 
 
+@pytest.mark.extra("fast")
 def test_a_simulator_says_which_it_is():
     scenario = load_scenario("sphere_spin")
     plain = scenario.simulator()

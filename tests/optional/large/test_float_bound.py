@@ -114,6 +114,7 @@ def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
     assert quick.certificate.error_bound < 1e-6
 
 
+@pytest.mark.extra("fast")
 def test_a_direction_is_kept_while_it_opens_the_rows_that_are_violated(monkeypatch):
     """Of a block on a slope; what a file would say of its steps is compared in fractions."""
     sought = []
@@ -132,6 +133,7 @@ def test_a_direction_is_kept_while_it_opens_the_rows_that_are_violated(monkeypat
     assert 1 <= len(sought) <= 5
 
 
+@pytest.mark.extra("fast")
 def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch):
     always_in_blocks(monkeypatch)
     some = pile((2, 1, 2), backend="clarabel", certify="residual")

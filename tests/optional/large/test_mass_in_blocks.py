@@ -59,6 +59,7 @@ def test_a_step_in_blocks_has_the_numbers_of_the_plain_path(name):
         assert found.tobytes() == getattr(dense.contacts, key).tobytes(), key
 
 
+@pytest.mark.extra("fast")
 def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
     formed = []
     for module in (posed, of_system):
@@ -76,6 +77,7 @@ def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
     assert step.M_u is not step.M_u
 
 
+@pytest.mark.extra("fast")
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     step = step_of("pile")[1]
     solver = solver_for(step, "piqp", fast=True)

@@ -39,6 +39,7 @@ def step_after(some, count):
     return result
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("scene", ["pile", "grasp"])
 def test_blocks_are_the_columns_of_J_that_are_not_zero(scene, always_sparse):
     if scene == "pile":
@@ -62,6 +63,7 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene, always_sparse):
     assert sparse.name == dense.name
 
 
+@pytest.mark.extra("fast")
 def test_the_sparse_form_is_the_standard_form(always_sparse):
     step = step_after(pile(BOXES), 2).step
     form = sparse_form(step, Pattern(step))
@@ -93,6 +95,7 @@ def test_a_sparse_answer_is_the_certified_one_to_its_accuracy(always_sparse, bac
     )
 
 
+@pytest.mark.extra("fast")
 def test_size_decides_whether_a_step_is_sparse(monkeypatch):
     # 2 x 1 x 2 boxes: 2 pairs with the floor, 2 side by side, 2 above each other, 4 contacts each
     entries = 4 * 24 * 24
