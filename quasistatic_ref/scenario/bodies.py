@@ -135,7 +135,7 @@ def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
         folders += shared_folders(urdf)
     else:
         assert mjcf is not None
-        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base)
+        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base, folders)
     try:
         body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:

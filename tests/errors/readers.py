@@ -32,6 +32,7 @@ from quasistatic_ref.lab.vectors.files import answers_written, expected_read, in
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import certified, trajectory_read
 from quasistatic_ref.solve.backends import NONE
@@ -42,6 +43,7 @@ from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA
 from tests.model.urdf.urdf_texts import collision, link, written
 from tests.model.urdf.urdf_texts import robot as urdf_of
+from tests.optional.mjcf.test_mjcf import ARM, WEDGE
 from tests.oracles.spoilt_files import (
     Form,
     npy_bytes,
@@ -105,7 +107,9 @@ def models(folder: Path) -> dict[str, Reader]:
     obj += "".join(
         "f {} {} {}\n".format(*(i + 1 for i in triangle)) for triangle in texts.TRIANGLES
     )
+    (folder / "wedge.obj").write_text(WEDGE)
     return {
+        "MJCF": Reader("m.xml", (ARM.encode(),), spoilt_text, mjcf_urdf),
         "URDF": Reader("r.urdf", urdfs, spoilt_text, robot),
         "mesh, STL": Reader("m.stl", stl, spoilt_text, mesh),
         "mesh, OBJ": Reader("m.obj", (obj.encode(),), spoilt_text, mesh),

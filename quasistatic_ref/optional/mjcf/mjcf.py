@@ -9,6 +9,7 @@ drops bodies, masses and names of joints without a word.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -20,13 +21,14 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.optional.mjcf.compared import check_shapes
+from quasistatic_ref.optional.mjcf.fence import check_model
 from quasistatic_ref.optional.mjcf.geoms import FREE, GEOMS, HINGE, SLIDE, drawn, rgba, touching
 from quasistatic_ref.optional.mjcf.ignored import ignored_of_free, ignored_of_spec
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.arrays import Array
 
 
-def mjcf_urdf(path: str | Path, base: str = "fixed") -> str:
+def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path] = ()) -> str:
     """The text of a URDF of the same bodies, for ``Body(name, urdf=text)``.
 
     Its links are the bodies, in the same frames, its joints the hinges and slides. What the bodies
@@ -41,11 +43,14 @@ def mjcf_urdf(path: str | Path, base: str = "fixed") -> str:
         Of the MJCF file.
     base : str
         That of the body: ``"floating"`` or ``"planar"`` for a free joint.
+    roots : sequence of str or Path
+        Folders from which the file may read besides its own.
 
     Raises
     ------
     ModelError
-        If MuJoCo is not installed or refuses the file; or if it says what a URDF cannot: naming
+        If MuJoCo is not installed or refuses the file; if it reads from elsewhere, or asks for more
+        than any robot has; or if it says what a URDF cannot: naming
         element and attribute.
 
     Examples
@@ -61,6 +66,7 @@ def mjcf_urdf(path: str | Path, base: str = "fixed") -> str:
     """
     with about_file(path), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated and still read
+        check_model(Path(path), roots)
         spec, model = _compiled(path)
         names = Names.of(model)
         root = _root(model, names, base)

@@ -1,0 +1,84 @@
+"""What an MJCF file may read, and how much it may ask for."""
+
+import os
+
+import pytest
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from tests.model.urdf.urdf_texts import written
+
+BODY = '<mujoco><worldbody><body name="b"><geom size="0.1"/></body></worldbody></mujoco>'
+
+
+def model(inside):
+    return f'<mujoco>{inside}<worldbody><body><geom size="0.1"/></body></worldbody></mujoco>'
+
+
+@pytest.fixture
+def home(tmp_path):
+    """A folder with a file outside of it, and a pipe inside."""
+    written(tmp_path, BODY, "outside.xml")
+    home = tmp_path / "home"
+    home.mkdir()
+    os.mkfifo(home / "pipe.xml")
+    (home / "link.xml").symlink_to(tmp_path / "outside.xml")
+    return home
+
+
+MESH = '<asset><mesh name="m" file="outside.xml"/></asset>'
+REFUSED = {
+    # name: (the model, words of the sentence)
+    "an include": ('<include file="../outside.xml"/>', "include.file: leads to "),
+    "an absolute include": ('<include file="{home}/../outside.xml"/>', "package_dirs (in Python"),
+    "a link": ('<include file="link.xml"/>', "include.file: leads to "),
+    "an attached model": (
+        '<asset><model name="m" file="../outside.xml"/></asset>', "model[m].file: leads to "
+    ),
+    "a mesh's folder": (f'<compiler meshdir=".."/>{MESH}', "mesh[m].file: leads to "),
+    "a pipe": ('<include file="pipe.xml"/>', "include.file: is a folder, a device or a pipe"),
+    "replicas": (
+        '<worldbody><replicate count="200"><replicate count="200"><geom size="1"/></replicate>'
+        "</replicate></worldbody>", "replicate.count: makes more than 10000 copies",
+    ),
+    "a height field": (
+        '<asset><hfield name="f" nrow="20000" ncol="20000" size="1 1 1 1"/></asset>',
+        "hfield[f].ncol: makes more than 4000000 parts or numbers (got '20000')",
+    ),
+    "user data": ('<size nuserdata="400000000"/>', "size.nuserdata: must be at most 4000000"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case):
+    inside, says = REFUSED[case]
+    path = written(home, model(inside.replace("{home}", str(home))), "m.xml")
+    with pytest.raises(ModelError) as caught:
+        mjcf_urdf(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"<!DOCTYPE mujoco [<!ENTITY a 'b'>]>" + BODY.encode(), "declares a DOCTYPE"),
+        (BODY.encode().replace(b'"b"', b'"\xff"'), "line 1: is not UTF-8 text"),
+        (b"<mujoco>", "is not XML: "),
+    ],
+)
+def test_what_is_no_plain_xml_is_refused(tmp_path, content, says):
+    path = tmp_path / "m.xml"
+    path.write_bytes(content)
+    with pytest.raises(ModelError) as caught:
+        mjcf_urdf(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert says in str(caught.value)
+
+
+def test_a_folder_that_is_named_may_be_read(home, tmp_path):
+    text = '<mujoco><include file="../outside.xml"/></mujoco>'
+    path = written(home, text, "m.xml")
+    with pytest.raises(ModelError, match="outside the folder of the model"):
+        mjcf_urdf(path)
+    assert '<link name="b">' in mjcf_urdf(path, roots=[tmp_path])
