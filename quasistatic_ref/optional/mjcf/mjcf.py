@@ -92,11 +92,16 @@ def _compiled(path: str | Path) -> tuple[Any, Any]:
     except ImportError:
         problem = "mjcf needs MuJoCo: pip install 'quasistatic-ref[engines]'"
         raise ModelError(problem) from None
+    handler = mujoco.get_mju_user_warning()
+    # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
+    mujoco.set_mju_user_warning(lambda text: None)
     try:
         spec = mujoco.MjSpec.from_file(str(path))
         return spec, spec.compile()
     except ValueError as error:
         raise ModelError(f"MuJoCo refuses it: {' '.join(str(error).split())}") from None
+    finally:
+        mujoco.set_mju_user_warning(handler)
 
 
 def _root(model: Any, names: Names, base: str) -> int:

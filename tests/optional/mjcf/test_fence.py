@@ -82,3 +82,12 @@ def test_a_folder_that_is_named_may_be_read(home, tmp_path):
     with pytest.raises(ModelError, match="outside the folder of the model"):
         mjcf_urdf(path)
     assert '<link name="b">' in mjcf_urdf(path, roots=[tmp_path])
+
+
+def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    nan = BODY.replace('size="0.1"', 'size="0.1" pos="NaN 0 0"')
+    with pytest.raises(ModelError):
+        mjcf_urdf(written(tmp_path, nan, "m.xml"))
+    assert [file.name for file in tmp_path.iterdir()] == ["m.xml"]
+    assert capfd.readouterr().err == ""
