@@ -43,12 +43,23 @@ outside of their cones, relative to the largest of them, where no gap is claimed
 Multipliers are not unique. Rounding them to float64 alone leaves a gap of 1e-16; a force where
 nothing touches leaves a gap of the size of its work."""
 
-COMPLIANCE: Final = 1e-9
-"""How much each contact gives way in the step that defines its force [m/N]: 1 um under 1 kN.
+COMPLIANCE: Final = 2e-9
+"""Compliance of a group's contacts over the least mobility of what they touch [-].
 
-On grasps the forces then miss the balance of the rigid step by 1e-6 of its loads, in proportion.
-Displacements of 1e-4 m are right to 1e-20 m in float64, which are 1e-11 N: the faces that float64
-guesses are the right ones but where a force is next to nothing."""
+A body that rests on its contacts loses so much of its weight, the lowest of 20 like it 100 times as
+much (R43): less than 1e-6. A last bit of phi, 1e-17 m, changes the forces of a body that bears its
+weight by 1e-5 of it at h = 10 ms, and by 1e-3 at 1 ms."""
+
+HARDLY_MOVES: Final = 1e-3
+"""Mobility of a side along a direction, relative to its largest [-], up to which loads along it
+count as loads on what else the contact touches. A free body has 1 / m at least, and more than 1000
+times as much only where it is 30 times as far from its centre as its mass is."""
+
+BORNE: Final = 1e-4
+"""Share of the load [-] that forces of single contacts may leave without a finding."""
+
+SURE: Final = 1e-3
+"""Share of the load of a group [-] that noise in its gaps may change without a finding."""
 
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.

@@ -141,6 +141,7 @@ class Recorder(Shown):
             row |= program(step)
         if self.record == "forces":
             row["forces"] = solution.forces
+            row["imbalance"] = solution.imbalance
         if self.simulator.law == COULOMB:
             row |= {name: getattr(solution, name) for name in ITERATED}
         self.alone &= solution.alone

@@ -65,6 +65,11 @@ class StepResult(Plain, Shown):
         """Forces of single contacts, shape (n_c, 4) [N, N m]: those of the solution."""
         return self.solution.forces
 
+    @property
+    def imbalance(self) -> float:
+        """The share of the load that the forces leave [-]: that of the solution."""
+        return self.solution.imbalance
+
     def pair_forces(self) -> dict[str, Array]:
         """Force of each pair on its beta's body, shape (3,) [N], world frame, by the pair's name.
 

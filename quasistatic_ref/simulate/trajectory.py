@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import written_whole
@@ -63,8 +63,8 @@ class Trajectory(Plain, Shown):
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
         ``extra_b``. Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
         :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`; ``A`` and ``b`` are
-        then of phi + s. A record of forces has ``forces``, (n_c, 4) a step. ``mu_v``, ``mu_omega``
-        and ``rows`` are constant.
+        then of phi + s. A record of forces has ``forces``, (n_c, 4) a step, and ``imbalance``.
+        ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
         runs make equal files.
@@ -186,7 +186,26 @@ class Trajectory(Plain, Shown):
         """
         if "forces" in self.arrays:
             return self.arrays["forces"]
-        return np.array([self.step_forces(k) for k in range(self.steps)]).reshape(self.steps, -1, 4)
+        return np.array([found.wrench for found in self._compliant]).reshape(self.steps, -1, 4)
+
+    @cached_property
+    def imbalance(self) -> Array:
+        """The share of the load that the forces of each step leave, shape (steps,) [-].
+
+        That of :class:`~quasistatic_ref.certify.compliance.forces.ContactForces`.
+
+        Raises
+        ------
+        InputError
+            As of :attr:`forces`.
+        """
+        if "imbalance" in self.arrays:
+            return self.arrays["imbalance"]
+        return np.array([found.imbalance for found in self._compliant])
+
+    @cached_property
+    def _compliant(self) -> list[ContactForces]:
+        return [self._step_compliant(k) for k in range(self.steps)]
 
     def step_forces(self, k: int) -> Array:
         """Forces of single contacts in step k (from 0), shape (n_c, 4) [N, N m].
@@ -198,6 +217,9 @@ class Trajectory(Plain, Shown):
         """
         if "forces" in self.arrays and 0 <= k < self.steps:
             return np.asarray(self.arrays["forces"][k])
+        return self._step_compliant(k).wrench
+
+    def _step_compliant(self, k: int) -> ContactForces:
         if self.header["record"] == "light":
             problem = "a light record holds no forces; run again with record = 'forces' or 'full'"
             raise InputError(problem)
@@ -206,7 +228,7 @@ class Trajectory(Plain, Shown):
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
-        return contact_forces(step, near=near).wrench
+        return contact_forces(step, near=near)
 
     def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
         """Sum of the contact wrenches on a body or a link, in each step, as lam has them.

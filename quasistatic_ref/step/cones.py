@@ -36,7 +36,6 @@ from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.certificate import Certificate
-    from quasistatic_ref.certify.compliance.forces import ContactForces
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.step.data import StepData
 
@@ -170,17 +169,17 @@ class CurvedCone(FrictionCone, ABC):
 
     @abstractmethod
     def forces(
-        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
-    ) -> ContactForces:
-        """As :func:`~quasistatic_ref.certify.compliance.forces.contact_forces`.
+        self, step: StepData, compliance: float, near: tuple[Array, Array]
+    ) -> tuple[Array, Array]:
+        """The forces of a group, (n_c, 4) [N, N m], and where it ends, (n_v,) [m, rad].
 
         Parameters
         ----------
         step : StepData
         compliance : float
-            [m/N].
-        near : (ndarray, ndarray), optional
-            Shapes (n_v,) [m, rad] and (n_c, 4) [N, N m].
+            Of each contact [m/N].
+        near : (ndarray, ndarray)
+            delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] of the step without compliance.
         """
 
     @abstractmethod

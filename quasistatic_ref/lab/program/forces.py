@@ -6,14 +6,19 @@ from .optimum import optimum
 from .rows import cone_table
 
 COMPLIANCE = 1e-9
-"""c [m/N]."""
+"""c [m/N] of a pair that has no ``compliance``."""
 
 
-def compliant_program(H, g, A, b, tables, h):
+def compliances(contacts):
+    """The c of each contact [m/N]."""
+    return [contact.get("compliance", COMPLIANCE) for contact in contacts]
+
+
+def compliant_program(H, g, A, b, tables, h, c):
     """H, g, A, b of a step in which four lengths s of each contact are added to gap, slips, spin.
 
-    Its unknowns are delta_q and then s, which costs h |s|^2 / (2 c). The t of a contact's rows
-    are in its table.
+    Its unknowns are delta_q and then s, which costs h |s|^2 / (2 c), with the c of each contact.
+    The t of a contact's rows are in its table.
     """
     n = len(g)
     lengths = 4 * len(tables)
@@ -23,7 +28,7 @@ def compliant_program(H, g, A, b, tables, h):
         C[row : row + len(T), 4 * j : 4 * j + 4] = np.column_stack([np.ones(len(T)), T])
         row += len(T)
     aside = np.zeros((n, lengths))
-    stiffness = h / COMPLIANCE * np.eye(lengths)
+    stiffness = np.diag(np.repeat([h / own for own in c], 4))
     return (
         np.block([[H, aside], [aside.T, stiffness]]),
         np.append(g, np.zeros(lengths)),
@@ -33,17 +38,18 @@ def compliant_program(H, g, A, b, tables, h):
 
 
 def forces_of(s, c, contacts):
-    """f_d1, f_d2, f_n, tau_n of each contact, of the lengths s and the compliance c."""
+    """f_d1, f_d2, f_n, tau_n of each contact, of the lengths s and the compliances c."""
     wrenches = []
-    for contact, (gap, slip_1, slip_2, spin) in zip(contacts, s.reshape(-1, 4), strict=True):
+    for contact, own, s_j in zip(contacts, c, s.reshape(-1, 4), strict=True):
+        f_n, f_1, f_2, f_3 = s_j / own
         mu_v = contact["mu_v"]
-        mu_omega = contact["mu_omega"]
-        wrenches.append([mu_v * slip_1 / c, mu_v * slip_2 / c, gap / c, mu_omega * spin / c])
+        wrenches.append([mu_v * f_1, mu_v * f_2, f_n, contact["mu_omega"] * f_3])
     return wrenches
 
 
 def forces(H, g, A, b, contacts, cone, h):
     """The forces of the contacts of a step that has a solution."""
     tables = [cone_table(cone, contact["rows"], contact["mu_v"]) for contact in contacts]
-    x, _ = optimum(*compliant_program(H, g, A, b, tables, h))
-    return forces_of(x[len(g) :], COMPLIANCE, contacts)
+    c = compliances(contacts)
+    x, _ = optimum(*compliant_program(H, g, A, b, tables, h, c))
+    return forces_of(x[len(g) :], c, contacts)

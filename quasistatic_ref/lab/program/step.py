@@ -37,7 +37,7 @@ def contacts_of(case, at):
             contact = {"pair": pair["name"], "index": int(index[i])}
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
             contact |= {"alpha_body": alpha["body"], "beta_body": beta["body"]}
-            contact |= {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+            contact |= {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
             found.append(contact)
     return found
 

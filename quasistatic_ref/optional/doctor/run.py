@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
@@ -34,6 +34,7 @@ class Run(Start):
         self.recorder = recorder
         self.arrays = arrays
         self.steps = len(arrays["t"])
+        self._found: dict[int, ContactForces] = {}
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -77,10 +78,17 @@ class Run(Start):
 
         Where the step cannot be solved once more, what its multipliers combine to.
         """
-        wrench: Array = self["wrench"][k]
         if not self.searched:
+            wrench: Array = self["wrench"][k]
             return wrench
-        return contact_forces(self.step_data(k), near=(self["delta_q"][k], wrench)).wrench
+        return self.compliant(k).wrench
+
+    def compliant(self, k: int) -> ContactForces:
+        """The forces of step k, of a run that is `searched`."""
+        if k not in self._found:
+            near = self["delta_q"][k], self["wrench"][k]
+            self._found[k] = contact_forces(self.step_data(k), near=near)
+        return self._found[k]
 
 
 def wrenches(step: StepData) -> Array | None:

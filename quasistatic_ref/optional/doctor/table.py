@@ -15,6 +15,7 @@ from quasistatic_ref.optional.doctor import (
     several,
     sunk,
     targets,
+    unborne,
     units,
     unsupported,
 )
@@ -65,6 +66,7 @@ AFTER = (
     Kind("drag", False, drag.drag),
     Kind("border of k", False, left_out.border),
     Kind("exchanged points", False, left_out.exchanged),
+    Kind("uncertain forces", False, unborne.unborne),
 )
 OF_TIME = (Kind("time of proof", False, proofs.proofs),)
 """Of wall time, which is no part of a trajectory's file."""

@@ -12,7 +12,6 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.compliance.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -122,8 +121,8 @@ class EllipsoidCone(CurvedCone):
         return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
 
     def forces(
-        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
-    ) -> ContactForces:
+        self, step: StepData, compliance: float, near: tuple[Array, Array]
+    ) -> tuple[Array, Array]:
         """See :mod:`~quasistatic_ref.optional.ellipsoid.forces`; arguments as of the base.
 
         Parameters
@@ -131,7 +130,7 @@ class EllipsoidCone(CurvedCone):
         step : StepData
         compliance : float
             [m/N].
-        near : (ndarray, ndarray), optional
+        near : (ndarray, ndarray)
             Shapes (n_v,) [m, rad] and (n_c, 4) [N, N m].
 
         Raises

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
-from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
+from quasistatic_ref.certify.compliance.forces import WRENCH
 from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
@@ -37,23 +37,24 @@ WIDE: Final = arb(2) ** -180
 
 
 def compliant_forces(
-    step: StepData, compliance: float, near: tuple[Array, Array] | None
-) -> ContactForces:
-    """The contact forces of a step in the ellipsoid.
+    step: StepData, compliance: float, near: tuple[Array, Array]
+) -> tuple[Array, Array]:
+    """The contact forces of a step in the ellipsoid, and where it ends.
 
     Parameters
     ----------
     step : StepData
     compliance : float
         Of each contact [m/N].
-    near : (ndarray, ndarray), optional
+    near : (ndarray, ndarray)
         delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
         compliance.
 
     Returns
     -------
-    ContactForces
-        Rounded from enclosures; 0.0 where an enclosure holds zero.
+    (ndarray, ndarray)
+        (f_d1, f_d2, f_n, tau_n) of each contact, shape (n_c, 4) [N, N m], and delta_q, shape
+        (n_v,), rounded from enclosures; 0.0 where an enclosure holds zero.
 
     Raises
     ------
@@ -62,11 +63,9 @@ def compliant_forces(
     """
     n_c = step.contacts.n_c
     form = exact_form(step)
-    start = None
-    if near is not None:
-        delta_q, wrench = near
-        own = np.zeros(len(step.extra.b))
-        start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
+    delta_q, wrench = near
+    own = np.zeros(len(step.extra.b))
+    start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
     with ctx.workprec(BITS):
         frame = scaled_blocks(step, form, compliance)
         for pair, _ in guesses(frame, start):
@@ -79,5 +78,5 @@ def compliant_forces(
                 impulse = (found.lam[i] + arb(0, off.upper())) * form.lam_unit
                 forces[i] = rounded(impulse / step.h)
             x = rounded_displacement(frame, found)
-            return ContactForces(forces.reshape(-1, 4)[:, WRENCH], x)
+            return forces.reshape(-1, 4)[:, WRENCH], x
     raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)

@@ -33,6 +33,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.layers import step as step_layer
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.own.step import with_compliance
 from quasistatic_ref.lab.vectors.tables import follower, free_body, link
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Contacts, StepData
@@ -296,6 +297,15 @@ def _distance(rng: Rng, level: int) -> Json:
     return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
 
 
+def _step(rng: Rng, level: int) -> Json:
+    """A scene, with the compliance of its contacts where it makes a step."""
+    case = random_scene(rng, level == HARD)
+    try:
+        return with_compliance(case)
+    except QuasistaticError:
+        return case
+
+
 MAKERS: dict[str, Callable[[Rng, int], Json]] = {
     "distance": _distance,
     "selection": _selection,
@@ -304,6 +314,6 @@ MAKERS: dict[str, Callable[[Rng, int], Json]] = {
     "qp": _qp,
     "wrench": _wrench,
     "integrate": _integrate,
-    "step": lambda rng, level: random_scene(rng, level == HARD),
+    "step": _step,
     "derivative": derivative_at_random,
 }

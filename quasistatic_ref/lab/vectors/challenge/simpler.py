@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import ORIGIN, UPRIGHT
 from quasistatic_ref.lab.vectors.trees import mapped, nodes
 
-KEPT = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
+KEPT = ("rows", "k", "n", "d1", "d2", "actuated", "joint", "compliance")
 """Fields whose numbers are no lengths, or that change together."""
 FRAME = ("n", "d1", "d2")
 ONES = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")

@@ -14,7 +14,7 @@ SQUARE = 1e-9
 
 def is_valid(case: Json) -> bool:
     """Whether an input of the right shape is valid for its layer."""
-    positive = ("radius", "length", "h", "size", "half_axes")
+    positive = ("radius", "length", "h", "size", "half_axes", "compliance")
     for path, value in nodes(case):
         key = path[-1] if path else ""
         if key in positive and not np.all(np.array(value) > 0):

@@ -1,10 +1,11 @@
 r"""The forces of the contacts of a step by compliance, exact, and how well float64 knows them.
 
-Let errors r in the balance H x - g = k B's [N s], where k = h / c, and errors d in the lengths
+Let errors r in the balance H x - g = h sum_j B_j's_j / c_j [N s] and errors d in the lengths
 z = B x + (phi, 0, 0, 0) [m] lead to another x and other s. The s of a contact is the point nearest
 to -z of the cone of forces, and therefore ds'dz <= -\|ds\|^2, where dz = B dx + d. The balance,
-multiplied by dx, then says that \|dx\|_H^2 + k \|ds\|^2 <= k \|ds\| \|d\| + \|r\|_{H^-1} \|dx\|_H.
-Forces, ds / c, are therefore off by at most
+multiplied by dx, then says that \|dx\|_H^2 + h sum \|ds_j\|^2 / c_j is at most
+h sum \|ds_j\| \|d_j\| / c_j + \|r\|_{H^-1} \|dx\|_H. With the least c of all, forces,
+ds_j / c_j, are therefore off by at most
 
 .. math:: \frac1c \sqrt{\|d\|^2 + \tfrac{c}{h} \|r\|_{H^{-1}}^2}.
 """
@@ -18,7 +19,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.lab.program.forces import COMPLIANCE, compliant_program, forces_of
+from quasistatic_ref.lab.program.forces import compliances, compliant_program, forces_of
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, Errors
 from quasistatic_ref.lab.vectors.exact.entered import exact
@@ -30,7 +31,7 @@ from quasistatic_ref.step.data import Array
 
 Program: TypeAlias = "tuple[Array, Array, Array, Array]"
 """H, g, A and b."""
-FRICTION = ("mu_v", "mu_omega", "rows")
+READ = ("mu_v", "mu_omega", "rows", "compliance")
 
 
 def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) -> tuple[Json, Json]:
@@ -43,20 +44,21 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     case : dict
         Of which ``h`` and ``cone`` are read.
     contacts : list of dict
-        Of which ``mu_v``, ``mu_omega`` and ``rows`` are read.
+        Of which ``mu_v``, ``mu_omega``, ``rows`` and, if it is there, ``compliance`` are read.
     lam : list
         Multipliers of the program: rows that bear load there are tried first.
     """
-    entries = [exact({key: contact[key] for key in FRICTION}) for contact in contacts]
+    entries = [exact({key: c[key] for key in READ if key in c}) for c in contacts]
     tables = [cone_table(case["cone"], entry["rows"], entry["mu_v"]) for entry in entries]
-    given = compliant_program(*program, tables, case["h"])
+    c = compliances(contacts)
+    given = compliant_program(*program, tables, case["h"], c)
     form = exact_form_of(*given)
     end = dual_active_set(form, np.flatnonzero(lam).tolist())
     assert isinstance(end, Optimum)
     found = rational_solution(form, end.minimiser.working)
     lengths = found.x[len(program[1]) :]
     s = np.array([form.x_unit * length / found.denominator for length in lengths])
-    return rounded(lambda: forces_of(s, number(COMPLIANCE), entries))
+    return rounded(lambda: forces_of(s, [number(own) for own in c], entries))
 
 
 def forces_bound(
@@ -80,6 +82,7 @@ def forces_bound(
     r = of_H * sum(x) + of_g + share * max(H @ x + g)
     d = of_A * sum(x) + of_b + share * max(A.reshape(-1, n) @ x + b)
     soft = np.abs(inverse(np.array(exact(program[0].tolist())))).sum()
-    squares = 4 * len(contacts) * d * d + number(COMPLIANCE) / number(case["h"]) * soft * r * r
+    c = float(min(compliances(contacts)))
+    squares = 4 * len(contacts) * d * d + number(c) / number(case["h"]) * soft * r * r
     largest = max(max(1.0, one["mu_v"], one["mu_omega"]) for one in contacts)
-    return float(largest) * sqrt(fraction(squares)) / COMPLIANCE
+    return float(largest) * sqrt(fraction(squares)) / c

@@ -4,9 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.compliance.of_group import group_compliance
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
@@ -14,7 +18,12 @@ from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.step.standard_form import standard_form
+
+COARSER = 2.0**10
+"""Compliance of a case over that of a run [-]. What a float64 program cannot know of forces is a
+last bit of phi over the compliance: here some 1e-4 of the load."""
 
 
 class PosedCase(NamedTuple):
@@ -97,9 +106,30 @@ def own_step(case_input: Json) -> Json:
         "lam": solution.lam.tolist(),
         "A_lam": (np.array(output["A"]).reshape(-1, step.n_v).T @ solution.lam).tolist(),
         "wrench": solution.wrench.tolist(),
-        "forces": solution.forces.tolist(),
+        **_forces(case_input, simulator, solution),
         "q_next": (after[mine.q] + 0.0).tolist(),
     }
+
+
+def _forces(case: Json, simulator: Simulator, solution: StepSolution) -> Json:
+    """The forces by the compliances of a case, where contacts of a group have one."""
+    given = {pair["name"]: pair.get("compliance", COMPLIANCE) for pair in case["pairs"]}
+    each = np.array([given[name] for name in simulator.layout.names])
+    try:
+        found = contact_forces(solution.step, each, (solution.delta_q, solution.wrench))
+    except InputError:
+        return {}
+    return {"forces": found.wrench.tolist()}
+
+
+def with_compliance(case: Json) -> Json:
+    """A case of the layer `step` whose pairs have a compliance, COARSER than a run's."""
+    posed = posed_case(case)
+    found = np.zeros(posed.step.contacts.n_c)
+    for group, part in group_steps(posed.step):
+        found[group.contacts] = COARSER * group_compliance(part)
+    own = dict(zip(posed.simulator.layout.names, found.tolist(), strict=True))
+    return {**case, "pairs": [{**p, "compliance": own[p["name"]]} for p in case["pairs"]]}
 
 
 def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:

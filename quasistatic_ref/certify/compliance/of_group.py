@@ -1,0 +1,56 @@
+r"""The compliance of a group: so little that loads are borne, so much that noise does not show.
+
+Each contact of a group touches two of its *sides*: what the actuated coordinates move is one, each
+other body or mechanism another (:func:`~quasistatic_ref.step.groups.sides`). A force of 1 N along
+n, d1 or d2 moves a side by its mobility [m/N],
+
+.. math:: b = J K^{-1} J^T, \qquad K = H / h = K_q \text{ or } M_u / h^2 ,
+
+J being the row of that direction. The compliance of all contacts is a power of two next to
+`COMPLIANCE` times the least of these mobilities: that of the heaviest body or the stiffest spring.
+It follows the units of length, mass and time, the time step and the masses, and (R43) says what
+loads lose by it.
+"""
+
+import numpy as np
+
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.groups import sides
+from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
+
+NOTHING_MOVES = 1e-9
+"""c [m/N] of contacts between what stands: they bear nothing, whatever it is."""
+SMALLEST, LARGEST = -900, 900
+"""Exponents of a compliance: it and its square root are numbers of float64."""
+
+
+def group_compliance(step: StepData) -> float:
+    """The compliance c of the contacts of a step by itself, or of a group of one [m/N].
+
+    A direction in which a side hardly moves, compared with other contacts and directions, is left
+    out: a finger on rails beside its direction, a hinge at its axis.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Raises
+    ------
+    StepDataError
+        If H, formed without rounding, is not positive definite.
+    """
+    least = np.inf
+    for side in sides(step):
+        J = frame_jacobian(step.contacts, step.contacts.J[:, :, side])[:3]
+        K = step.H[np.ix_(side, side)] / step.h
+        # LAPACK rounds differently on other processors. That counts where c is as near to one power
+        # of two as to the next, and then forces change by what they lose.
+        b = energy_norm(K).of_impulses(np.concatenate(J)) ** 2
+        moves = b[b > HARDLY_MOVES * b.max(initial=0.0)]
+        least = min(least, moves.min(initial=np.inf))
+    if least == np.inf:
+        return NOTHING_MOVES
+    exponent = round(float(np.log2(COMPLIANCE * least)))
+    return float(2.0 ** np.clip(exponent, SMALLEST, LARGEST))

@@ -1,0 +1,38 @@
+"""Forces of single contacts that leave a part of the load, or that rounding decides."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.tolerances import BORNE, SURE
+
+
+def unborne(run: Run) -> Iterator[Said]:
+    """What forces leave in a step of a record of forces, of another run in the last step.
+
+    What a last bit of the places of contacts may change in forces is that of the last step.
+    """
+    recorded = run.arrays.get("imbalance")
+    last = run.compliant(run.steps - 1) if run.searched else None
+    left = 0.0 if last is None else last.imbalance
+    if recorded is not None:
+        left = max(left, float(recorded.max()))
+    if left > BORNE:
+        yield Said(
+            "read wrench in the place of forces, or raise mu_v or mu_omega",
+            f"forces of single contacts leave {left:.1e} of the load",
+            {"left": left},
+        )
+    if last is None:
+        return
+    bit = float(np.spacing(np.abs(run["beta"][-1]).max(initial=0.0)))
+    noise = last.sensitivity * bit
+    if noise > SURE:
+        yield Said(
+            "read sums of forces only, or take a larger h or a softer K_q",
+            f"the last bit of a gap, {bit:.1e} m, may change forces of single contacts by "
+            f"{noise:.1e} of the load of their group",
+            {"noise": noise},
+        )
