@@ -133,6 +133,11 @@ class EllipsoidCone(CurvedCone):
         near : (ndarray, ndarray)
             Shapes (n_v,) [m, rad] and (n_c, 4) [N, N m].
 
+        Returns
+        -------
+        (ndarray, ndarray)
+            Forces, shape (n_c, 4) [N, N m], and delta_q, shape (n_v,) [m, rad].
+
         Raises
         ------
         StepNotSolved
