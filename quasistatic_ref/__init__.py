@@ -42,6 +42,7 @@ _HOMES = {
     "step.extension": "Extension",
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
+    "optional.guests.mujoco": "mujoco_step",
     "optional.coulomb.fixed_point": "coulomb_step",
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",

@@ -351,3 +351,11 @@ REPEATED for sizes of some decimetres."""
 
 LIGHT: Final = 1e-6
 """Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""
+
+FULL_RANK: Final = 1e-9
+"""Smallest singular value of equalities, and eigenvalue of K_q, in natural units [-].
+
+A row that depends on others is off by 1e-17 of its length, and is then a constraint of its own."""
+
+DEEP: Final = 1e-3
+"""Penetration that an answer mentions [m]: MuJoCo's contacts at rest are about 0.1 mm deep."""

@@ -25,6 +25,7 @@ OPTIONAL = (
     "optional/ellipsoid",
     "optional/extensions",
     "optional/fast",
+    "optional/guests",
     "optional/large",
     "optional/mjcf",
     "optional/qpsolvers",

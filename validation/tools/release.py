@@ -103,6 +103,7 @@ RESULTS = (
     ),
     to_file("prover_mutants"),
     to_file("designed_steps"),
+    to_file("guests"),
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),

@@ -1,0 +1,1 @@
+"""States of other simulators as steps."""

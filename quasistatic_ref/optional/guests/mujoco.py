@@ -1,0 +1,225 @@
+"""A state of MuJoCo as a step: what MuJoCo says of it, without its velocity and its softness.
+
+No geometry is translated. Contacts, frames, friction, Jacobians, masses and forces are MuJoCo's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.optional.guests import ties, touches
+from quasistatic_ref.optional.guests.fates import check, kind_of
+from quasistatic_ref.optional.guests.loads import Loads, loads
+from quasistatic_ref.optional.guests.still import Still, still
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.extension import Rises
+from quasistatic_ref.tolerances import FULL_RANK, LIGHT
+
+DEPTHS = ("closed", "as is")
+ELIMINATED = {PYRAMID: ("JOINT",), ELLIPSOID: ("JOINT", "TENDON", "CONNECT", "WELD")}
+"""Equalities that take coordinates away. Others are rows, two of which leave no interior, in which
+an enclosure is sought."""
+AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
+"""Coordinates of a joint: of a free one, along the world's axes and about the body's own."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates(Plain):
+    """Where the coordinates of a step are in MuJoCo, and what the step leaves out.
+
+    Parameters
+    ----------
+    names : tuple of str, length n_v
+        ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
+    dofs : ndarray of int, shape (n_v,)
+        Their places among MuJoCo's velocities; -1 for those that friction appends, (R40).
+    T : ndarray, shape (nv, n_v)
+        MuJoCo's displacement, per unit of delta_q [-]: what ``mj_integratePos`` takes is
+        T delta_q, with dt = 1.
+    left_out : tuple of str
+        What the step does not have, or holds as it is: one sentence for each.
+    quasi_dynamic_number : float
+        Largest v / (mu_v g h) of the contacts, of the speed that was dropped [-]; inf without
+        gravity.
+    """
+
+    names: tuple[str, ...]
+    dofs: Indices
+    T: Array
+    left_out: tuple[str, ...]
+    quasi_dynamic_number: float
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "dofs", "T")
+
+
+def mujoco_step(
+    model: Any, data: Any, h: float, depth: str = "closed"
+) -> tuple[StepData, Coordinates]:
+    """The step that begins in a state of MuJoCo, at rest.
+
+    Parameters
+    ----------
+    model : mujoco.MjModel
+    data : mujoco.MjData
+        Neither is changed. Its velocity is dropped.
+    h : float
+        Time step [s].
+    depth : str
+        ``"closed"``: contacts, limits and equalities that are violated count as closed.
+        ``"as is"``: one step closes them.
+
+    Returns
+    -------
+    StepData
+        In the ellipsoid if the model's cone is elliptic and a contact rubs.
+    Coordinates
+
+    Raises
+    ------
+    InputError
+        If `depth` is another word.
+    ModelError
+        Naming element and field of what no step can say.
+
+    Examples
+    --------
+    >>> import mujoco
+    >>> ball = '<body pos="0 0 0.1"><freejoint/><geom name="ball" size="0.1" mass="0.3"/></body>'
+    >>> floor = '<geom name="floor" type="plane" size="1 1 1"/>'
+    >>> text = f"<mujoco><worldbody>{floor}{ball}</worldbody></mujoco>"
+    >>> model = mujoco.MjModel.from_xml_string(text)
+    >>> step, coordinates = qr.mujoco_step(model, mujoco.MjData(model), h=0.01)
+    >>> step.contacts.name, coordinates.names[2]
+    (('0: floor/ball',), 'joint[0].z')
+    >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
+    np.float64(2.943)
+    """
+    if depth not in DEPTHS:
+        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
+    as_is = depth == "as is"
+    state = still(model, data)
+    check(state)
+    state.run()
+    of_state = loads(state)
+    cone = ELLIPSOID if model.opt.cone and touches.rubs(state) else PYRAMID
+    tied = ties.tied_joints(state, () if as_is else ELIMINATED[cone], of_state.heavy(state.M, h))
+    order, n_a, K_q = actuated(of_state, tied.T)
+    tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
+    T = tied.T
+    M_u = T[:, n_a:].T @ state.M @ T[:, n_a:]
+    diagonal = np.concatenate([h * np.diag(K_q), np.diag(M_u) / h])
+    tau = T.T @ of_state.others
+    step = StepData(
+        h=h,
+        K_q=K_q,
+        M_u=(M_u + M_u.T) / 2,
+        tau_a=tau[:n_a],
+        tau_u=tau[n_a:],
+        delta_q_bar_a=np.linalg.solve(K_q, (T.T @ of_state.of_springs)[:n_a]),  # Eq. (1)
+        contacts=touches.contacts(state, T, as_is),
+        cone=cone,
+        extra=ties.together(
+            ties.limits(state, T, as_is), ties.equalities(state, tied, diagonal, as_is)
+        ),
+    )
+    left_out = (*of_state.left_out, *touches.words(state), *touches.deep(state, step))
+    step, dofs, rubbed = with_friction(step, state, tied)
+    names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
+    T = np.pad(T, ((0, 0), (0, len(rubbed))))
+    return step, Coordinates(names, dofs, T, left_out, quasi_dynamic_number(model, data, state, h))
+
+
+def actuated(of_state: Loads, T: Array) -> tuple[Indices, int, Array]:
+    """An order of coordinates in which the actuated ones come first, their number, and K_q.
+
+    A coordinate is actuated if a servo or spring acts on it. T has the shape (nv, n) [-].
+
+    Raises
+    ------
+    ModelError
+        Naming a servo or spring that leaves others of its coordinates free: K_q is singular.
+    """
+    moments = [T.T @ spring.m for spring in of_state.springs]
+    K = np.zeros((T.shape[1],) * 2)
+    for spring, m in zip(of_state.springs, moments, strict=True):
+        K += spring.k * np.outer(m, m)
+    a = np.flatnonzero(K.any(axis=1))
+    u = np.setdiff1d(np.arange(len(K)), a)
+    K_q = K[np.ix_(a, a)]
+    unit = 1 / np.sqrt(np.diag(K_q))
+    values, vectors = np.linalg.eigh(unit[:, None] * K_q * unit)
+    if values.min(initial=1.0) < FULL_RANK:
+        free = np.abs(vectors[:, 0]) > FULL_RANK
+        several = [s.field for s, m in zip(of_state.springs, moments, strict=True)
+                   if np.count_nonzero(m[a][free]) > 1]  # fmt: skip
+        problem = "acts on several joints, between which K_q leaves a motion without stiffness; "
+        raise ModelError(problem + "give each of them a servo or a spring", field=several[0])
+    return np.concatenate([a, u]), len(a), K_q
+
+
+def with_friction(
+    step: StepData, state: Still, tied: ties.Tied
+) -> tuple[StepData, Indices, list[str]]:
+    """A step with what ``frictionloss`` appends to it, its places, and names of what is appended.
+
+    Raises
+    ------
+    ModelError
+        Naming a tendon of several coordinates that has friction.
+    """
+    J, rows = state.rows("FRICTION_DOF", "FRICTION_TENDON")
+    losses = state.data.efc_frictionloss[rows]
+    numbers, loads_of_rises, names = [], [], []
+    for row, along, loss in zip(rows.tolist(), J @ tied.T, losses.tolist(), strict=True):
+        moved = np.flatnonzero(along).tolist()
+        name = friction_name(state, row)
+        if len(moved) > 1:
+            problem = "rubs along several joints at once, for which there is no row"
+            raise ModelError(problem, field=f"{name}.frictionloss", value=loss)
+        for i in moved:
+            numbers.append(i)
+            loads_of_rises.append(abs(along[i]) * loss)
+            names.append(f"friction of {name}")
+    heavy = np.concatenate([step.h**2 * np.diag(step.K_q), np.diag(step.M_u)])
+    if numbers:
+        rises = Rises(np.array(loads_of_rises), LIGHT * heavy[numbers], np.array(numbers))
+        step = needed_part("extensions.rises", "frictionloss").with_rises(step, rises)
+    return step, np.concatenate([tied.dofs, np.full(len(numbers), -1)]), names
+
+
+def friction_name(state: Still, row: int) -> str:
+    """The joint or tendon of a constraint of friction."""
+    i = int(state.data.efc_id[row])
+    if state.data.efc_type[row] == state.mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON:
+        return state.words("tendon", i)
+    return coordinate_name(state, i)
+
+
+def coordinate_name(state: Still, dof: int) -> str:
+    """One of MuJoCo's velocities by its joint."""
+    joint = int(state.model.dof_jntid[dof])
+    axes = AXES.get(kind_of(state, "jnt_type", joint))
+    own = f".{axes[dof - state.model.jnt_dofadr[joint]]}" if axes else ""
+    return state.words("joint", joint) + own
+
+
+def quasi_dynamic_number(model: Any, data: Any, state: Still, h: float) -> float:
+    """Largest v / (mu_v g h) of the contacts, v the speed at which one slides [-]."""
+    g = float(np.linalg.norm(model.opt.gravity))
+    largest = 0.0
+    for touch in touches.found(state):
+        slip = touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel
+        v = float(np.linalg.norm(slip))
+        bears = float(touch.friction[0]) * g * h
+        if v:
+            largest = max(largest, v / bears if bears else np.inf)
+    return largest

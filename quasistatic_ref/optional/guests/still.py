@@ -1,0 +1,115 @@
+"""A MuJoCo state at rest: what MuJoCo itself says of it once its velocity is zero."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.parts import needed_package
+from quasistatic_ref.step.arrays import Array, Indices
+
+STAGES = ("mj_fwdPosition", "mj_fwdVelocity", "mj_fwdActuation", "mj_fwdAcceleration")
+"""The stages of ``mj_forward`` before its solver."""
+FAR = 1e6
+"""Margins of limits in the copy [m, rad]: all limits are rows."""
+FULL = ("mjWARN_CONTACTFULL", "mjWARN_CNSTRFULL")
+
+
+@dataclass(frozen=True, eq=False)
+class Still:
+    """Private copies of a model and a state, at zero velocity, with all limits as rows.
+
+    Parameters
+    ----------
+    mujoco : module
+    model : mujoco.MjModel
+        The user's.
+    own : mujoco.MjModel
+        The copy.
+    data : mujoco.MjData
+        The copy.
+    """
+
+    mujoco: Any
+    model: Any
+    own: Any
+    data: Any
+
+    @property
+    def M(self) -> Array:
+        """The mass matrix, with armatures, shape (nv, nv)."""
+        M = np.zeros((self.model.nv, self.model.nv))
+        self.mujoco.mj_fullM(self.model, self.data, M)
+        return M
+
+    @property
+    def moments(self) -> Array:
+        """How the length of each actuator changes with the joints, shape (outputs, nv)."""
+        data = self.data
+        return self._dense(
+            data.actuator_moment, data.moment_rownnz, data.moment_rowadr, data.moment_colind
+        )
+
+    @property
+    def tendons(self) -> Array:
+        """How the length of each tendon changes with the joints, shape (ntendon, nv)."""
+        model = self.model
+        return self._dense(
+            self.data.ten_J, model.ten_J_rownnz, model.ten_J_rowadr, model.ten_J_colind
+        )
+
+    def run(self) -> None:
+        """Run the stages of ``mj_forward``, from positions to forces.
+
+        Raises
+        ------
+        ModelError
+            If MuJoCo's memory does not hold all contacts and limits.
+        """
+        for warning in self.data.warning:
+            warning.number = 0
+        for stage in STAGES:
+            getattr(self.mujoco, stage)(self.own, self.data)
+        if any(self.data.warning[getattr(self.mujoco.mjtWarning, name)].number for name in FULL):
+            problem = 'does not hold all contacts and limits; set <size memory="100M"/>'
+            raise ModelError(problem, field="size.memory", value=int(self.model.narena))
+
+    def rows(self, *kinds: str) -> tuple[Array, Indices]:
+        """The Jacobians and numbers of MuJoCo's constraints of some kinds, (m, nv) and (m,)."""
+        wanted = [int(getattr(self.mujoco.mjtConstraint, f"mjCNSTR_{kind}")) for kind in kinds]
+        found = np.flatnonzero(np.isin(self.data.efc_type[: self.data.nefc], wanted))
+        return self.data.efc_J.reshape(-1, self.model.nv)[found], found
+
+    def words(self, kind: str, i: int) -> str:
+        """An element in words, such as ``joint[knee]``; by its number if it has no name."""
+        number = getattr(self.mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
+        return f"{kind}[{self.mujoco.mj_id2name(self.model, number, i) or i}]"
+
+    def disables(self, what: str) -> bool:
+        """Whether the model switches something off, by the name of MuJoCo's flag."""
+        flag = getattr(self.mujoco.mjtDisableBit, f"mjDSBL_{what}")
+        return bool(self.model.opt.disableflags & flag)
+
+    def _dense(self, values: Array, counts: Indices, starts: Indices, columns: Indices) -> Array:
+        dense = np.zeros((len(counts), self.model.nv))
+        if dense.size:
+            self.mujoco.mju_sparse2dense(dense, values, counts, starts, columns)
+        return dense
+
+
+def still(model: Any, data: Any) -> Still:
+    """Copies of a model and of its state at zero velocity, before ``run``."""
+    mujoco = needed_package("mujoco", "engines", "mujoco_step")
+    own = copy.copy(model)
+    own.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    own.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    for flag in ("SLEEP", "IPC", "SPECULATIVE"):  # what sleeps would have no contacts
+        own.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, f"mjENBL_{flag}"))
+    own.jnt_margin[:] = own.tendon_margin[:] = FAR  # a step may reach limits that are not near
+    at_rest = copy.copy(data)
+    at_rest.qvel[:] = 0.0
+    return Still(mujoco, model, own, at_rest)

@@ -1,0 +1,268 @@
+"""Models of others as steps: ``python -m validation.make.guests [--folder F] [--out FILE]``.
+
+Each MJCF file of ``PACKAGES`` that loads and has coordinates settles in MuJoCo, from its first
+keyframe if it has one. ``mujoco_step`` makes a step of its state, and ``solve_step`` answers it.
+pip installs the packages into F, or a temporary folder, without what they need: of them only the
+models are read. Of each answer, all forces are added up once more from MuJoCo's arrays.
+Exit status 1 if one is not in balance, or more than a tenth of the models are refused.
+"""
+
+import copy
+import subprocess
+import sys
+import tempfile
+import time
+import warnings
+from collections import Counter
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.optional.guests.mujoco import Coordinates, mujoco_step
+from quasistatic_ref.solve.solve import solve_step
+from validation.tools.scripts import asked, shown
+
+mujoco = import_module("mujoco")
+PACKAGES = (
+    "gymnasium-robotics==1.4.2", "dm_control==1.0.50", "robosuite==1.5.2", "metaworld==3.1.1",
+    "myosuite==3.0.0",
+)  # fmt: skip
+H = 0.01
+"""Time step [s]."""
+SETTLED, MOST = 1.5, 3000
+"""Simulated time [s], and steps at most."""
+AT_REST = 1e-2
+"""Largest velocity of a state at rest [m/s, rad/s]."""
+DEEP = 0.9e-3
+"""Depth from which MuJoCo's forces are those of its contacts' springs [m]."""
+BALANCED = 1e-6
+AGREES = 0.01
+"""Relative difference of sums of normal forces, up to which they agree."""
+FAR = 1e6
+"""Margins of limits [m, rad], at which MuJoCo has rows for all of them."""
+
+
+HEAD = (
+    "model", "n_v", "contacts", "limits", "equalities", "cone", "answer", "fastest", "speed",
+    "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "said", "why they differ",
+)  # fmt: skip
+REASONS = {"adroit_pen.xml": "several"}
+"""Of models at rest whose forces differ though they are not deep."""
+PAGE = """# States of others as steps
+
+Made by `python -m validation.make.guests` with MuJoCo {version}, of {packages}. Of their MJCF
+files, {models} load and have coordinates. Each settles in MuJoCo for 1.5 s (3000 steps at most),
+and its state is a step of 10 ms.
+
+{answered} are answered ({kinds}), {refused} refused. A step takes {middle:.0f} ms (median) and
+{longest:.1f} s at most. In {balanced} answers the forces, added up from MuJoCo's arrays, are in
+balance to {limit:g} of the largest. {rest} rest and touch. In {agree} of them the sum of normal
+forces agrees with MuJoCo's to 1 %; in {deep} bodies are deeper than 0.9 mm in each other, where
+MuJoCo's forces are those of its soft contacts.
+
+Columns: active limits; rows of equalities; the certificate of the answer, or what refuses it;
+largest velocity in MuJoCo and of the answer [m/s, rad/s]; sums of normal forces; how far the
+forces of the answer are from balance, over the largest; how many sentences say what is left out;
+why sums of forces differ at rest: "deep", or "several", where a redundant grip has many forces.
+
+{table}
+"""
+
+
+@dataclass
+class Found:
+    """What became of one model."""
+
+    path: str
+    n_v: int = 0
+    contacts: int = 0
+    limits: int = 0
+    equalities: int = 0
+    fastest: float = 0.0
+    deepest: float = 0.0
+    theirs: float = 0.0
+    ours: float = 0.0
+    speed: float = 0.0
+    off: float = 0.0
+    seconds: float = 0.0
+    kind: str = ""
+    cone: str = ""
+    refused: str = ""
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def rests(self) -> bool:
+        """Whether it is answered, rests and touches."""
+        return bool(not self.refused and self.contacts and self.fastest < AT_REST)
+
+
+def settled(model: Any) -> Any:
+    """The state of a model after a while, from its first keyframe if it has one."""
+    data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    for _ in range(min(MOST, round(SETTLED / model.opt.timestep))):
+        mujoco.mj_step(model, data)
+    return data
+
+
+def imbalance(model: Any, data: Any, coordinates: Coordinates, answer: StepSolution) -> float:
+    """How far forces on the coordinates are from balance, over the largest of them [-].
+
+    Contact forces act on each body at its surface, by ``mj_applyFT``; limits, equalities and
+    friction act along ``efc_J``; all else is ``qfrc_smooth``. What is left is K_q delta_q_a of
+    actuated coordinates, and M delta_q_u / h^2 of the others.
+    """
+    step = answer.step
+    wide = copy.copy(model)
+    wide.jnt_margin[:] = wide.tendon_margin[:] = FAR
+    wide.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    rest = copy.copy(data)
+    rest.qvel[:] = 0.0
+    mujoco.mj_forward(wide, rest)
+    push = np.zeros(model.nv)
+    touches = [c for c in rest.contact if c.exclude in (0, 1)]
+    for touch, (f_1, f_2, f_n, tau) in zip(touches, answer.wrench, strict=True):
+        n, d1, d2 = touch.frame.reshape(3, 3)
+        force = f_n * n + f_1 * d1 + f_2 * d2
+        for geom, side in zip(touch.geom, (-1.0, 1.0), strict=True):
+            point = touch.pos + side * touch.dist / 2 * n
+            body = model.geom_bodyid[geom]
+            mujoco.mj_applyFT(model, rest, side * force, side * tau * n, point, body, push)
+    J = rest.efc_J.reshape(-1, model.nv)
+    kinds = mujoco.mjtConstraint
+    types = [kinds(t).name.split("_", 1)[1] for t in rest.efc_type[: rest.nefc]]
+    limited = [
+        i for kind in ("LIMIT_JOINT", "LIMIT_TENDON") for i, t in enumerate(types) if t == kind
+    ]
+    of_rows = any(name.startswith("equality") for name in step.extra.names)
+    joint = mujoco.mjtEq.mjEQ_JOINT
+    equal = [i for i, t in enumerate(types) if t == "EQUALITY" and of_rows]
+    tied = [i for i in equal if wide.eq_type[rest.efc_id[i]] != joint]
+    impulses = answer.lam_extra / step.h
+    of_limits, of_ties, of_friction = np.split(impulses, np.cumsum([len(limited), 2 * len(tied)]))
+    push += J[limited].T @ of_limits
+    push += J[tied].T @ (of_ties[: len(tied)] - of_ties[len(tied) :])
+    T = coordinates.T
+    rubbed = np.zeros(step.n_v)
+    p = len(of_friction) // 2
+    for row, force in zip(
+        step.extra.A[len(impulses) - p :, : step.n_v - p],
+        of_friction[:p] - of_friction[p:],
+        strict=True,
+    ):
+        rubbed[: step.n_v - p] -= row * force
+    x = answer.delta_q
+    n_a = step.n_a
+    M = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(wide, rest, M)
+    taken = np.concatenate([step.K_q @ x[:n_a], (T.T @ M @ T)[n_a:, n_a:] @ x[n_a:] / step.h**2])
+    parts = [T.T @ rest.qfrc_smooth, T.T @ push, rubbed, -taken]
+    of_own = step.n_v - p  # rises have no place in MuJoCo
+    left = np.abs(sum(parts)[:of_own]).max(initial=0.0)
+    return float(left / (np.abs(parts).max(initial=0.0) or 1.0))
+
+
+def census(path: Path, root: Path) -> Found | None:
+    """What becomes of a file; None if it does not load or has no coordinates."""
+    try:
+        model = mujoco.MjModel.from_xml_path(str(path))
+    except ValueError:
+        return None
+    if not model.nv:
+        return None
+    found = Found(path.relative_to(root).as_posix(), model.nv)
+    data = settled(model)
+    found.contacts = int(data.ncon)
+    types = data.efc_type[: data.nefc]
+    limits = (mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT, mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON)
+    found.limits = int(np.isin(types, [int(kind) for kind in limits]).sum())
+    found.equalities = int(data.ne)
+    found.fastest = float(np.abs(data.qvel).max())
+    found.deepest = float(max((c.includemargin - c.dist for c in data.contact), default=0.0))
+    force = np.zeros(6)
+    for i in range(data.ncon):
+        mujoco.mj_contactForce(model, data, i, force)
+        found.theirs += float(force[0])
+    start = time.perf_counter()
+    try:
+        step, coordinates = mujoco_step(model, data, H)
+        found.cone = step.cone
+        found.left_out = coordinates.left_out
+        answer = solve_step(step)
+    except QuasistaticError as error:
+        found.refused = f"{type(error).__name__}: {error}"
+        return found
+    found.seconds = time.perf_counter() - start
+    found.kind = answer.certificate.kind
+    found.off = imbalance(model, data, coordinates, answer)
+    found.speed = float(np.abs(coordinates.T @ answer.delta_q).max() / H)
+    try:
+        found.ours = float(answer.forces[:, 2].sum())
+    except QuasistaticError:  # those of the proof are one choice of several
+        found.ours = float(answer.wrench[:, 2].sum())
+    return found
+
+
+def differs(found: Found) -> str:
+    """Why MuJoCo's normal forces are others, where they are."""
+    if not found.rests or abs(found.ours - found.theirs) <= AGREES * abs(found.theirs):
+        return ""
+    return "deep" if found.deepest >= DEEP else REASONS.get(Path(found.path).name, "unknown")
+
+
+def page(every: list[Found]) -> str:
+    """The committed page."""
+    answered = [f for f in every if not f.refused]
+    rest = [f for f in answered if f.rests]
+    rows = [
+        (f.path, f.n_v, f.contacts, f.limits, f.equalities, f.cone, f.kind or f.refused,
+         f"{f.fastest:.1e}", f"{f.speed:.1e}", f"{1e3 * f.deepest:.3g}", f"{f.theirs:.4g}",
+         f"{f.ours:.4g}", f"{f.off:.0e}", len(f.left_out), differs(f))
+        for f in every
+    ]  # fmt: skip
+    kinds = Counter(f.kind for f in answered)
+    seconds = [f.seconds for f in answered]
+    return PAGE.format(
+        version=mujoco.__version__,
+        packages=", ".join(PACKAGES),
+        models=len(every),
+        answered=len(answered),
+        refused=len(every) - len(answered),
+        rest=len(rest),
+        kinds=", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items())),
+        agree=sum(not differs(f) for f in rest),
+        deep=sum(differs(f) == "deep" for f in rest),
+        middle=1e3 * float(np.median(seconds)),
+        longest=max(seconds),
+        balanced=sum(f.off <= BALANCED for f in answered),
+        limit=BALANCED,
+        table="\n".join(markdown_table(HEAD, rows, 1)),
+    )
+
+
+def main() -> int:
+    """Ask all models, write the page, and return the exit status."""
+    options = asked(__doc__, folder=Path, out=Path)
+    with tempfile.TemporaryDirectory() as own, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated
+        folder = options.folder or Path(own)
+        if not any(folder.iterdir()):
+            pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target"]
+            subprocess.run([*pip, str(folder), *PACKAGES], check=True)
+        all_of_them = (census(path, folder) for path in sorted(folder.rglob("*.xml")))
+        every = [found for found in all_of_them if found is not None]
+    shown(page(every), options.out)
+    refused = sum(bool(found.refused) for found in every)
+    unbalanced = sum(found.off > BALANCED for found in every)
+    return int(refused > len(every) / 10 or unbalanced > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
