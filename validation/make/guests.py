@@ -52,7 +52,7 @@ HEAD = (
     "model", "n_v", "contacts", "limits", "equalities", "cone", "answer", "fastest", "speed",
     "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "said", "why they differ",
 )  # fmt: skip
-REASONS = {"adroit_pen.xml": "several"}
+REASONS = {"adroit_pen.xml": "several", "stacker.xml": "moves"}
 """Of models at rest whose forces differ though they are not deep."""
 PAGE = """# States of others as steps
 
@@ -69,7 +69,8 @@ MuJoCo's forces are those of its soft contacts.
 Columns: active limits; rows of equalities; the certificate of the answer, or what refuses it;
 largest velocity in MuJoCo and of the answer [m/s, rad/s]; sums of normal forces; how far the
 forces of the answer are from balance, over the largest; how many sentences say what is left out;
-why sums of forces differ at rest: "deep", or "several", where a redundant grip has many forces.
+why sums of forces differ at rest: "deep"; "several", where a
+redundant grip has many forces; "moves", where the answer is not at rest.
 
 {table}
 """

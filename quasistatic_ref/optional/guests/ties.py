@@ -24,7 +24,7 @@ class Tied(NamedTuple):
     dofs : ndarray of int, shape (n,)
         The joints that remain, by their places among MuJoCo's velocities.
     T : ndarray, shape (nv, n)
-        MuJoCo's displacement, per unit of the coordinates that remain.
+        MuJoCo's displacement, per unit of the coordinates that remain [-].
     eliminated : tuple of int
         Numbers of the constraints of MuJoCo that T satisfies.
     """
@@ -46,7 +46,7 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
     kinds : collection of str
         Such as ``("JOINT",)``.
     heavy : ndarray, shape (nv,)
-        Diagonal of H of all joints, for natural units.
+        Diagonal of H of all joints, for natural units [N s/m, N m s/rad].
 
     Raises
     ------
@@ -102,7 +102,7 @@ def equalities(state: Still, tied: Tied, diagonal: Array, as_is: bool) -> Extra:
     state : Still
     tied : Tied
     diagonal : ndarray, shape (n,)
-        Of H of the coordinates that remain, for natural units.
+        Of H of the coordinates that remain, for natural units [N s/m, N m s/rad].
     as_is : bool
         Whether their residuals are closed in the step.
 
