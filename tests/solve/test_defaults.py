@@ -83,7 +83,7 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by
     simulator = scenario.simulator()
     honest = Daqp.reply
     q = scenario.system.q_start
-    simulator.compiled = simulator.compiled if by_code else None
+    simulator.by_c = by_code
     backends = []
     for k in range(4):
         fails = k in (1, 2)

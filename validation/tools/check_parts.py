@@ -27,6 +27,7 @@ PARTS = {
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
+    "guests": ([], ""),
     "large": (["--certify", "residual"], 'certify = "residual"'),
     "mjcf": ([], ""),
     "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),

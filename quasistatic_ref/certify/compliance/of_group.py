@@ -44,13 +44,13 @@ def group_compliance(step: StepData) -> float:
     least = np.inf
     for side in sides(step):
         J = frame_jacobian(step.contacts, step.contacts.J[:, :, side])[:3]
-        K = step.H[np.ix_(side, side)] / step.h
         # LAPACK rounds differently on other processors. That counts where c is as near to one power
         # of two as to the next, and then forces change by what they lose.
-        b = energy_norm(K).of_impulses(np.concatenate(J)) ** 2
-        moves = b[b > HARDLY_MOVES * b.max(initial=0.0)]
+        moves = energy_norm(step.H[np.ix_(side, side)]).of_impulses(np.concatenate(J))
+        moves = moves[moves > np.sqrt(HARDLY_MOVES) * moves.max(initial=0.0)]
         least = min(least, moves.min(initial=np.inf))
     if least == np.inf:
         return NOTHING_MOVES
-    exponent = round(float(np.log2(COMPLIANCE * least)))
+    # b = h J H^-1 J' = h least^2, which may leave the range of float64 where its logarithm does not
+    exponent = round(float(np.log2(COMPLIANCE) + np.log2(step.h) + 2 * np.log2(least)))
     return float(2.0 ** np.clip(exponent, SMALLEST, LARGEST))

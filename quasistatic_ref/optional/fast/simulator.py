@@ -10,6 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.fast.backends import (
     default_backend,
     entries_of_J,
@@ -24,7 +25,13 @@ from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
 from quasistatic_ref.optional.fast.compiled.screws import Screws
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, constants, posed
+from quasistatic_ref.optional.fast.posed import (
+    Constants,
+    PosedContacts,
+    PosedStep,
+    constants,
+    posed,
+)
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import part
@@ -185,6 +192,25 @@ class FastSimulator(Simulator):
         step = posed(constant.kind, self.same, own)
         return step, StandardForm(constant.H, g, numbers["A"], numbers["b"]), points
 
+    def step_data(
+        self,
+        q: Array,
+        q_bar_a: Array,
+        force: Array | float,
+        points: ClosestPoints,
+        kinematics: Kinematics,
+    ) -> StepData:
+        """The problem of one step, as in the base, with the H that all steps share.
+
+        A backend that starts warm keeps what it made of H: a run that is resumed asks it for steps
+        of this function, and must end with the bits of one that was not.
+        """
+        step = super().step_data(q, q_bar_a, force, points, kinematics)
+        if self.constant.kind is not PosedStep or self.system.varying_mass is not None:
+            return step
+        own = ("tau_a", "tau_u", "delta_q_bar_a", "contacts")
+        return posed(PosedStep, self.same, {name: getattr(step, name) for name in own})
+
     def constant_here(self) -> Constants:
         """What steps have in common, with M_u at the poses; StepDataError if it is not definite."""
         mass = self.system.varying_mass
@@ -220,7 +246,7 @@ class FastSimulator(Simulator):
         """Whether the numbers of a dense step, and its matrices, are those of the plain path."""
         kinematics = self.system.kinematics(q)
         points = self.closest_points(kinematics)
-        plain = self.step_data(q, q_bar_a, force, points, kinematics)
+        plain = super().step_data(q, q_bar_a, force, points, kinematics)
         return plain == step and (not self.has_rows or bits(form) == bits(standard_form(plain)))
 
     def solution_of(self, step: StepData, form: StandardForm, q: Array) -> StepSolution:

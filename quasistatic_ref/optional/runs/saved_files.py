@@ -259,7 +259,8 @@ class Lock:
                 descriptor = os.open(folder, os.O_RDONLY)
             except OSError as error:
                 reason = error.strerror or str(error)
-                raise InputError(f"cannot be written: {reason}", file=folder) from None
+                problem = f"cannot be written: {reason}; choose another folder"
+                raise InputError(problem, file=folder.parent) from None
             try:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 if os.path.samestat(os.fstat(descriptor), os.stat(folder)):
@@ -307,7 +308,7 @@ def first_step(path: str | Path, steps: int, resume: bool) -> int:
         not go on from; or if the file holds something else.
     """
     folder = saved_folder(path)
-    if folder.is_dir():
+    if os.path.isdir(folder):  # false of a name that is too long, which Path.is_dir refuses
         Lock(folder).release()
     there = steps_in(path)
     saved = saved_steps(path)

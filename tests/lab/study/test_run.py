@@ -61,7 +61,7 @@ def test_the_making_of_problems_may_be_interrupted(tmp_path, monkeypatch, capsys
 
 
 def command(path, store):
-    return [sys.executable, "-m", "quasistatic_ref.cli.main", "study", "run", str(path),
+    return [sys.executable, "-m", "quasistatic_ref", "study", "run", str(path),
             "--out", str(store)]  # fmt: skip
 
 

@@ -129,7 +129,7 @@ def test_serving_answers_each_line_and_survives_what_is_no_case():
     assert all("error" in answer for answer in answers[1:])
 
 
-OWN = f"{sys.executable} -m quasistatic_ref.cli.main vectors challenge --serve own"
+OWN = f"{sys.executable} -m quasistatic_ref vectors challenge --serve own"
 
 
 PROGRAMS = {**planted_bugs.COMMANDS, "package": OWN}

@@ -174,7 +174,8 @@ def test_the_page_loads_nothing_from_elsewhere_and_escapes_names(tmp_path):
     assert "<script" not in files["report.html"]
     assert ElementTree.fromstring(files["badge.svg"]).find(f"{SVG}title").text.startswith(name)
     rows = [line for line in files["report.md"].splitlines() if line.startswith("| implementation")]
-    assert rows == ["| implementation | " + name.replace("|", "\\|") + " |"]
+    shown = name.replace("<", "&lt;").replace("|", "\\|")
+    assert rows == [f"| implementation | {shown} |"]
 
 
 def test_the_same_answers_give_the_same_bytes(whole, tmp_path):

@@ -18,7 +18,8 @@ def numbers_in(value):
 def test_no_tolerance_passes_anything_or_nothing(layer):
     """At most 1e-5 of what a field holds, or of one; 0 only of copies and of sums of zeros.
 
-    Forces are lengths over 1e-9 m/N: the 1e-14 m of distances in another rounding are 1e-5 N.
+    Forces are lengths over the compliance of the case, down to 4e-12 m/N: the 1e-14 m of distances
+    in another rounding are 2.5e-3 N there, and 2e-2 N of 12 N where links lie between.
     """
     for name, record in expected(layer).items():
         for field, tolerance in record["tolerance"].items():
@@ -26,7 +27,7 @@ def test_no_tolerance_passes_anything_or_nothing(layer):
             value = record["output"][outer]
             within = [contact[inner] for contact in value] if inner else [value]
             sizes = [abs(v) for _, v in numbers_in(within)]
-            share = 2e-4 if field == "forces" else 1e-5
+            share = 2e-3 if field == "forces" else 1e-5
             assert tolerance["absolute"] <= share * max([1.0, *sizes]), (name, field)
             copied = field in ("b", "indices") or not sizes
             zeros = layer in ("rows", "wrench") and not any(sizes)

@@ -58,6 +58,7 @@ certify/residuals.py
     JUDGE enclosure
 certify/compliance/forces.py certify/compliance/faces.py
 certify/compliance/eliminated.py certify/compliance/face_guess.py
+certify/compliance/of_group.py
 optional/ellipsoid/forces.py
     forces ellipsoid/enclosure
 certify/arithmetic.py
