@@ -22,8 +22,9 @@ from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 
 NOTHING_MOVES = 1e-9
 """c [m/N] of contacts between what stands: they bear nothing, whatever it is."""
-SMALLEST, LARGEST = -900, 900
-"""Exponents of a compliance: it and its square root are numbers of float64."""
+SMALLEST = -900
+LARGEST = 900
+"""Least and largest exponent of a compliance: it and its square root are numbers of float64."""
 
 
 def group_compliance(step: StepData) -> float:

@@ -28,7 +28,7 @@ class Case(NamedTuple):
 
     world: str
     without: Callable[[Any, Any], Any]
-    given: dict[str, Any] = {}  # noqa: RUF012
+    given: dict[str, Any] = {}  # noqa: RUF012 a field's default, which nothing writes into
     more: str = ""
     gravity: str = "0 0 -9.81"
     default: str = ""
