@@ -16,19 +16,14 @@ def numbers_in(value):
 
 @pytest.mark.parametrize("layer", LAYERS)
 def test_no_tolerance_passes_anything_or_nothing(layer):
-    """At most 1e-5 of what a field holds, or of one; 0 only of copies and of sums of zeros.
-
-    Forces are lengths over the compliance of the case, down to 4e-12 m/N: the 1e-14 m of distances
-    in another rounding are 2.5e-3 N there, and 2e-2 N of 12 N where links lie between.
-    """
+    """At most 1e-5 of what a field holds, or of one; 0 only of copies and of sums of zeros."""
     for name, record in expected(layer).items():
         for field, tolerance in record["tolerance"].items():
             outer, _, inner = field.partition(".")
             value = record["output"][outer]
             within = [contact[inner] for contact in value] if inner else [value]
             sizes = [abs(v) for _, v in numbers_in(within)]
-            share = 2e-3 if field == "forces" else 1e-5
-            assert tolerance["absolute"] <= share * max([1.0, *sizes]), (name, field)
+            assert tolerance["absolute"] <= 1e-5 * max([1.0, *sizes]), (name, field)
             copied = field in ("b", "indices") or not sizes
             zeros = layer in ("rows", "wrench") and not any(sizes)
             assert tolerance["absolute"] > 0 or copied or zeros, (name, field)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
 from quasistatic_ref.lab.vectors.layers import layer
@@ -80,10 +80,19 @@ def stack():
 
 def test_forces_are_those_that_fractions_prove_on_the_step_of_the_package():
     case, record, answer = case_of("step/cloud/tilted")
-    found = independent_forces(posed_case(case).step, COMPLIANCE)
+    found = independent_forces(posed_case(case).step, case["pairs"][0]["compliance"])
     allowed = record["tolerance"]["forces"]["absolute"]
     assert np.abs(found).max() > 1e4 * allowed
     np.testing.assert_allclose(answer["forces"], found, rtol=0, atol=allowed)
+
+
+@pytest.mark.parametrize("name", ["mimic/revolute_actuated", "panda_push/0", "stack/0"])
+def test_forces_by_half_the_compliance_are_wrong(name):
+    case, record, answer = case_of(f"step/{name}")
+    c = case["pairs"][0]["compliance"]  # all pairs of these cases have the same
+    forces = contact_forces(posed_case(case).step, c / 2).wrench.tolist()
+    verdict = case_verdict("step", case, record, {**answer, "forces": forces})
+    assert (verdict.verdict, verdict.field) == ("failed", "forces")
 
 
 @pytest.mark.parametrize("component", range(4))

@@ -21,9 +21,10 @@ from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.step.standard_form import standard_form
 
-COARSER = 2.0**10
-"""Compliance of a case over that of a run [-]. What a float64 program cannot know of forces is a
-last bit of phi over the compliance: here some 1e-4 of the load."""
+COARSER = 2.0**18
+"""Compliance of a case over that of a run [-]. Forces are known as well as phi over the compliance:
+what float64 leaves open of them is at most 1e-5 of the largest, or of 1 N, in the vectors. Half the
+compliance changes the forces of a case by more."""
 
 
 class PosedCase(NamedTuple):
