@@ -44,7 +44,7 @@ FAST = (
     "quasistatic-ref run sphere_spin --set steps=20 --json",
 )
 """With the compiler that comes along, also where the system has one."""
-PARQUET = ("quasistatic-ref vectors export --out bundle",)
+PARQUET = ("quasistatic-ref study problems export --to parquet --out problems",)
 PANDAS = (
     'python -c "from quasistatic_ref import load_scenario as load; '
     "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
@@ -129,7 +129,7 @@ REFUSED = {
         "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
         "quasistatic-ref run sphere_spin --set steps=5 --out short --view": "quasistatic-ref[view]",
         "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
-        "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
+        "quasistatic-ref study problems export --to parquet": "quasistatic-ref[parquet]",
         "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
         "quasistatic-ref figures plan_a_push": "quasistatic-ref[jax]",
         "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",

@@ -16,7 +16,6 @@ ACTIONS = {
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
     "pack": "write the vectors as one archive to be kept, with its SHA-256",
-    "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
 }
 OUT = {"own": "answers", "report": "conformance", "pack": "."}
 """Where an action writes; ``vectors`` otherwise."""
@@ -147,15 +146,6 @@ def _own(options: argparse.Namespace) -> int:
     return 0
 
 
-def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.parquet import exported_programs, npz_written, parquet_written
-
-    programs = exported_programs(vectors_given(options))
-    print(parquet_written(options.out / "quasistatic_ref.parquet", programs))
-    print(npz_written(options.out / "quasistatic_ref.formats.npz", programs))
-    return 0
-
-
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
     "report": run_report,
@@ -163,5 +153,4 @@ RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "generate": _generate,
     "own": _own,
     "pack": run_pack,
-    "export": _export,
 }

@@ -10,13 +10,16 @@ from pathlib import Path
 import highspy
 import numpy as np
 import pytest
+from pyarrow.parquet import read_table
 from scipy.io import loadmat
 from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
 from quasistatic_ref.lab.study.problems.names import FORMATS
+from quasistatic_ref.lab.study.problems.problem import Problem
 
 
 @pytest.fixture
@@ -94,6 +97,44 @@ def test_files_in_qps_are_read_by_highs_and_by_the_lines_of_the_readme(few, tmp_
                                         strict=True):  # fmt: skip
             np.testing.assert_array_equal(found, wanted)
             np.testing.assert_allclose(again, wanted, rtol=0, atol=1e-12)
+
+
+def of_rows(name, H, g, A, b):
+    """A problem of which nothing but its numbers is known."""
+    return Problem({"id": name}, csr_matrix(H), g, csr_matrix(A), b, None, None)
+
+
+ROWS = [
+    of_rows(
+        "two rows",
+        np.array([[2.0, 1.0], [1.0, 3.0]]),
+        np.array([1.0, 0.0]),
+        np.array([[1.0, 2.0], [3.0, 4.0]]),
+        np.array([-1.0, 0.0]),
+    ),
+    of_rows("no rows", np.eye(3), np.arange(3.0), np.zeros((0, 3)), np.zeros(0)),
+]
+
+
+def test_parquet_holds_qpbenchmarks_columns_with_its_signs(tmp_path):
+    # min 1/2 x'Px + q'x, Gx <= h against min 1/2 x'Hx - g'x, Ax >= b: q = -g, G = -A, h = -b.
+    table = read_table(exports.parquet_written(tmp_path / "qps.parquet", ROWS))
+    assert table.column_names == ["P", "q", "G", "h", "A", "b", "lb", "ub", "name"]
+    first, second = table.to_pylist()
+    assert first["P"] == [2.0, 1.0, 1.0, 3.0]
+    assert str(first["q"]) == "[-1.0, 0.0]"
+    assert first["G"] == [-1.0, -2.0, -3.0, -4.0]
+    assert str(first["h"]) == "[1.0, 0.0]"
+    assert [first[key] for key in ("A", "b", "lb", "ub")] == [None] * 4
+    assert second["q"] == [0.0, -1.0, -2.0]
+    assert (second["G"], second["h"]) == (None, None)
+    assert [row["name"] for row in (first, second)] == ["two rows", "no rows"]
+
+
+def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[parquet\]'"):
+        exports.parquet_written(tmp_path / "qps.parquet", ROWS)
 
 
 @pytest.mark.parametrize("to", FORMATS)

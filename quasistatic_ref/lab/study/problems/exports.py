@@ -5,6 +5,7 @@ Each export carries a README with the layout of its files, the licences, and how
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +19,15 @@ from quasistatic_ref.formats.files import bytes_written, json_text, text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.names import PARQUET, QPS
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
-from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
+from quasistatic_ref.parts import needed_package
 
 CARRIED = ("LICENSE*", "CITATION.cff")
 """Files of a set that come with every export of it; of contact-qp-2, where a set has none."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
 VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
+QPBENCHMARK = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
+"""Columns of its Parquet files: min 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub."""
 
 
 def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> list[Path]:
@@ -163,15 +166,38 @@ def _json(path: Path, problems: Sequence[Problem]) -> Path:
 def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]:
     """What qpbenchmark's command takes, and what answers are graded by."""
     stem = name.replace("-", "_")
-    programs = [Program(one.id, *one.form, one.answer.x) for one in problems]
     title = "".join(part.title() for part in stem.split("_"))
     template = (Path(__file__).parent / "test_set.txt").read_text("utf-8")
     module = template.format(name=stem, title=title, words=name)
     return [
-        parquet_written(folder / f"{stem}.parquet", programs),
-        npz_written(folder / f"{stem}.npz", programs),
+        parquet_written(folder / f"{stem}.parquet", problems),
+        _npz(folder / f"{stem}.npz", problems),
         text_written(folder / f"{stem}.py", module),
     ]
+
+
+def parquet_written(path: Path, problems: Sequence[Problem]) -> Path:
+    """Write problems so that ``qpbenchmark.ParquetTestSet`` reads them, one a row.
+
+    Ours have P = H, q = -g, G = -A and h = -b; matrices are flattened row by row.
+
+    Raises
+    ------
+    InputError
+        If pyarrow is not installed, or the file cannot be written.
+    """
+    arrow = needed_package("pyarrow", "parquet", "a Parquet file")
+    parquet = import_module("pyarrow.parquet")
+    columns: dict[str, list[Any]] = {key: [None] * len(problems) for key in QPBENCHMARK}
+    columns["name"] = [one.id for one in problems]
+    forms = [one.form for one in problems]
+    columns["P"] = [form.H.ravel() for form in forms]
+    columns["q"] = [0.0 - form.g for form in forms]
+    columns["G"] = [0.0 - form.A.ravel() if form.b.size else None for form in forms]
+    columns["h"] = [0.0 - form.b if form.b.size else None for form in forms]
+    kinds = {key: arrow.list_(arrow.float64()) for key in QPBENCHMARK} | {"name": arrow.string()}
+    table = arrow.table(columns, schema=arrow.schema(list(kinds.items())))
+    return written_whole(path, lambda file: parquet.write_table(table, file))
 
 
 def _parts(one: Problem) -> dict[str, Any]:
