@@ -1,13 +1,12 @@
-"""A guess that is confirmed in balls ends at the bits of the exact method: each wrong one is seen.
+"""A guess that C proves ends at the bits of the exact method: each wrong one is seen.
 
 Run ``python -m validation.make.confirmed_bits --out FILE`` (two minutes on two cores; ``--random``
 makes it shorter). Random steps of every polyhedral cone, degenerate ones among them, as they are
-and in units up to 2^40 apart. Of each, the exact method finds a working set from cold;
-``confirmed`` is then given that set, and others that are wrong: without a row, with one more, with
-one exchanged, and random ones. What it confirms must be equal in every bit to what the exact method
-makes of the same guess. (Where multipliers are not unique, some of these sets hold the optimum as
-well: "also right".) Compiled code is given the same sets, and what it proves must have the same
-bits. "Nearby" are wrong sets from which walks in float64 lead to one that is proved.
+and in units up to 2^40 apart. Of each, the exact method finds a working set from cold. C is then
+given that set, and others that are wrong: without a row, with one more, with one exchanged, and
+random ones. What it proves must be equal in every bit to what the exact method makes of the same
+guess. (Where multipliers are not unique, some of these sets hold the optimum as well: "also
+right".) "Nearby" are wrong sets from which walks in float64 lead to one that is proved.
 
 Prints a table, and exits with status 1 if a bit differs.
 """
@@ -28,7 +27,6 @@ from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.solve.units import (
     DenseStepInBothUnits,
@@ -43,8 +41,7 @@ from validation.tools.scripts import asked, shown
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COLUMNS = (
-    "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused",
-    "also right", "proved too", "nearby",
+    "optima", "infeasible", "proved", "left open", "wrong sets", "refused", "also right", "nearby",
 )  # fmt: skip
 
 
@@ -88,7 +85,7 @@ def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
 
 
 def proof(step: StepData, rows: Indices) -> Proof:
-    """What compiled code makes of a guess, where there is any."""
+    """What C makes of a guess, where there is a compiler."""
     fast = compiled("certificate")
     if fast is None:
         return None
@@ -99,12 +96,10 @@ def proof(step: StepData, rows: Indices) -> Proof:
     return None if own is None else own.optimum(step, rows, both.units)
 
 
-def nearby_answer(
-    step: StepData, guess: list[int], hessian: BallHessian, by_code: bool
-) -> ExactOptimum | None:
-    """What is proved on a guess or near it, in balls or by compiled code."""
+def nearby_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
+    """What C proves on a guess or near it."""
     rows = np.array(sorted(set(guess)), dtype=np.int64)
-    prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
+    prove = partial(proof, step)
     return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))[0]
 
 
@@ -115,18 +110,16 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     faults = []
     rng = np.random.default_rng([seed, 2])
     form = exact_form(step)
-    hessian = BallHessian(step)
     truth = form_optimum(form)
 
-    def answers(guess: list[int]) -> tuple[ExactOptimum | None, ...]:
-        """What is confirmed and what compiled code proves, each compared with the exact method."""
-        rows = np.array(sorted(set(guess)), dtype=np.int64)
-        tried = BallStep(step, hessian).confirmed(guess), proof(step, rows)
-        found = tuple(one if isinstance(one, ExactOptimum) else None for one in tried)
-        for one in found:
-            if one is not None and (wrong := differing(one, form_optimum(form, guess))):
-                faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
-        return found
+    def answer(guess: list[int]) -> ExactOptimum | None:
+        """What C proves, compared with the exact method."""
+        one = proof(step, np.array(sorted(set(guess)), dtype=np.int64))
+        if not isinstance(one, ExactOptimum):
+            return None
+        if wrong := differing(one, form_optimum(form, guess)):
+            faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+        return one
 
     if isinstance(truth, Farkas):
         found["infeasible"] += 1
@@ -134,21 +127,14 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     else:
         found["optima"] += 1
         right = list(truth.working_set)
-        answer, proved = answers(right)
-        found["left open" if answer is None else "confirmed"] += 1
-        found["compiled"] += proved is not None
+        found["left open" if answer(right) is None else "proved"] += 1
     for guess in wrong_sets(rng, right, form.m):
-        answer, proved = answers(guess)
         found["wrong sets"] += 1
-        found["refused" if answer is None else "also right"] += 1
-        found["proved too"] += proved is not None
-        if (near := nearby_answer(step, guess, hessian, by_code=False)) is not None:
+        found["refused" if answer(guess) is None else "also right"] += 1
+        if (near := nearby_answer(step, guess)) is not None:
             found["nearby"] += 1
             may = NEARBY if near.multipliers_unique else OTHERS
-            wrong = sorted(set(differing(near, truth)) - may)
-            same = nearby_answer(step, guess, hessian, by_code=True)
-            wrong += [] if same is None else differing(near, same)
-            if wrong:
+            if wrong := sorted(set(differing(near, truth)) - may):
                 faults.append(f"{kind}, step {seed}, near {guess}: {', '.join(wrong)}")
     return kind, found, faults
 
@@ -167,7 +153,7 @@ def main() -> int:
     lines = [f"{'':24}" + "".join(f"{name:>12}" for name in COLUMNS)]
     for kind in sorted(found, key=lambda kind: (kind == "all", kind)):
         lines.append(f"{kind:24}" + "".join(f"{found[kind][name]:>12}" for name in COLUMNS))
-    lines += faults or ["What was confirmed has the bits of the exact method, in every field."]
+    lines += faults or ["What was proved has the bits of the exact method, in every field."]
     shown("\n".join(lines), options.out)
     return int(bool(faults))
 

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -11,9 +10,8 @@ from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_opti
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted, proved_nearby
-from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
+from quasistatic_ref.optional.fast.guess.far import BallHessian, Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
@@ -65,22 +63,16 @@ class Kept:
     """What proofs of steps keep while H, and the rows of contacts, stay."""
 
     def __init__(self) -> None:
-        self.hessian: BallHessian | None = None
-        self.hessian_in_both_units: HessianInBothUnits | None = None
+        self.hessian: HessianInBothUnits | None = None
+        self._in_balls: BallHessian | None = None
         self._alone: Any = None
         self._of_alone: tuple[HessianInBothUnits, str, bytes, int] | None = None
 
-    def hessian_of(self, step: StepData) -> BallHessian:
-        """H of a step in balls: the one that is kept, if it is the same.
-
-        Raises
-        ------
-        StepDataError
-            If H, whose entries are rounded, is not positive definite.
-        """
-        if self.hessian is None or not self.hessian.fits(step):
-            self.hessian = BallHessian(step)
-        return self.hessian
+    def in_balls(self, step: StepData) -> BallHessian:
+        """H of a step in balls: the one that is kept, if it is the same."""
+        if self._in_balls is None or not self._in_balls.fits(step):
+            self._in_balls = BallHessian(step)
+        return self._in_balls
 
     @property
     def norm(self) -> EnergyNorm:
@@ -104,7 +96,7 @@ class Kept:
     def proved(
         self, both: DenseStepInBothUnits, lam: Array, slack: Array, in_c: Any
     ) -> tuple[ExactOptimum | None, list[int]]:
-        """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
+        """The optimum of a step, proved in C on the rows that an answer presses or near them.
 
         Parameters
         ----------
@@ -117,20 +109,21 @@ class Kept:
         Returns
         -------
         ExactOptimum or None
-            None where neither decides everything.
+            None where C does not decide everything.
         list of int
             Where the exact method is then to start.
         """
         step = both.si_step
-        in_balls = cache(lambda: BallStep(step, self.hessian_of(step)))
         in_c = self.alone(both, lam, slack) if in_c is None else in_c
+        if in_c is None:
+            return None, warm_rows(both.natural_form.A, lam, slack)
 
         def proof(guess: Indices) -> Proof:
-            found: Proof = None if in_c is None else in_c.optimum(step, guess, both.units)
+            found: Proof = in_c.optimum(step, guess, both.units)
             kind = REFUTED if isinstance(found, Refuted) else GROUP
             if found is not None and is_due(kind, step.n_v):
                 check(step, guess, found)
-            return in_balls().confirmed(guess) if found is None else found
+            return found
 
         guess = _guess(both, lam, slack)
         found, last = proved_nearby(proof, guess, both.si_form, both.hessian.H_inverse)
@@ -188,18 +181,11 @@ class KeptGroup:
         return group_optimum(whole.si_step, self.group, own.si_step, start)
 
     def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
-        """The step of the group in its own natural units, from the `whole` step.
-
-        Raises
-        ------
-        StepDataError
-            If M_u is not positive definite.
-        """
+        """The step of the group in its own natural units, from the `whole` step."""
         both = whole
         if self.constant is not None or not isinstance(both, DenseStepInBothUnits):
-            both = KeptStepInBothUnits(self.step(whole.si_step), self.kept.hessian_in_both_units)
-            self.kept.hessian_in_both_units = both.hessian
-        self.kept.hessian_of(both.si_step)
+            both = KeptStepInBothUnits(self.step(whole.si_step), self.kept.hessian)
+        self.kept.hessian = both.hessian
         return both
 
     def step(self, step: StepData) -> StepData:
@@ -287,7 +273,7 @@ class Proofs:
             for part in parts:
                 own = part.step(step)
                 working = part.group.within(optimum.working_set)
-                points.append((part.group.coordinates, own, part.kept.hessian_of(own), working))
+                points.append((part.group.coordinates, own, part.kept.in_balls(own), working))
             slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)

@@ -17,9 +17,7 @@ SETS = {
     "JUDGE": (
         "eq09_force_balance eq10_primal_feasibility eq11_dual_feasibility eq12_complementarity"
     ),
-    "EXACT": (
-        "exact active_set rational rounding certificate farkas confirm exact_against_enumeration"
-    ),
+    "EXACT": ("exact active_set rational rounding certificate farkas exact_against_enumeration"),
     "FORGED": "single_faults enclosure forgeries",
     "SOLVERS": "adapters second_order extended kept_between_steps native backends solver units",
     "SOLVED": "kept_between_steps plain_programs solver backends problem cones",
@@ -48,7 +46,7 @@ step/cones.py
     PAGE JUDGE completion standard_form problem
 step/groups.py
     own
-optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
+optional/fast/guess/exchange.py certify/farkas.py
 model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
@@ -220,8 +218,6 @@ optional/derivatives/contact/kinks.py optional/derivatives/contact/point_ties.py
 optional/derivatives/contact/spare_pairs.py optional/derivatives/contact/closest_point_rates.py
 optional/derivatives/model/mass_rates.py optional/derivatives/model/motion_rates.py
     DIFFERENTIATED
-optional/fast/guess/zeros.py
-    confirm
 optional/derivatives/contact/contact_rates.py
     couples DIFFERENTIATED
 optional/derivatives/model/tangent.py

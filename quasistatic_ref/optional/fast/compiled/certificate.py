@@ -2,26 +2,26 @@
 
 import math
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
-from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group
 
 DECIDED = 0
-REFUTED = 6
-TO_BE_IMPLIED = 7
+REFUTED = 7
 NOT_POSED = 8
-"""Outcomes of a proof, as in proof.h: it holds; the guess is wrong; it holds if some numbers are
-proved to be zero; or there is none yet, of these data."""
+"""Outcomes of a proof, as in proof.h: it holds; the guess is wrong; or there is none of these
+data."""
 
 LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
@@ -39,8 +39,6 @@ class GroupProof:
 
     Attributes
     ----------
-    code : int
-        What the last proof came to.
     usable : bool
         Whether H can be written in fixed point.
     """
@@ -50,7 +48,6 @@ class GroupProof:
         step = own.si_step
         hessian = own.hessian
         self._prove = found.proof
-        self.code = NOT_POSED
         n = step.n_v
         m = step.m
         contact, row = places(step, range(m))
@@ -59,17 +56,18 @@ class GroupProof:
         s.put(
             {
                 "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
+                "code": NOT_POSED,
                 "coordinates": group.coordinates, "contacts": group.contacts,
                 "rows_of_J": (4 * group.contacts[:, None] + np.arange(4)).ravel(),
                 "rows_of_step": group.rows, "natural": self._natural.address,
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
-                "cone": cone_matrix(step.cone), "integers": combined(step.cone),
+                "cone": cone_matrix(step.cone), "integers": _combined(step.cone),
                 "contact": contact, "row": row,
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
                 "hessian_values": np.zeros((n, n)), "units": np.zeros(2), **step_arrays(step),
                 "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
-                "counts": np.zeros(2, np.int64), "implied": np.zeros(m + n, np.int64),
+                "counts": np.zeros(2, np.int64), "claims": np.zeros(2, np.int64),
             }
         )  # fmt: skip
         self._natural.put(
@@ -80,6 +78,11 @@ class GroupProof:
             }
         )  # fmt: skip
         self.usable = bool(found.hessian(s.address))
+
+    @property
+    def code(self) -> int:
+        """What the last proof came to."""
+        return self.s.number("code")
 
     @property
     def guess(self) -> Indices:
@@ -110,27 +113,16 @@ class GroupProof:
             s.put({"working": len(guess)})
             s["guess"][: len(guess)] = guess
             s["units"][:] = units.length, units.size
-            s["implied"][:] = 0
-            self.code = self._prove(s.address)
-        rows, coordinates = s["counts"].tolist()
-        idle = s["idle"][:rows]
-        still = s["still"][:coordinates]
+            self._prove(s.address)
         if self.code == REFUTED:
             return Refuted(guess, s["lam"][guess], s["slack"].copy())
-        if self.code == TO_BE_IMPLIED:
-            means = zeros(step, guess.tolist(), idle.tolist(), still.tolist())
-            if means is not None and means.implied:
-                s["implied"][idle] = 1
-                s["implied"][len(s["slack"]) + still] = 1
-            return None if means is None else _optimum(s, guess.tolist(), means)
         return self.decided()
 
     def decided(self) -> ExactOptimum | None:
         """The exact optimum, if the last proof has shown it."""
         if self.code != DECIDED:
             return None
-        unique = not self.s["counts"][0]
-        return _optimum(self.s, self.guess.tolist(), Degeneracy(unique, smooth=True))
+        return _optimum(self.s, self.guess.tolist())
 
 
 def step_arrays(step: StepData) -> dict[str, Array]:
@@ -153,8 +145,9 @@ def step_arrays(step: StepData) -> dict[str, Array]:
     }  # fmt: skip
 
 
-def _optimum(s: Structure, working: Sequence[int], means: Degeneracy) -> ExactOptimum:
+def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
     """The optimum that C has written, of a group or of a step."""
+    unique, smooth = s["claims"].astype(bool).tolist()
     least_slack, least_multiplier = s["least"].tolist()
     inactive = least_slack if least_slack < math.inf else None
     return ExactOptimum(
@@ -163,9 +156,9 @@ def _optimum(s: Structure, working: Sequence[int], means: Degeneracy) -> ExactOp
         net=s["net"].copy(),
         slack=s["slack"].copy(),
         working_set=tuple(working),
-        multipliers_unique=means.unique,
-        differentiable=means.smooth,
-        smallest_inactive_slack=inactive if means.smooth else 0.0,
+        multipliers_unique=unique,
+        differentiable=smooth,
+        smallest_inactive_slack=inactive if smooth else 0.0,
         smallest_active_multiplier=least_multiplier if working else None,
         walks=0,
     )
@@ -199,6 +192,7 @@ class Prover:
             {
                 "n_v": step.n_v, "groups": len(groups),
                 "group": np.array(addresses, np.int64), "code": np.zeros(len(groups), np.int64),
+                "claims": np.zeros(2, np.int64),
                 **step_arrays(step),
             }
         )  # fmt: skip
@@ -226,13 +220,9 @@ class Prover:
         s["mu"][:, 1:] = contacts.mu
         for i, axes in enumerate((contacts.n, contacts.d1, contacts.d2)):
             s["frame"][:, i, :3] = axes
-        idle = self._prove(s.address)
-        for proof, code in zip(self.proofs, s["code"].tolist(), strict=True):
-            if proof is not None:
-                proof.code = code
-        if idle < 0:
+        if not self._prove(s.address):
             return None
-        return _optimum(s, s["lam"].nonzero()[0].tolist(), Degeneracy(not idle, True))
+        return _optimum(s, s["lam"].nonzero()[0].tolist())
 
 
 def undivided(both: DenseStepInBothUnits) -> Prover:
@@ -248,3 +238,9 @@ def group_proof(group: Group, own: DenseStepInBothUnits) -> GroupProof | None:
         return None
     proof = GroupProof(group, own)
     return proof if proof.usable else None
+
+
+@cache
+def _combined(name: str) -> Indices:
+    """How the rows of a cone combine gap, slips and spin: integers (R, 4), times one factor > 0."""
+    return np.array(dyadic(cone_matrix(name)).m.tolist(), dtype=np.int64)

@@ -1,8 +1,8 @@
 """A guess of a working set that is wrong: where walks in floating point lead.
 
 A backend does not see rows that are violated by less than its tolerance, nor multipliers of the
-size of rounding, of which bodies at rest on each other have many. The proof of the guess does: its
-balls give the multipliers and slacks of the guess, the smallest of them too. From there the method
+size of rounding, of which bodies at rest on each other have many. The proof of the guess does: it
+gives the multipliers and slacks of the guess, the smallest of them too. From there the method
 of :mod:`~quasistatic_ref.certify.active_set` goes on in float64. It only adds to these numbers, and
 what it adds is about as small as what was violated: they stay right relative to their own size. A
 sign may be wrong all the same. Where the walks end is a guess again, to be proved like any other.

@@ -11,7 +11,6 @@ from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.guess import exchange
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import GUESSES, Refuted, proved_nearby, walked
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
@@ -23,11 +22,13 @@ from validation.make.confirmed_bits import (
     OTHERS,
     differing,
     nearby_answer,
+    proof,
     random_case,
     wrong_sets,
 )
 
 
+@needs_compiler
 def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
     """Of lam and the working set that is said where the multipliers are unique."""
     mended = 0
@@ -38,13 +39,12 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
             continue
         rng = np.random.default_rng(seed)
         right = list(truth.working_set)
-        hessian = BallHessian(step)
         for guess in wrong_sets(rng, right, len(truth.lam)):
-            found = nearby_answer(step, guess, hessian, by_code=False)
+            found = nearby_answer(step, guess)
             if found is None:
                 continue
             assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
-            mended += isinstance(BallStep(step, hessian).confirmed(guess), Refuted)
+            mended += isinstance(proof(step, np.array(sorted(set(guess)))), Refuted)
     assert mended >= 5
 
 
@@ -57,12 +57,10 @@ def refused(*_):
 
 
 @pytest.mark.extra("robots")
-@pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
-def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, by):
+@needs_compiler
+def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch):
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
     monkeypatch.setattr(method, "form_optimum", refused)
-    if by == "balls":
-        monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.compiled", lambda name: None)
     monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.warm_rows", refused)
     scenario = load_scenario("allegro_turn", fast=True)
     simulator = scenario.simulator()
@@ -76,6 +74,7 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     assert wrong > 0
 
 
+@needs_compiler
 @pytest.mark.parametrize("tries", [GUESSES, 0])
 def test_boxes_at_rest_on_each_other_do_not_cost_the_exact_method(monkeypatch, tries):
     """Four boxes, which fall by 1e-5 m a step, through three gaps of 1e-4 m; with walks alone."""
@@ -89,6 +88,7 @@ def test_boxes_at_rest_on_each_other_do_not_cost_the_exact_method(monkeypatch, t
         assert certified.step(q, NONE).solution.certificate.kind == "exact"
 
 
+@needs_compiler
 def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
     """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
     monkeypatch.setattr(method, "form_optimum", refused)

@@ -170,7 +170,7 @@ static void rounded(Proof *s, Room *m)
 }
 
 /* Correct z until no residual is above 2^-bits. */
-static void refined(const Proof *s, Room *m, int bits)
+void refined(const Proof *s, Room *m, int bits)
 {
     int64_t N = s->n_v + s->working;
     for (int round = 0; round < ROUNDS; round++) {
@@ -187,33 +187,22 @@ static void refined(const Proof *s, Room *m, int bits)
         m->rest[i] = value(m->r + i) * UP;
 }
 
-/* Whether it is known that the guess implies all that may be zero. */
-static int implied(const Proof *s)
-{
-    int all = 1;
-    for (int64_t i = 0; i < s->counts[0]; i++)
-        all = all && s->implied[s->idle[i]];
-    for (int64_t i = 0; i < s->counts[1]; i++)
-        all = all && s->implied[s->rows + s->still[i]];
-    return all;
-}
-
 static int proved(Proof *s, Room *m)
 {
     int code = OPEN_NUMBER;
     int64_t n = s->n_v, N = n + s->working;
     lost = 0;
     load(s, m->g);
-    for (int64_t i = 0; i < n; i++)
-        m->r[i] = m->g[i];
     system_of(s, m);
+    for (int64_t i = 0; i < N; i++)
+        m->r[i] = i < n ? m->g[i] : m->b[i - n];
     memcpy(m->R, m->K, (size_t)(N * N) * sizeof(double));
     if (lost)
         return LOST;
     if (!inverse(m->R, N, m->pivot))
         return SINGULAR;
     defect(m->R, m->K, N, m->G, m->e);
-    for (int bits = REFINED; code != DECIDED && bits <= FINEST; bits += FINEST - REFINED) {
+    for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;
         refined(s, m, bits);
@@ -227,9 +216,7 @@ static int proved(Proof *s, Room *m)
         if (m->refuted)
             return lost ? LOST : REFUTED;
         rounded(s, m);
-        code = m->open ? OPEN_NUMBER : DECIDED;
-        if (code == DECIDED && !implied(s) && (s->counts[1] || !spanned(s, m->table, m->pivot)))
-            code = TO_BE_IMPLIED;
+        code = m->open ? OPEN_NUMBER : zeros(s, m);
     }
     return lost ? LOST : code;
 }
@@ -238,18 +225,20 @@ static int proved(Proof *s, Room *m)
 int proof(Proof *s)
 {
     size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
-    size_t numbers = 2 * n + k * n + 2 * N, doubles = 3 * N * N + 2 * N;
-    size_t integers = (k + 1) * width + N;
+    size_t rows = (size_t)s->rows, numbers = 2 * n + k * n + k + 2 * N, doubles = 3 * N * N + 2 * N;
+    size_t integers = (k + 1) * width + N + rows;
     size_t bytes = numbers * sizeof(Number) + N * sizeof(Float) + doubles * sizeof(double)
                  + integers * sizeof(int64_t) + n;
     char *at = calloc(bytes, 1);
+    s->code = NO_MEMORY;
     if (!at)
         return NO_MEMORY;
     Room m;
     m.g = (Number *)at;
     m.net = m.g + n;
     m.A = m.net + n;
-    m.z = m.A + k * n;
+    m.b = m.A + k * n;
+    m.z = m.b + k;
     m.r = m.z + N;
     m.change = (Float *)(m.r + N);
     m.K = (double *)(m.change + N);
@@ -259,8 +248,9 @@ int proof(Proof *s)
     m.e = m.rest + N;
     m.table = (int64_t *)(m.e + N);
     m.pivot = m.table + (k + 1) * width;
-    m.rests = (char *)(m.pivot + N);
-    int code = proved(s, &m);
+    m.others = m.pivot + N;
+    m.rests = (char *)(m.others + rows);
+    s->code = proved(s, &m);
     free(at);
-    return code;
+    return (int)s->code;
 }

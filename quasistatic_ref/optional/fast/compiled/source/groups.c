@@ -9,10 +9,11 @@ typedef struct {
     Proof *const *group; /* 0: of one that is not proved here */
     /* The step, and its standard form; lam and slacks of an answer in natural units. */
     const double *delta_q_bar_a, *tau, *phi, *frame, *J, *mu, *g, *A, *b, *pressure, *gap;
-    /* What the proof of each group comes to; the optimum of those that are DECIDED; least as in
-       Proof. */
+    /* What the proof of each group comes to; the optimum of those that are DECIDED; least and claims
+       as in Proof. */
     int64_t *code;
     double *delta_q, *lam, *net, *slack, *least;
+    int64_t *claims;
 } Step;
 
 /* Some rows of a matrix, or some columns of them (all if NULL): whether a number has changed. */
@@ -35,14 +36,14 @@ static void given(double *to, const double *from, const int64_t *index, int64_t 
         to[index[i]] = from[i];
 }
 
-/* The data of a group; whether those have changed of which its rows are made. */
+/* The data of a group; whether those have changed of which its optimum is made. */
 static int posed(const Step *s, Proof *p)
 {
     const int64_t *v = p->coordinates, *c = p->contacts, *r = p->rows_of_step;
     int64_t n = p->n_v, n_c = p->n_c, m = p->rows, N = s->n_v;
     int changed = 0;
-    taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a, NULL, 1, 1);
-    taken(p->tau, s->tau, v, n, NULL, 1, 1);
+    changed |= taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a, NULL, 1, 1);
+    changed |= taken(p->tau, s->tau, v, n, NULL, 1, 1);
     taken(p->g, s->g, v, n, NULL, 1, 1);
     taken(p->A, s->A, r, m, v, n, N);
     taken(p->b, s->b, r, m, NULL, 1, 1);
@@ -72,21 +73,22 @@ static int guessed(Proof *p, int *changed)
     return pressing <= p->n_v;
 }
 
-/* How many rows outside of the working sets have no slack; -1 unless all groups are DECIDED. */
+/* Whether all groups are DECIDED. A group of which nothing has changed, nor its guess, is as it was. */
 int groups_proved(Step *s)
 {
-    int idle = 0, all = 1;
+    int all = 1;
     s->least[0] = s->least[1] = INFINITY;
+    s->claims[0] = s->claims[1] = 1;
     for (int64_t i = 0; i < s->groups; i++) {
         Proof *p = s->group[i];
         s->code[i] = NOT_POSED;
         if (p) {
             int changed = posed(s, p);
-            int usable = guessed(p, &changed) && natural_units(p->natural);
-            for (int64_t j = 0; changed && j < p->rows + p->n_v; j++)
-                p->implied[j] = 0;
-            if (usable)
-                s->code[i] = proof(p);
+            if (!guessed(p, &changed))
+                p->code = NOT_POSED;
+            else if (changed || p->code == NOT_POSED)
+                p->code = natural_units(p->natural) ? proof(p) : NOT_POSED;
+            s->code[i] = p->code;
         }
         if (s->code[i] != DECIDED) {
             all = 0;
@@ -96,9 +98,10 @@ int groups_proved(Step *s)
         given(s->net, p->net, p->coordinates, p->n_v);
         given(s->lam, p->lam, p->rows_of_step, p->rows);
         given(s->slack, p->slack, p->rows_of_step, p->rows);
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < 2; k++) {
             s->least[k] = p->least[k] < s->least[k] ? p->least[k] : s->least[k];
-        idle += (int)p->counts[0];
+            s->claims[k] = s->claims[k] && p->claims[k];
+        }
     }
-    return all ? idle : -1;
+    return all;
 }

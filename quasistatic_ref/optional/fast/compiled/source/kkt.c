@@ -69,39 +69,72 @@ static void direction(const Proof *s, int64_t c, int64_t row, Number *out)
     }
 }
 
-/* K of the system in float64, and b_W; A_W exactly. */
+/* A row a and its b: a delta_q >= b. */
+void row_of(const Proof *s, int64_t r, Number *a, Number *b)
+{
+    int64_t n = s->n_v, c = s->contact[r], row = s->row[r];
+    double ell = s->units[0], rho = s->units[1];
+    Number along[4];
+    Sum sum = EMPTY;
+    direction(s, c, row, along);
+    for (int64_t v = 0; v < n; v++) {
+        for (int i = 0; i < 4; i++) {
+            double J = s->J[n * (4 * c + i) + v];
+            add_product(&sum, along + i, scaled(J, s->coordinate[v] / ell), 1);
+        }
+        carried(&sum, a + v);
+    }
+    *b = number(scaled(-s->phi[c] * s->cone[4 * row], 1 / (rho * ell)));
+}
+
+/* K of the system in float64; A_W and b_W exactly. */
 void system_of(const Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working, N = n + k;
-    double ell = s->units[0], rho = s->units[1];
-    Sum sum = EMPTY;
     for (int64_t i = 0; i < n; i++)
         for (int64_t j = 0; j < n; j++)
             m->K[i * N + j] = s->hessian_values[i * n + j];
     for (int64_t w = 0; w < k; w++) {
-        int64_t c = s->contact[s->guess[w]], row = s->row[s->guess[w]];
-        Number along[4];
-        direction(s, c, row, along);
+        Number *a = m->A + w * n;
+        row_of(s, s->guess[w], a, m->b + w);
         for (int64_t v = 0; v < n; v++) {
-            for (int i = 0; i < 4; i++) {
-                double J = s->J[n * (4 * c + i) + v];
-                add_product(&sum, along + i, scaled(J, s->coordinate[v] / ell), 1);
-            }
-            Number *x = m->A + w * n + v;
-            carried(&sum, x);
-            m->K[(n + w) * N + v] = value(x);
-            m->K[v * N + n + w] = -value(x);
+            m->K[(n + w) * N + v] = value(a + v);
+            m->K[v * N + n + w] = -value(a + v);
         }
-        m->r[n + w] = number(scaled(-s->phi[c] * s->cone[4 * row], 1 / (rho * ell)));
     }
+}
+
+/* A sum less one row of K times some factors, without the columns of y, or with these alone. */
+static void less_x(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+{
+    int64_t n = s->n_v;
+    const Number *H = s->hessian, *row = i < n ? H + i * n : m->A + (i - n) * n;
+    const double *values = m->K + i * (n + s->working);
+    for (int64_t v = 0; v < n; v++)
+        if (values[v] != 0.0)
+            add_product(sum, row + v, z[v], -1);
+}
+
+static void less_y(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+{
+    int64_t n = s->n_v, k = s->working;
+    const double *values = m->K + i * (n + k) + n;
+    for (int64_t w = 0; i < n && w < k; w++)
+        if (values[w] != 0.0)
+            add_product(sum, m->A + w * n + i, z[n + w], 1);
+}
+
+void less(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+{
+    less_x(s, m, i, z, sum);
+    less_y(s, m, i, z, sum);
 }
 
 /* One correction: z += R r, and what is left of the residuals r, exactly. */
 void corrected(const Proof *s, Room *m)
 {
-    int64_t n = s->n_v, k = s->working, N = n + k;
-    const Number *H = s->hessian;
-    Sum pressed = EMPTY, sum = EMPTY;
+    int64_t n = s->n_v, N = n + s->working;
+    Sum sum = EMPTY;
     for (int64_t i = 0; i < N; i++) {
         double change = 0.0;
         for (int64_t j = 0; j < N; j++)
@@ -110,22 +143,15 @@ void corrected(const Proof *s, Room *m)
         Number moved = number(m->change[i]);
         total(m->z + i, &moved, m->z + i);
     }
-    for (int64_t i = 0; i < n; i++) {
-        for (int64_t w = 0; w < k; w++)
-            add_product(&pressed, m->A + w * n + i, m->change[n + w], 1);
-        Number moved;
-        carried(&pressed, &moved);
+    for (int64_t i = 0; i < N; i++) {
+        Number pressed;
+        less_y(s, m, i, m->change, &sum);
+        carried(&sum, &pressed);
+        if (i < n)
+            total(m->net + i, &pressed, m->net + i);
         add(&sum, m->r + i);
-        add(&sum, &moved);
-        for (int64_t j = 0; j < n; j++)
-            add_product(&sum, H + i * n + j, m->change[j], -1);
+        add(&sum, &pressed);
+        less_x(s, m, i, m->change, &sum);
         carried(&sum, m->r + i);
-        total(m->net + i, &moved, m->net + i);
-    }
-    for (int64_t w = 0; w < k; w++) {
-        add(&sum, m->r + n + w);
-        for (int64_t v = 0; v < n; v++)
-            add_product(&sum, m->A + w * n + v, m->change[v], -1);
-        carried(&sum, m->r + n + w);
     }
 }

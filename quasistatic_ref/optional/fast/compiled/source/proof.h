@@ -7,7 +7,7 @@
 
 #include "fixed_point.h"
 
-enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, REFUTED, TO_BE_IMPLIED, NOT_POSED };
+enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, OPEN_CLAIM, REFUTED, NOT_POSED };
 
 /* Why a coordinate does not move: nothing acts on it, or the working set may hold it. */
 enum { AT_REST = 1, STILL };
@@ -25,7 +25,7 @@ struct Natural;
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    int64_t n_a, n_v, n_c, rows, working;
+    int64_t n_a, n_v, n_c, rows, working, code;
     /* Where the group's coordinates, contacts and rows stand in the step. */
     const int64_t *coordinates, *contacts, *rows_of_J, *rows_of_step;
     /* h; the units S, and {length, size}: powers of two. What finds these, and the g, A and b that it
@@ -50,9 +50,8 @@ typedef struct {
     /* The answer, in SI units. */
     double *delta_q, *lam, *net, *slack;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
-       many of both, and of the guess. Which rows and coordinates the guess keeps at zero whatever the
-       loads are, as far as that is known. */
-    int64_t *idle, *still, *counts, *implied;
+       many of both. Whether multipliers are unique, and whether delta_q is differentiable. */
+    int64_t *idle, *still, *counts, *claims;
     /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
        infinite where there is none. */
     double *least;
@@ -60,10 +59,10 @@ typedef struct {
 
 /* What one proof computes. */
 typedef struct {
-    Number *g, *A, *z, *r, *net;
+    Number *g, *A, *b, *z, *r, *net;
     Float *change;
     double *K, *R, *G, *rest, *e;
-    int64_t *table, *pivot;
+    int64_t *table, *pivot, *others;
     char *rests;
     int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
 } Room;
@@ -78,13 +77,17 @@ static inline Float scaled(double x, double by)
 }
 
 void load(const Proof *s, Number *g);
+void row_of(const Proof *s, int64_t r, Number *a, Number *b);
 void system_of(const Proof *s, Room *m);
+void less(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum);
 void corrected(const Proof *s, Room *m);
 int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out);
-int spanned(const Proof *s, int64_t *table, int64_t *pivot);
+int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others);
+int zeros(Proof *s, Room *m);
+void refined(const Proof *s, Room *m, int bits);
 int proof(Proof *s);
 int natural_units(struct Natural *s);
 

@@ -31,35 +31,30 @@ static void generators(const Proof *s, int64_t r, int64_t *x)
     x[3 * s->n_c + owner] = sign * entry[3];
 }
 
-/* Whether the idle rows combine those of the working set, whatever J is; 0 also where integers
-   grow. */
-int spanned(const Proof *s, int64_t *table, int64_t *pivot)
+/* The idle rows that do not combine those of the working set whatever J is, and their number; those
+   also whose integers grow. */
+int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others)
 {
-    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0];
-    if (!count)
-        return 1;
-    for (int64_t w = 0; w < k + count; w++) {
-        int64_t *x = table + (w < k ? w : k) * width, first = -1;
-        generators(s, w < k ? s->guess[w] : s->idle[w - k], x);
-        for (int64_t i = 0; i < (w < k ? w : k); i++) {
-            const int64_t *held = table + i * width;
-            int64_t a = x[pivot[i]], p = held[pivot[i]];
-            if (a == 0)
-                continue;
-            for (int64_t j = 0; j < width; j++) {
+    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0], held = 0, found = 0;
+    for (int64_t w = 0; count && w < k + count; w++) {
+        int64_t r = w < k ? s->guess[w] : s->idle[w - k], *x = table + held * width, first = -1, ok = 1;
+        generators(s, r, x);
+        for (int64_t i = 0; i < held && ok; i++) {
+            const int64_t *other = table + i * width;
+            int64_t a = x[pivot[i]], p = other[pivot[i]];
+            for (int64_t j = 0; a && ok && j < width; j++) {
                 int64_t one, two;
-                if (__builtin_mul_overflow(x[j], p, &one) || __builtin_mul_overflow(held[j], a, &two)
-                    || __builtin_sub_overflow(one, two, x + j))
-                    return 0;
+                ok = !__builtin_mul_overflow(x[j], p, &one) && !__builtin_mul_overflow(other[j], a, &two)
+                  && !__builtin_sub_overflow(one, two, x + j);
             }
         }
         for (int64_t j = width - 1; j >= 0; j--)
             if (x[j])
                 first = j;
-        if ((w < k) == (first < 0))
-            return 0;
-        if (w < k)
-            pivot[w] = first;
+        if (w >= k && (first >= 0 || !ok))
+            others[found++] = r;
+        if (w < k && first >= 0 && ok)
+            pivot[held++] = first;
     }
-    return 1;
+    return found;
 }
