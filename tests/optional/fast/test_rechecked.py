@@ -17,7 +17,7 @@ from quasistatic_ref.optional.fast.guess.exchange import Refuted
 from quasistatic_ref.optional.fast.rechecked import WrongProof, check, is_due
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
-from tests.helpers import changed
+from tests.helpers import changed, pinch
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.random_steps import mixed_step
 
@@ -85,4 +85,5 @@ def test_every_kind_is_checked(first, monkeypatch):
     for seed in range(40):
         with suppress(StepInfeasible, StepIllPosed):
             solve_step(mixed_step(seed), "daqp", fast=True)
+    solve_step(pinch(grip=5.0), "clarabel", fast=True)  # presses on more rows than are independent
     assert set(seen) == {rechecked.WHOLE, rechecked.GROUP, rechecked.REFUTED}
