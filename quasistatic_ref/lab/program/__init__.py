@@ -3,4 +3,7 @@
 This folder imports nothing but NumPy and itself: copied alone, it answers the vectors. Run it by
 ``python -m program VECTORS ANSWERS [LAYER ...]`` from the folder that it lies in; without
 arguments it answers a challenge, line by line.
+
+It is independent of the core, which shares no line with it. It is not independent of all expected
+answers: ``vectors/layers`` says which of them are this program in exact numbers.
 """

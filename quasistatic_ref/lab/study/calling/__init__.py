@@ -1,1 +1,4 @@
-"""Solvers, and the interfaces through which they are called."""
+"""Solvers, and the interfaces through which they are called.
+
+It makes one call in this process. Processes, times and grades are in ``measuring``.
+"""

@@ -1,1 +1,4 @@
-"""Quadratic programs of contact with exact answers: sets of them, made, kept, checked, exported."""
+"""Quadratic programs of contact with exact answers: sets of them, made, kept, checked, exported.
+
+It knows no solver. Answers are the exact method's, with a proof.
+"""

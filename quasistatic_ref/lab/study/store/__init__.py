@@ -1,1 +1,4 @@
-"""What was measured, kept."""
+"""What was measured, kept: rows in SQLite or packed, continued and merged.
+
+It keeps rows as they came. Whether they are right was decided in ``measuring``.
+"""

@@ -1,4 +1,17 @@
-"""The layers of the model, each one module with `expected` and `own`, loaded when it is used."""
+"""The layers of the model, each one module with `expected` and `own`, loaded when it is used.
+
+`expected` is the oracle, and `own` one of the programs that are held against it. The oracle is
+
+- in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``, and for poses, tangents,
+  H, g and forces of a ``step``: the plain program (``lab/program``) over exact numbers. Against it,
+  the plain program in float64 tests rounding alone. Its formulas are tested by `own` and by the
+  JavaScript runner, which share no line with it;
+- for distances: ``vectors/distances``, which shares with the plain program rotations, the corners
+  of shapes and the rules by which contacts are kept, and no distance;
+- for optima: the core's exact method. The plain program checks the conditions of each optimum;
+- for derivatives: differences of steps of ``vectors/unrounded``, by the plain program's formulas
+  and the two oracles above.
+"""
 
 from importlib import import_module
 from typing import Protocol, cast
