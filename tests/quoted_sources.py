@@ -17,16 +17,16 @@ from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.cli.time_step import time_step_record
 from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.cached_runs import grasp as run_of
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.clouds import mug
 from quasistatic_ref.lab.clouds import rows as clouds_table
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
-from quasistatic_ref.lab.measures import exact
-from quasistatic_ref.lab.runs import grasp as run_of
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
+from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step

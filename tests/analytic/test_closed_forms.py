@@ -13,7 +13,6 @@ from scipy.optimize import linprog, minimize
 
 from quasistatic_ref import coulomb_step
 from quasistatic_ref.lab.claims.closed_forms.lift import MU_V, PAD, SQUEEZE, M, lifting_step
-from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import (
@@ -23,6 +22,7 @@ from quasistatic_ref.lab.scenes.rigid import (
     rigid_step,
     sphere_step,
 )
+from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import friction_rows

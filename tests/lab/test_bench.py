@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.bench.acceptance import promises
-from quasistatic_ref.lab.study.bench.derived import MAPPED, STEP
-from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
-from quasistatic_ref.lab.study.bench.report import promise_rows
-from quasistatic_ref.lab.study.bench.timing import in_turn, least
+from quasistatic_ref.lab.bench.acceptance import promises
+from quasistatic_ref.lab.bench.derived import MAPPED, STEP
+from quasistatic_ref.lab.bench.grasp import bare_daqp, places
+from quasistatic_ref.lab.bench.report import promise_rows
+from quasistatic_ref.lab.bench.timing import in_turn, least
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from tests.extras import missing
 from tests.helpers import error

@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.lab.study.bench.profile import grasp_scenario, tracked_distances
+from quasistatic_ref.lab.bench.profile import grasp_scenario, tracked_distances
 
 STEPS = 6
 

@@ -15,10 +15,10 @@ from unittest.mock import patch
 import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.measuring.environment import machine
+from quasistatic_ref.lab.sweep_numbers import slope
 from quasistatic_ref.optional.fast import simulator as fast
 from validation.tools.scripts import asked, shown
 

@@ -4,8 +4,8 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.formats.files import json_text, text_written, writable_folder
-from quasistatic_ref.lab.study.bench.report import page, paper_sentence, promise_rows
-from quasistatic_ref.lab.study.bench.tables import tables
+from quasistatic_ref.lab.bench.report import page, paper_sentence, promise_rows
+from quasistatic_ref.lab.bench.tables import tables
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

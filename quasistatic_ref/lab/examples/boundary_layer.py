@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import ran
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.measures import slope
-from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.spun_sphere import (
     LIMIT,
@@ -26,6 +25,7 @@ from quasistatic_ref.lab.scenes.spun_sphere import (
     layer_at_rate,
     layer_at_torque,
 )
+from quasistatic_ref.lab.sweep_numbers import slope
 from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import ran
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
-from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array

@@ -7,11 +7,11 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 from collections.abc import Sequence
 from typing import Any
 
+from quasistatic_ref.lab.cached_runs import grasp, lift
 from quasistatic_ref.lab.clouds.rows import spread
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, INSTANTS, rotations
-from quasistatic_ref.lab.runs import grasp, lift
 from quasistatic_ref.optional.show.figures import Figure
 
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import grasp, ran
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
-from quasistatic_ref.lab.runs import grasp, ran
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.trajectory import Trajectory

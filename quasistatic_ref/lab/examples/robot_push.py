@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import ran
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
-from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory

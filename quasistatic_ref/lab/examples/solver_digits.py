@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, DASHES, MARKS
-from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from quasistatic_ref.lab.bench import profile
 from quasistatic_ref.lab.examples import (
     both_laws,
     flat_patch,
@@ -20,7 +21,6 @@ from quasistatic_ref.lab.examples import (
 )
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.lab.study.bench import profile
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED

@@ -6,9 +6,9 @@ import pytest
 
 from docs.examples.joint_limits import joint_limits
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read

@@ -20,7 +20,7 @@ SETS = {
     "EXACT": ("exact active_set rational rounding certificate farkas exact_against_enumeration"),
     "FORGED": "single_faults enclosure forgeries",
     "SOLVERS": "adapters second_order extended kept_between_steps native backends solver units",
-    "SOLVED": "kept_between_steps plain_programs solver backends problem cones",
+    "SOLVED": "kept_between_steps compiled_problems solver backends problem cones",
     "ENCLOSED": "checked_pair interior newton enclosure native",
     "DIFFERENTIATED": (
         "touching optimum_rates derivatives derivative_verdicts gradient derivative_layer"

@@ -3,7 +3,6 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.measures import exact, grid
 from quasistatic_ref.lab.scenes.slider import (
     GYRATION,
     RADII,
@@ -15,6 +14,7 @@ from quasistatic_ref.lab.scenes.slider import (
     rotated,
     turns,
 )
+from quasistatic_ref.lab.sweep_numbers import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 ENCLOSED = 1e-15

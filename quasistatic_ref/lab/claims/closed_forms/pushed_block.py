@@ -4,7 +4,6 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.measures import grid
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import (
     RAIL,
@@ -16,6 +15,7 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.lab.sweep_numbers import grid
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import grasp, lift
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.clouds.rows import held, margin, rows
 from quasistatic_ref.lab.clouds.study import NONE, TORSION, Cell, row
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, rotations
-from quasistatic_ref.lab.runs import grasp, lift
 
 HELD, SWUNG, LIFTED = 1.0, 30.0, 0.030
 """Rotations that nobody would call a rotation, and that nobody would overlook [deg]; lift [m]."""

@@ -1,7 +1,6 @@
 """Figure 4: where the time of a step goes."""
 
-from quasistatic_ref.lab.claims.claim import Claim, Comparison, Evidence, comparison, within
-from quasistatic_ref.lab.study.bench.profile import (
+from quasistatic_ref.lab.bench.profile import (
     BRUTE_FORCE,
     SOLVE,
     TRACKER,
@@ -9,6 +8,7 @@ from quasistatic_ref.lab.study.bench.profile import (
     measured,
     share,
 )
+from quasistatic_ref.lab.claims.claim import Claim, Comparison, Evidence, comparison, within
 
 MAJORITY, MINORITY = (0.5, 1.0), (0.0, 0.5)
 """Shares that make the paper's sentence true or false [-]."""

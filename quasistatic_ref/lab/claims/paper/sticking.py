@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.grasp import CASES
-from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.tolerances import BEARS, CLOSED_FORM
 
 STICKS = 1e-18

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.shapes.placed_shape import PointCloud
 
 

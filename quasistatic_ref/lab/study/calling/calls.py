@@ -110,9 +110,9 @@ def _failed(words: str, seconds: float) -> Reply:
 
 
 def _by_cvxpy(name: str) -> Call:
-    from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms  # heavy: CVXPY
+    from quasistatic_ref.lab.study.calling.compiled_problems import CompiledProblems  # heavy: CVXPY
 
-    programs = PlainPrograms(name)
+    programs = CompiledProblems(name)
     return lambda form, options, before: programs.reply(form, options, warm=before is not None)
 
 

@@ -1,4 +1,4 @@
-"""Plain programs through CVXPY, as studies need them."""
+"""Quadratic programs that CVXPY compiles once, as studies need them."""
 
 import warnings
 from collections import OrderedDict
@@ -16,7 +16,7 @@ KEPT = 2
 """Most compiled programs that are kept: one problem in raw and in natural units."""
 
 
-class PlainProgram:
+class CompiledProblem:
     """min 1/2 x'Hx - g'x, A x >= b, of which g alone is a parameter.
 
     Parameters
@@ -45,7 +45,7 @@ class PlainProgram:
         return None if lam is None else np.array(lam, dtype=np.float64)
 
 
-class PlainPrograms:
+class CompiledProblems:
     """A backend through CVXPY with the last few programs compiled, as a study needs it.
 
     Parameters
@@ -56,7 +56,7 @@ class PlainPrograms:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self._compiled: OrderedDict[int, PlainProgram] = OrderedDict()
+        self._compiled: OrderedDict[int, CompiledProblem] = OrderedDict()
 
     def reply(self, form: StandardForm, options: Options, warm: bool = False) -> Reply:
         """The reply to one program.
@@ -77,10 +77,10 @@ class PlainPrograms:
             warnings.simplefilter("ignore")  # of statuses, in words of each backend's own
             return cvxpy_reply(program, self.name, options, warm)
 
-    def _program(self, form: StandardForm) -> PlainProgram:
+    def _program(self, form: StandardForm) -> CompiledProblem:
         key = id(form.H)  # which the program keeps, so that its identity stays its own
         if key not in self._compiled:
-            self._compiled[key] = PlainProgram(form, self.name)
+            self._compiled[key] = CompiledProblem(form, self.name)
             while len(self._compiled) > KEPT:
                 self._compiled.popitem(last=False)
         self._compiled.move_to_end(key)

@@ -6,7 +6,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds
+from quasistatic_ref.lab.bench.timing import Job, in_turn, microseconds
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, step_jax
 from quasistatic_ref.scenario.scenario import load_scenario

@@ -8,14 +8,14 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.bench.acceptance import promises
-from quasistatic_ref.lab.study.bench.derived import of_derivatives
-from quasistatic_ref.lab.study.bench.grasp import (
+from quasistatic_ref.lab.bench.acceptance import promises
+from quasistatic_ref.lab.bench.derived import of_derivatives
+from quasistatic_ref.lab.bench.grasp import (
     GraspSteps,
     certification,
     places,
 )
-from quasistatic_ref.lab.study.bench.solids import SCENES, solid_scenes
+from quasistatic_ref.lab.bench.solids import SCENES, solid_scenes
 from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.parts import fast_part
 from quasistatic_ref.solve.backends import installed

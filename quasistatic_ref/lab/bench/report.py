@@ -3,11 +3,11 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from quasistatic_ref.lab.bench.acceptance import PAPER
+from quasistatic_ref.lab.bench.derived import SCENE, STEP
+from quasistatic_ref.lab.bench.grasp import PLAIN
+from quasistatic_ref.lab.bench.solids import COLUMNS
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.study.bench.acceptance import PAPER
-from quasistatic_ref.lab.study.bench.derived import SCENE, STEP
-from quasistatic_ref.lab.study.bench.grasp import PLAIN
-from quasistatic_ref.lab.study.bench.solids import COLUMNS
 from quasistatic_ref.solve.backends import CERTIFY
 
 Rows = list[tuple[str, ...]]

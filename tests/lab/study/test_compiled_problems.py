@@ -1,4 +1,4 @@
-"""Plain programs through CVXPY and qpsolvers, as studies ask: closed form, time, status, start."""
+"""Quadratic programs through CVXPY and qpsolvers, as studies ask: answer, time, status, start."""
 
 from time import perf_counter
 from types import SimpleNamespace
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms
+from quasistatic_ref.lab.study.calling.compiled_problems import CompiledProblems
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.standard_form import StandardForm
@@ -24,9 +24,9 @@ def form():
 
 
 @pytest.mark.parametrize("name", ["clarabel", "osqp"])
-def test_a_plain_program_through_cvxpy_has_its_closed_form(name):
+def test_a_quadratic_program_through_cvxpy_has_its_closed_form(name):
     begin = perf_counter()
-    reply = PlainPrograms(name).reply(form(), BACKENDS[name].first(1e-10))
+    reply = CompiledProblems(name).reply(form(), BACKENDS[name].first(1e-10))
     assert reply.solved
     np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
     np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
@@ -34,14 +34,14 @@ def test_a_plain_program_through_cvxpy_has_its_closed_form(name):
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
-    programs = PlainPrograms("osqp")
+    programs = CompiledProblems("osqp")
     own = form()
     options = BACKENDS["osqp"].first(1e-10)
     first, warm, cold = (programs.reply(own, options, warm=w) for w in (False, True, False))
     assert cold.iterations == first.iterations > warm.iterations
 
 
-def test_a_plain_program_through_qpsolvers_has_its_closed_form():
+def test_a_quadratic_program_through_qpsolvers_has_its_closed_form():
     begin = perf_counter()
     reply = qpsolvers_reply(form(), "clarabel", BACKENDS["clarabel"].first(1e-10))
     np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)

@@ -1,4 +1,4 @@
-"""What claims and examples measure sweeps by: grids, exact answers, exponents, thresholds."""
+"""Numbers taken from sweeps by claims and examples: grids, exact answers, exponents, thresholds."""
 
 from collections.abc import Callable, Sequence
 from functools import partial

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from quasistatic_ref.lab.study.bench.solids import HAND
+from quasistatic_ref.lab.bench.solids import HAND
 
 PAPER = 90.0
 """The paper's step takes less than this: Julia 1.9.2 on a Mac M1 Pro, all distances, its own

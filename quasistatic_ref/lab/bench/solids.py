@@ -15,9 +15,9 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.lab.bench.grasp import bare_daqp
+from quasistatic_ref.lab.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.lab.scenes.systems import on_link, words, world_plane
-from quasistatic_ref.lab.study.bench.grasp import bare_daqp
-from quasistatic_ref.lab.study.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.scenario.scenario import load_scenario

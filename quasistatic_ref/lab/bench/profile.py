@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.bench.timing import seconds
+from quasistatic_ref.lab.bench.timing import seconds
 from quasistatic_ref.optional.fast.adapters.program import Adapter
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.optional.fast.solver import FastSolver

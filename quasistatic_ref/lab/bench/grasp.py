@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.bench.timing import Job, in_turn, least, microseconds, ratio
+from quasistatic_ref.lab.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
