@@ -353,9 +353,11 @@ LIGHT: Final = 1e-6
 """Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""
 
 FULL_RANK: Final = 1e-9
-"""Smallest singular value of equalities, and eigenvalue of K_q, in natural units [-].
+"""Part of a row of MuJoCo's that counts, over the largest of its terms, and smallest eigenvalue of
+K_q, in natural units [-].
 
-A row that depends on others is off by 1e-17 of its length, and is then a constraint of its own."""
+Rounding leaves 1e-16 of the terms of a row that is zero or depends on others, and would make it a
+constraint of its own; a lever that is shorter than this asks for 1e9 times the load."""
 
 DEEP: Final = 1e-3
 """Penetration that an answer mentions [m]: MuJoCo's contacts at rest are about 0.1 mm deep."""

@@ -21,11 +21,14 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.guests.mujoco import Coordinates, mujoco_step
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.data import StepData
 from validation.tools.scripts import asked, shown
 
 mujoco = import_module("mujoco")
@@ -39,8 +42,8 @@ SETTLED, MOST = 1.5, 3000
 """Simulated time [s], and steps at most."""
 AT_REST = 1e-2
 """Largest velocity of a state at rest [m/s, rad/s]."""
-DEEP = 0.9e-3
-"""Depth from which MuJoCo's forces are those of its contacts' springs [m]."""
+DEEP = 1e-3
+"""Depth beyond which MuJoCo's forces may be those of its contacts' springs [m]."""
 BALANCED = 1e-6
 AGREES = 0.01
 """Relative difference of sums of normal forces, up to which they agree."""
@@ -50,10 +53,9 @@ FAR = 1e6
 
 HEAD = (
     "model", "n_v", "contacts", "limits", "equalities", "cone", "answer", "fastest", "speed",
-    "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "said", "why they differ",
+    "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "MuJoCo off", "said",
+    "why they differ",
 )  # fmt: skip
-REASONS = {"adroit_pen.xml": "several", "stacker.xml": "moves"}
-"""Of models at rest whose forces differ though they are not deep."""
 PAGE = """# States of others as steps
 
 Made by `python -m validation.make.guests` with MuJoCo {version}, of {packages}. Of their MJCF
@@ -62,15 +64,21 @@ and its state is a step of 10 ms.
 
 {answered} are answered ({kinds}), {refused} refused. A step takes {middle:.0f} ms (median) and
 {longest:.1f} s at most. In {balanced} answers the forces, added up from MuJoCo's arrays, are in
-balance to {limit:g} of the largest. {rest} rest and touch. In {agree} of them the sum of normal
-forces agrees with MuJoCo's to 1 %; in {deep} bodies are deeper than 0.9 mm in each other, where
-MuJoCo's forces are those of its soft contacts.
+balance to {limit:g} of the largest on each body, along the joints that move it (across them, joints
+bear anything). {rest} rest and touch. In {agree} of them the sum of normal forces agrees with
+MuJoCo's to 1 %; in {deep} bodies are deeper than 1 mm in each other.
 
 Columns: active limits; rows of equalities; the certificate of the answer, or what refuses it;
-largest velocity in MuJoCo and of the answer [m/s, rad/s]; sums of normal forces; how far the
-forces of the answer are from balance, over the largest; how many sentences say what is left out;
-why sums of forces differ at rest: "deep"; "several", where a
-redundant grip has many forces; "moves", where the answer is not at rest.
+largest velocity in MuJoCo and of the answer [m/s, rad/s]; sums of normal forces, with a star where
+single forces are not unique and the proof's are added; how far the forces of the answer are from
+balance, over the largest; the same for MuJoCo's own forces without velocity, over the loads, in the
+norm of H^-1; how many sentences say what is left out; why sums of forces differ at rest:
+
+- "deep": bodies are deeper than 1 mm;
+- "left out": the difference is that of contacts which the step leaves out;
+- "both balance": MuJoCo's forces are in balance to 1 %, too. Forces within the bodies differ, which
+  balance does not determine; MuJoCo's are those of its springs where bodies are in each other;
+- "no balance": MuJoCo's forces are not in balance without velocity, so that the state still moves.
 
 {table}
 """
@@ -88,7 +96,10 @@ class Found:
     fastest: float = 0.0
     deepest: float = 0.0
     theirs: float = 0.0
+    theirs_left_out: float = 0.0
+    theirs_off: float = 0.0
     ours: float = 0.0
+    several: bool = False
     speed: float = 0.0
     off: float = 0.0
     seconds: float = 0.0
@@ -116,9 +127,9 @@ def settled(model: Any) -> Any:
 def imbalance(model: Any, data: Any, coordinates: Coordinates, answer: StepSolution) -> float:
     """How far forces on the coordinates are from balance, over the largest of them [-].
 
-    Contact forces act on each body at its surface, by ``mj_applyFT``; limits, equalities and
-    friction act along ``efc_J``; all else is ``qfrc_smooth``. What is left is K_q delta_q_a of
-    actuated coordinates, and M delta_q_u / h^2 of the others.
+    Contact forces act on each body at its surface, by ``mj_applyFT``; limits and equalities act
+    along rows of ``efc_J``, those that the step has; all else is ``qfrc_smooth``. What is left is
+    K_q delta_q_a of actuated coordinates, and M delta_q_u / h^2 of the others.
     """
     step = answer.step
     wide = copy.copy(model)
@@ -128,46 +139,54 @@ def imbalance(model: Any, data: Any, coordinates: Coordinates, answer: StepSolut
     rest.qvel[:] = 0.0
     mujoco.mj_forward(wide, rest)
     push = np.zeros(model.nv)
-    touches = [c for c in rest.contact if c.exclude in (0, 1)]
-    for touch, (f_1, f_2, f_n, tau) in zip(touches, answer.wrench, strict=True):
+    for called, (f_1, f_2, f_n, tau) in zip(step.contacts.name, answer.wrench, strict=True):
+        touch = rest.contact[number(called)]
         n, d1, d2 = touch.frame.reshape(3, 3)
         force = f_n * n + f_1 * d1 + f_2 * d2
         for geom, side in zip(touch.geom, (-1.0, 1.0), strict=True):
             point = touch.pos + side * touch.dist / 2 * n
             body = model.geom_bodyid[geom]
             mujoco.mj_applyFT(model, rest, side * force, side * tau * n, point, body, push)
-    J = rest.efc_J.reshape(-1, model.nv)
-    kinds = mujoco.mjtConstraint
-    types = [kinds(t).name.split("_", 1)[1] for t in rest.efc_type[: rest.nefc]]
-    limited = [
-        i for kind in ("LIMIT_JOINT", "LIMIT_TENDON") for i, t in enumerate(types) if t == kind
-    ]
-    of_rows = any(name.startswith("equality") for name in step.extra.names)
-    joint = mujoco.mjtEq.mjEQ_JOINT
-    equal = [i for i, t in enumerate(types) if t == "EQUALITY" and of_rows]
-    tied = [i for i in equal if wide.eq_type[rest.efc_id[i]] != joint]
-    impulses = answer.lam_extra / step.h
-    of_limits, of_ties, of_friction = np.split(impulses, np.cumsum([len(limited), 2 * len(tied)]))
-    push += J[limited].T @ of_limits
-    push += J[tied].T @ (of_ties[: len(tied)] - of_ties[len(tied) :])
     T = coordinates.T
+    p = int((coordinates.dofs < 0).sum())
+    of_own = step.n_v - p  # what friction appends has no place in MuJoCo
+    J = rest.efc_J.reshape(-1, model.nv)
+    along = np.concatenate([J @ T, -J @ T])[:, :of_own]
     rubbed = np.zeros(step.n_v)
-    p = len(of_friction) // 2
-    for row, force in zip(
-        step.extra.A[len(impulses) - p :, : step.n_v - p],
-        of_friction[:p] - of_friction[p:],
-        strict=True,
-    ):
-        rubbed[: step.n_v - p] -= row * force
+    rows = step.extra.A[:, :of_own]
+    for k, force in enumerate(answer.lam_extra / step.h):
+        if k >= len(rows) - 2 * p:
+            rubbed[:of_own] += rows[k] * force
+        elif force:
+            same = int(np.abs(along - rows[k]).max(axis=1).argmin())
+            push += np.concatenate([J, -J])[same] * force
     x = answer.delta_q
     n_a = step.n_a
     M = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(wide, rest, M)
     taken = np.concatenate([step.K_q @ x[:n_a], (T.T @ M @ T)[n_a:, n_a:] @ x[n_a:] / step.h**2])
     parts = [T.T @ rest.qfrc_smooth, T.T @ push, rubbed, -taken]
-    of_own = step.n_v - p  # rises have no place in MuJoCo
     left = np.abs(sum(parts)[:of_own]).max(initial=0.0)
     return float(left / (np.abs(parts).max(initial=0.0) or 1.0))
+
+
+def own_imbalance(model: Any, data: Any, step: StepData, T: Array) -> float:
+    """How far MuJoCo's forces are from balance without velocity, over the loads, in H^-1 [-]."""
+    rest = copy.copy(data)
+    rest.qvel[:] = 0.0
+    mujoco.mj_forward(model, rest)
+    norm = energy_norm(step.H)
+    loads = max(
+        norm.of_impulse(T.T @ load)
+        for load in (rest.qfrc_bias, rest.qfrc_passive, rest.qfrc_actuator, data.qfrc_constraint)
+    )
+    left = norm.of_impulse(T.T @ (rest.qfrc_smooth + data.qfrc_constraint))
+    return left / loads if loads else 0.0
+
+
+def number(called: str) -> int:
+    """MuJoCo's number of a contact, by its name."""
+    return int(called.partition(":")[0])
 
 
 def census(path: Path, root: Path) -> Found | None:
@@ -180,6 +199,7 @@ def census(path: Path, root: Path) -> Found | None:
         return None
     found = Found(path.relative_to(root).as_posix(), model.nv)
     data = settled(model)
+    mujoco.mj_forward(model, data)  # of the state after its last step
     found.contacts = int(data.ncon)
     types = data.efc_type[: data.nefc]
     limits = (mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT, mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON)
@@ -187,10 +207,10 @@ def census(path: Path, root: Path) -> Found | None:
     found.equalities = int(data.ne)
     found.fastest = float(np.abs(data.qvel).max())
     found.deepest = float(max((c.includemargin - c.dist for c in data.contact), default=0.0))
-    force = np.zeros(6)
+    forces = np.zeros((data.ncon, 6))
     for i in range(data.ncon):
-        mujoco.mj_contactForce(model, data, i, force)
-        found.theirs += float(force[0])
+        mujoco.mj_contactForce(model, data, i, forces[i])
+    found.theirs = float(forces[:, 0].sum())
     start = time.perf_counter()
     try:
         step, coordinates = mujoco_step(model, data, H)
@@ -204,18 +224,31 @@ def census(path: Path, root: Path) -> Found | None:
     found.kind = answer.certificate.kind
     found.off = imbalance(model, data, coordinates, answer)
     found.speed = float(np.abs(coordinates.T @ answer.delta_q).max() / H)
+    kept = [number(called) for called in step.contacts.name]
+    found.theirs_left_out = found.theirs - float(forces[kept, 0].sum())
+    found.theirs_off = own_imbalance(model, data, step, coordinates.T)
     try:
         found.ours = float(answer.forces[:, 2].sum())
-    except QuasistaticError:  # those of the proof are one choice of several
+    except QuasistaticError:
         found.ours = float(answer.wrench[:, 2].sum())
+        found.several = True
     return found
+
+
+def agree(ours: float, theirs: float) -> bool:
+    """Whether two sums of forces agree."""
+    return abs(ours - theirs) <= AGREES * abs(theirs)
 
 
 def differs(found: Found) -> str:
     """Why MuJoCo's normal forces are others, where they are."""
-    if not found.rests or abs(found.ours - found.theirs) <= AGREES * abs(found.theirs):
+    if not found.rests or agree(found.ours, found.theirs):
         return ""
-    return "deep" if found.deepest >= DEEP else REASONS.get(Path(found.path).name, "unknown")
+    if found.deepest > DEEP:
+        return "deep"
+    if agree(found.ours, found.theirs - found.theirs_left_out):
+        return "left out"
+    return "both balance" if found.theirs_off <= AGREES else "no balance"
 
 
 def page(every: list[Found]) -> str:
@@ -225,7 +258,8 @@ def page(every: list[Found]) -> str:
     rows = [
         (f.path, f.n_v, f.contacts, f.limits, f.equalities, f.cone, f.kind or f.refused,
          f"{f.fastest:.1e}", f"{f.speed:.1e}", f"{1e3 * f.deepest:.3g}", f"{f.theirs:.4g}",
-         f"{f.ours:.4g}", f"{f.off:.0e}", len(f.left_out), differs(f))
+         f"{f.ours:.4g}{'*' * f.several}", f"{f.off:.0e}", f"{f.theirs_off:.0e}",
+         len(f.left_out), differs(f))
         for f in every
     ]  # fmt: skip
     kinds = Counter(f.kind for f in answered)

@@ -1,9 +1,8 @@
 """What becomes of each thing that a MuJoCo model or state can say, in one table.
 
 A thing is a field of ``mjModel`` or of its ``opt``, a member of an enumeration that says of which
-kind an element is, or a part of the state (``mjtState``). Fields that only number, address and
-count elements share the fate of those. The tests hold that each thing that MuJoCo knows stands here
-once, and try them.
+kind an element is, or a part of the state (``mjtState``), from which MuJoCo computes all else in
+``mjData``. The tests hold that each thing that MuJoCo knows stands here once, and try each.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.still import Still
 
 USED = """
+body_contype body_conaffinity
 body_gravcomp body_inertia body_ipos body_iquat body_mass body_pos body_quat body_subtreemass
 jnt_axis jnt_pos jnt_range jnt_limited jnt_margin jnt_stiffness
 jnt_actfrcrange jnt_actfrclimited jnt_actgravcomp
@@ -28,8 +28,10 @@ tendon_stiffness tendon_lengthspring tendon_range tendon_limited tendon_margin t
 tendon_actfrcrange tendon_actfrclimited tendon_frictionloss tendon_length0
 actuator_armature actuator_biasprm actuator_cranklength actuator_ctrlrange actuator_ctrllimited
 actuator_dynprm actuator_forcerange actuator_forcelimited actuator_gainprm actuator_gear
-actuator_lengthrange actuator_acc0 actuator_actearly actuator_group
-opt.gravity opt.wind opt.density opt.viscosity opt.o_margin opt.o_friction
+actuator_lengthrange actuator_acc0 actuator_actearly actuator_group actuator_delay
+actuator_actrange actuator_actlimited actuator_history
+opt.timestep opt.gravity opt.wind opt.density opt.viscosity opt.o_margin opt.o_friction
+opt.ccd_iterations opt.ccd_tolerance opt.sdf_initpoints opt.sdf_iterations
 opt.cone opt.disableflags opt.enableflags opt.disableactuator
 """
 """What a step is made of: here, or by MuJoCo in what it says of the state."""
@@ -44,17 +46,24 @@ mesh_normal mesh_polynormal mesh_pos mesh_quat mesh_scale mesh_texcoord
 site_size site_rgba site_user site_group eq_solimp eq_solref eq_active0
 tendon_damping tendon_dampingpoly tendon_invweight0 tendon_rgba tendon_user tendon_width
 tendon_group tendon_solimp_fri tendon_solimp_lim tendon_solref_fri tendon_solref_lim
-actuator_actrange actuator_actlimited actuator_damping actuator_dampingpoly actuator_delay
-actuator_length0 actuator_user efm0_L tree_sleep_policy stat vis
-opt.timestep opt.impratio opt.tolerance opt.iterations opt.integrator opt.jacobian opt.solver
+actuator_damping actuator_dampingpoly
+actuator_length0 actuator_user tree_sleep_policy stat vis
+geom_matid site_matid site_type tendon_matid mesh_facenormal mesh_facetexcoord
+opt.impratio opt.tolerance opt.iterations opt.integrator opt.jacobian opt.solver
 opt.ls_iterations opt.ls_tolerance opt.noslip_iterations opt.noslip_tolerance
-opt.ccd_iterations opt.ccd_tolerance opt.sdf_initpoints opt.sdf_iterations opt.sleep_tolerance
-opt.magnetic opt.o_solref opt.o_solimp
+opt.sleep_tolerance opt.magnetic opt.o_solref opt.o_solimp
 """
 """Velocities, softness, solvers, sensors, looks, and numbers that only the compiler reads."""
 
-SEEN = "bvh cam key light mat name numeric oct sensor skin tex text tuple"
-"""Fields that begin with these are of things that are seen, noted or measured: without effect."""
+PLACES = """
+n* flg_* *id *adr *num *nnz *colind *_diag *simple *simplenum *sameframe *signature map*
+*_type *_objtype pair_geom* hfield_n* mesh_* plugin plugin_* geom_plugin actuator_ctrlspec paths opt
+"""
+"""Whole numbers that say how many elements there are, what each is, and what it belongs to."""
+
+SEEN = "bvh cam efm0 efmC key light mat name numeric oct sensor skin tex text tuple"
+"""Fields that begin with these are of things that are seen, noted or measured: without effect.
+Those of efm0 and efmC are of solvers."""
 
 REFUSED = {
     "jnt_springyield": "makes a spring plastic",
@@ -64,6 +73,9 @@ REFUSED = {
     "geom_surfacevel": "moves a surface, and a step has no velocities; set it to zero",
 }
 """Fields that must be zero: why, and what to do. Fields of flex are refused, too."""
+
+PLUGINS = ("body_plugin", "actuator_plugin")
+"""Plugins that push, which are refused."""
 
 KINDS = {
     "jnt_type": ("mjtJoint", "FREE BALL SLIDE HINGE", "", ""),
@@ -81,9 +93,9 @@ KINDS = {
 used, said in the answer, and refused."""
 
 STATE = (
-    "QPOS ACT HISTORY CTRL QFRC_APPLIED XFRC_APPLIED EQ_ACTIVE MOCAP_POS MOCAP_QUAT",
+    "TIME QPOS ACT HISTORY CTRL QFRC_APPLIED XFRC_APPLIED EQ_ACTIVE MOCAP_POS MOCAP_QUAT",
     "QVEL",
-    "TIME WARMSTART USERDATA",
+    "WARMSTART USERDATA",
     "PLUGIN PLASTIC",
 )
 """Parts of a state: used, said in the answer, without effect, and those of what is refused."""
@@ -113,7 +125,7 @@ def check(state: Still) -> None:
         values = getattr(model, field)
         for i in np.argwhere(values)[:1, 0].tolist():
             raise ModelError(reason, field=named(state, field, i), value=values[i].tolist())
-    for field in ("body_plugin", "actuator_plugin"):
+    for field in PLUGINS:
         for i in np.flatnonzero(getattr(model, field) >= 0)[:1].tolist():
             raise ModelError("pushes with a plugin", field=named(state, field, i))
     for i in np.flatnonzero(model.actuator_gainprm[:, 1]).tolist():

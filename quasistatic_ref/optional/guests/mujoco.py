@@ -5,6 +5,7 @@ No geometry is translated. Contacts, frames, friction, Jacobians, masses and for
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,8 +16,10 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.guests import ties, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Loads, loads
+from quasistatic_ref.optional.guests.natural import Natural, moved
 from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.parts import needed_part
+from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import StepData
@@ -47,8 +50,8 @@ class Coordinates(Plain):
     left_out : tuple of str
         What the step does not have, or holds as it is: one sentence for each.
     quasi_dynamic_number : float
-        Largest v / (mu_v g h) of the contacts, of the speed that was dropped [-]; inf without
-        gravity.
+        Largest v / (mu_v g h) of the contacts with friction, of the speed v that was dropped [-]:
+        the drag of the model on that motion, over the friction. It is inf without gravity.
     """
 
     names: tuple[str, ...]
@@ -111,12 +114,17 @@ def mujoco_step(
     state.run()
     of_state = loads(state)
     cone = ELLIPSOID if model.opt.cone and touches.rubs(state) else PYRAMID
-    tied = ties.tied_joints(state, () if as_is else ELIMINATED[cone], of_state.heavy(state.M, h))
-    order, n_a, K_q = actuated(of_state, tied.T)
+    kinds = () if as_is else ELIMINATED[cone]
+    tied = ties.tied_joints(state, kinds, of_state.heavy(state.M, h))
+    order, n_a, K_q = actuated(state, of_state, tied.T)
     tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
     T = tied.T
     M_u = T[:, n_a:].T @ state.M @ T[:, n_a:]
     diagonal = np.concatenate([h * np.diag(K_q), np.diag(M_u) / h])
+    scale = Natural(state, T, coordinate_units(diagonal))
+    held = ties.equalities(state, tied, scale, as_is)
+    limits, free_limits = ties.limits(state, scale, held.basis, as_is)
+    contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
     tau = T.T @ of_state.others
     step = StepData(
         h=h,
@@ -125,20 +133,21 @@ def mujoco_step(
         tau_a=tau[:n_a],
         tau_u=tau[n_a:],
         delta_q_bar_a=np.linalg.solve(K_q, (T.T @ of_state.of_springs)[:n_a]),  # Eq. (1)
-        contacts=touches.contacts(state, T, as_is),
+        contacts=contacts,
         cone=cone,
-        extra=ties.together(
-            ties.limits(state, T, as_is), ties.equalities(state, tied, diagonal, as_is)
-        ),
+        extra=ties.together(limits, held.rows),
     )
-    left_out = (*of_state.left_out, *touches.words(state), *touches.deep(state, step))
+    left_out = (
+        *of_state.left_out, *held.left_out, *free_limits, *free_contacts, *touches.words(state),
+        *touches.deep(state, step), *velocity_words(data),
+    )  # fmt: skip
     step, dofs, rubbed = with_friction(step, state, tied)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
     T = np.pad(T, ((0, 0), (0, len(rubbed))))
     return step, Coordinates(names, dofs, T, left_out, quasi_dynamic_number(model, data, state, h))
 
 
-def actuated(of_state: Loads, T: Array) -> tuple[Indices, int, Array]:
+def actuated(state: Still, of_state: Loads, T: Array) -> tuple[Indices, int, Array]:
     """An order of coordinates in which the actuated ones come first, their number, and K_q.
 
     A coordinate is actuated if a servo or spring acts on it. T has the shape (nv, n) [-].
@@ -148,7 +157,7 @@ def actuated(of_state: Loads, T: Array) -> tuple[Indices, int, Array]:
     ModelError
         Naming a servo or spring that leaves others of its coordinates free: K_q is singular.
     """
-    moments = [T.T @ spring.m for spring in of_state.springs]
+    moments = [moved(state, spring.m[None], T)[0] for spring in of_state.springs]
     K = np.zeros((T.shape[1],) * 2)
     for spring, m in zip(of_state.springs, moments, strict=True):
         K += spring.k * np.outer(m, m)
@@ -179,13 +188,14 @@ def with_friction(
     J, rows = state.rows("FRICTION_DOF", "FRICTION_TENDON")
     losses = state.data.efc_frictionloss[rows]
     numbers, loads_of_rises, names = [], [], []
-    for row, along, loss in zip(rows.tolist(), J @ tied.T, losses.tolist(), strict=True):
-        moved = np.flatnonzero(along).tolist()
+    rubs = moved(state, J, tied.T)
+    for row, along, loss in zip(rows.tolist(), rubs, losses.tolist(), strict=True):
+        on = np.flatnonzero(along).tolist()
         name = friction_name(state, row)
-        if len(moved) > 1:
+        if len(on) > 1:
             problem = "rubs along several joints at once, for which there is no row"
             raise ModelError(problem, field=f"{name}.frictionloss", value=loss)
-        for i in moved:
+        for i in on:
             numbers.append(i)
             loads_of_rises.append(abs(along[i]) * loss)
             names.append(f"friction of {name}")
@@ -212,11 +222,19 @@ def coordinate_name(state: Still, dof: int) -> str:
     return state.words("joint", joint) + own
 
 
+def velocity_words(data: Any) -> Iterator[str]:
+    """That the velocity is dropped, where there is one."""
+    if data.qvel.any():
+        yield f"velocity: dropped; its largest component is {np.abs(data.qvel).max():.2g}"
+
+
 def quasi_dynamic_number(model: Any, data: Any, state: Still, h: float) -> float:
     """Largest v / (mu_v g h) of the contacts, v the speed at which one slides [-]."""
     g = float(np.linalg.norm(model.opt.gravity))
     largest = 0.0
-    for touch in touches.found(state):
+    for _, touch in touches.found(state):
+        if touch.dim == 1:
+            continue
         slip = touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel
         v = float(np.linalg.norm(slip))
         bears = float(touch.friction[0]) * g * h

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -62,21 +63,44 @@ class Still:
             self.data.ten_J, model.ten_J_rownnz, model.ten_J_rowadr, model.ten_J_colind
         )
 
+    @cached_property
+    def reach(self) -> Array:
+        """How far each velocity moves anything of its tree, per unit, (nv,) [m, or m/rad].
+
+        MuJoCo has a velocity as a turn and a motion of the centre of mass of its tree.
+        """
+        model = self.model
+        data = self.data
+        trees = model.body_rootid
+        places = np.concatenate([data.xpos, data.geom_xpos, data.site_xpos])
+        radii = np.concatenate([np.zeros(model.nbody), model.geom_rbound, np.zeros(model.nsite)])
+        of = trees[np.concatenate([np.arange(model.nbody), model.geom_bodyid, model.site_bodyid])]
+        lever = np.zeros(model.nbody)
+        np.maximum.at(lever, of, np.linalg.norm(places - data.subtree_com[of], axis=1) + radii)
+        turn, motion = np.linalg.norm(data.cdof.reshape(-1, 2, 3), axis=2).T
+        reached: Array = motion + turn * lever[trees[model.dof_bodyid]]
+        return reached
+
     def run(self) -> None:
         """Run the stages of ``mj_forward``, from positions to forces.
 
         Raises
         ------
         ModelError
-            If MuJoCo's memory does not hold all contacts and limits.
+            If MuJoCo stops, or its memory does not hold all contacts and limits.
         """
         for warning in self.data.warning:
             warning.number = 0
-        for stage in STAGES:
-            getattr(self.mujoco, stage)(self.own, self.data)
+        size = int(self.model.narena)
+        try:
+            for stage in STAGES:
+                getattr(self.mujoco, stage)(self.own, self.data)
+        except self.mujoco.FatalError as error:
+            problem = f"may be too small: MuJoCo stops, {str(error).splitlines()[0]}"
+            raise ModelError(problem, field="size.memory", value=size) from error
         if any(self.data.warning[getattr(self.mujoco.mjtWarning, name)].number for name in FULL):
             problem = 'does not hold all contacts and limits; set <size memory="100M"/>'
-            raise ModelError(problem, field="size.memory", value=int(self.model.narena))
+            raise ModelError(problem, field="size.memory", value=size)
 
     def rows(self, *kinds: str) -> tuple[Array, Indices]:
         """The Jacobians and numbers of MuJoCo's constraints of some kinds, (m, nv) and (m,)."""

@@ -7,13 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.fates import kind_of
+from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import FULL_RANK
+
+HELD = "left out, in part or whole: joints or other equalities hold already what it holds"
 
 
 class Tied(NamedTuple):
@@ -34,6 +36,23 @@ class Tied(NamedTuple):
     eliminated: tuple[int, ...]
 
 
+class Held(NamedTuple):
+    """The equalities of a step, and what of them it leaves out.
+
+    Parameters
+    ----------
+    rows : Extra
+        Two of each.
+    basis : ndarray, shape (r, n)
+        Orthonormal rows that span theirs, in natural units [-].
+    left_out : tuple of str
+    """
+
+    rows: Extra
+    basis: Array
+    left_out: tuple[str, ...]
+
+
 def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
     """The joints that remain if equalities of some kinds each take one away.
 
@@ -47,11 +66,6 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
         Such as ``("JOINT",)``.
     heavy : ndarray, shape (nv,)
         Diagonal of H of all joints, for natural units [N s/m, N m s/rad].
-
-    Raises
-    ------
-    ModelError
-        Naming an equality that holds what others hold already.
     """
     model = state.model
     units = coordinate_units(heavy)
@@ -64,14 +78,16 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
         kind = kind_of(state, "eq_type", number)
         if kind not in kinds:
             continue
-        along = gradient @ T  # zero times the displacement of those that remain
-        dof = int(np.abs(along * units).argmax())
+        scale = Natural(state, T, units)
+        (along,) = scale.rows(gradient[None])  # zero times the displacement of those that remain
+        least = FULL_RANK * scale.sizes(gradient[None])[0]
+        if np.abs(along).max() <= least:
+            continue  # held already
+        dof = int(np.abs(along).argmax())
         if kind == "JOINT":
-            dof = int(model.jnt_dofadr[model.eq_obj1id[number]])
-        if abs(along[dof]) * units[dof] <= FULL_RANK * np.abs(gradient * units).max():
-            problem = "holds what other equalities hold already; leave one of them out"
-            raise ModelError(problem, field=state.words("equality", number))
-        T -= np.outer(T[:, dof], along / along[dof])
+            first = int(model.jnt_dofadr[model.eq_obj1id[number]])
+            dof = first if abs(along[first]) > least else dof
+        T = T - np.outer(T[:, dof], along / along[dof] / units * units[dof])
         T[:, dof] = 0.0
         gone.append(dof)
         eliminated.append(row)
@@ -79,55 +95,74 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
     return Tied(dofs, T[:, dofs], tuple(eliminated))
 
 
-def limits(state: Still, T: Array, as_is: bool) -> Extra:
+def limits(
+    state: Still, scale: Natural, basis: Array, as_is: bool
+) -> tuple[Extra, tuple[str, ...]]:
     """All limits of joints and tendons: T' of the gradient of a gap, times delta_q, >= -gap.
 
-    Gaps below zero count as zero unless `as_is`. T has the shape (nv, n) [-].
+    Gaps below zero count as zero unless `as_is`. `basis` is that of the equalities, (r, n) [-]. The
+    second result says which limits are left out, since nothing moves what they limit.
     """
     found = []
-    for kind, margins in (("JOINT", state.model.jnt_margin), ("TENDON", state.model.tendon_margin)):
+    left_out: list[str] = []
+    model = state.model
+    for kind, margins, limited in (
+        ("JOINT", model.jnt_margin, model.jnt_limited),
+        ("TENDON", model.tendon_margin, model.tendon_limited),
+    ):
         J, rows = state.rows(f"LIMIT_{kind}")
         of = state.data.efc_id[rows]
         gaps = state.data.efc_pos[rows] - margins[of]
         names = [f"limit of {state.words(kind.lower(), i)}" for i in of]
-        found.append((names, J @ T, -(gaps if as_is else np.maximum(gaps, 0.0))))
-    return _rows(found, T.shape[1])
+        empty = scale.empty(J, basis)
+        held = {*of[empty]}
+        if not (state.disables("LIMIT") or state.disables("CONSTRAINT")):
+            held |= {*np.flatnonzero(limited)} - {*of}  # MuJoCo has no row if all of it is zero
+        left_out += [f"limit of {state.words(kind.lower(), i)}: {HELD}" for i in sorted(held)]
+        kept = np.flatnonzero(~empty)
+        b = -(gaps if as_is else np.maximum(gaps, 0.0))
+        found.append(([names[k] for k in kept], J[kept] @ scale.T, b[kept]))
+    return _rows(found, scale.T.shape[1]), tuple(left_out)
 
 
-def equalities(state: Still, tied: Tied, diagonal: Array, as_is: bool) -> Extra:
+def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
     """The equalities that T does not satisfy, each as two rows.
 
     Parameters
     ----------
     state : Still
     tied : Tied
-    diagonal : ndarray, shape (n,)
-        Of H of the coordinates that remain, for natural units [N s/m, N m s/rad].
+    scale : Natural
+        Of the coordinates that remain.
     as_is : bool
         Whether their residuals are closed in the step.
 
-    Raises
-    ------
-    ModelError
-        Naming equalities that depend on each other: their rows have not full rank.
+    Notes
+    -----
+    A row is left out if no more than FULL_RANK of it is independent of those before it: it is then
+    off by rounding from what they hold, and would hold a direction of its own.
     """
     J, rows = state.rows("EQUALITY")
-    rest = ~np.isin(rows, tied.eliminated)
-    A = J[rest] @ tied.T
-    b = -state.data.efc_pos[rows[rest]] * as_is
-    names = [state.words("equality", i) for i in state.data.efc_id[rows[rest]]]
-    natural = A * coordinate_units(diagonal)
-    lengths = np.linalg.norm(natural, axis=1, keepdims=True)
-    left, values, _ = np.linalg.svd(natural / np.where(lengths > 0, lengths, 1.0))
-    rank = np.count_nonzero(values >= FULL_RANK)
-    if rank < len(names):
-        tied_by = [names[k] for k in np.flatnonzero(np.abs(left[:, rank:]).max(axis=1) > 0.1)]
-        problem = (
-            f"its rows and those of other equalities have rank {rank}, and not {len(names)}; leave "
-            "out what is held already, or say it as an equality of joints"
-        )
-        raise ModelError(problem, field=", ".join(dict.fromkeys(tied_by)))
-    return _rows([(names, A, b), (names, -A, -b)], A.shape[1])
+    A = J @ tied.T
+    natural = scale.rows(J)
+    least = FULL_RANK * scale.sizes(J)
+    basis = np.zeros((0, len(scale.units)))
+    kept = []
+    left_out = []
+    for k in np.flatnonzero(~np.isin(rows, tied.eliminated)).tolist():
+        own = natural[k]
+        for _ in ("once", "once more, for what rounding left"):
+            own = own - own @ basis.T @ basis
+        length = np.linalg.norm(own)
+        if length > least[k]:
+            basis = np.vstack([basis, own / length])
+            kept.append(k)
+        else:
+            left_out.append(f"{state.words('equality', state.data.efc_id[rows[k]])}: {HELD}")
+    names = [state.words("equality", i) for i in state.data.efc_id[rows[kept]]]
+    b = -state.data.efc_pos[rows[kept]] * as_is
+    both = _rows([(names, A[kept], b), (names, -A[kept], -b)], A.shape[1])
+    return Held(both, basis, tuple(dict.fromkeys(left_out)))
 
 
 def together(*parts: Extra) -> Extra:

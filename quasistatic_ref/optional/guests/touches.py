@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
@@ -16,18 +18,25 @@ from quasistatic_ref.tolerances import DEEP, FULL_RANK
 
 USED_OR_IN_GAP = (0, 1)
 """Values of ``exclude`` of contacts that a step has."""
+SOON = 1.0
+"""Time within which MuJoCo parts bodies that nothing keeps in each other [s]."""
+HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
-def found(state: Still) -> list[Any]:
-    """MuJoCo's contacts, without those between bodies that do not move."""
+def found(state: Still) -> list[tuple[str, Any]]:
+    """MuJoCo's contacts with their names, without those between bodies that do not move.
+
+    A name has MuJoCo's number of the contact, and its geoms, or the bodies of geoms without names.
+    """
     if state.disables("CONSTRAINT"):
         return []
-    return [touch for touch in state.data.contact if touch.exclude in USED_OR_IN_GAP]
+    kept = [(i, t) for i, t in enumerate(state.data.contact) if t.exclude in USED_OR_IN_GAP]
+    return [(f"{i}: {geoms(state, touch)}", touch) for i, touch in kept]
 
 
 def rubs(state: Still) -> bool:
     """Whether a contact has friction; without it, all cones are the same."""
-    return any(touch.dim > 1 for touch in found(state))
+    return any(touch.dim > 1 for _, touch in found(state))
 
 
 def gap(touch: Any) -> float:
@@ -35,52 +44,71 @@ def gap(touch: Any) -> float:
     return float(touch.dist - touch.includemargin)
 
 
-def name(state: Still, i: int, touch: Any) -> str:
-    """A contact by the names of its geoms, or of the bodies of those that have none."""
+def geoms(state: Still, touch: Any) -> str:
+    """The geoms of a contact, or the bodies of those without names."""
     model = state.model
     number = state.mujoco.mjtObj.mjOBJ_GEOM
-    geoms = (state.mujoco.mj_id2name(model, number, g) or state.words("body", model.geom_bodyid[g])
+    named = (state.mujoco.mj_id2name(model, number, g) or state.words("body", model.geom_bodyid[g])
              for g in touch.geom)  # fmt: skip
-    return f"{i}: {'/'.join(geoms)}"
+    return "/".join(named)
 
 
-def contacts(state: Still, T: Array, as_is: bool) -> Contacts:
+def contacts(
+    state: Still, scale: Natural, basis: Array, as_is: bool
+) -> tuple[Contacts, tuple[str, ...]]:
     """The contacts of a state; gaps below zero count as zero unless `as_is`.
+
+    A contact is left out where only rounding is left of its normal row: where its joints and the
+    equalities hold its bodies along the normal, they bear any force, and its friction has no bound.
 
     Parameters
     ----------
     state : Still
-    T : ndarray, shape (nv, n)
-        MuJoCo's displacement, per unit of the coordinates of the step [-].
+    scale : Natural
+        Of the coordinates of the step.
+    basis : ndarray, shape (r, n)
+        Of the equalities [-], as of ``ties.Held``.
     as_is : bool
+
+    Returns
+    -------
+    Contacts
+    tuple of str
+        What is left out.
 
     Raises
     ------
     ModelError
         Naming a contact whose friction differs in its two directions.
     """
-    touches = found(state)
+    all_of_them = found(state)
+    J = np.array([jacobian(state, touch) for _, touch in all_of_them]).reshape(-1, 4, len(scale.T))
+    n = np.array([touch.frame[:3] for _, touch in all_of_them]).reshape(-1, 3)
+    empty = scale.empty(np.einsum("jc,jci->ji", n, J[:, :3]), basis)
+    left_out = [f"contact[{all_of_them[k][0]}]: {HELD}" for k in np.flatnonzero(empty)]
+    kept = np.flatnonzero(~empty)
+    names = tuple(all_of_them[k][0] for k in kept)
+    touches = [all_of_them[k][1] for k in kept]
     frames = np.array([touch.frame.reshape(3, 3) for touch in touches]).reshape(-1, 3, 3)
     friction = np.array([touch.friction for touch in touches]).reshape(-1, 5)
     condim = np.array([touch.dim for touch in touches], dtype=np.int64)
     phi = np.array([gap(touch) for touch in touches])
-    names = tuple(name(state, i, touch) for i, touch in enumerate(touches))
     for called, mu, dim in zip(names, friction, condim, strict=True):
         if dim > 1 and mu[0] != mu[1]:
             problem = "differs in its two directions, for which there is no cone; use one for both"
             raise ModelError(problem, field=f"contact[{called}].friction", value=mu[:2].tolist())
-    J = [jacobian(state, touch) @ T for touch in touches]
-    return Contacts(
+    at_rest = Contacts(
         name=names,
         phi=phi if as_is else np.maximum(phi, 0.0),
         n=frames[:, 0],
         d1=frames[:, 1],
         d2=frames[:, 2],
-        J=np.array(J).reshape(-1, 4, T.shape[1]),
+        J=J[kept] @ scale.T,
         mu_v=np.where(condim > 1, friction[:, 0], 0.0),
         mu_omega=np.where(condim > 3, friction[:, 2], 0.0),
         rows=np.where(condim > 3, 6, 4),
     )
+    return at_rest, tuple(left_out)
 
 
 def jacobian(state: Still, touch: Any) -> Array:
@@ -104,27 +132,36 @@ def jacobian(state: Still, touch: Any) -> Array:
 
 def words(state: Still) -> Iterator[str]:
     """What a step leaves out of contacts."""
-    for i, touch in enumerate(found(state)):
+    for called, touch in found(state):
         if touch.dim == 6:
-            yield f"contact[{name(state, i, touch)}]: rolling friction, for which there is no row"
+            yield f"contact[{called}]: rolling friction, for which there is no row"
 
 
 def deep(state: Still, step: StepData) -> Iterator[str]:
     """Contacts that are deep, and what keeps them there."""
-    of_equalities = ["equality" in called for called in step.extra.names]
-    tied = np.abs(step.extra.A[np.array(of_equalities, dtype=bool)]).max(axis=0, initial=0.0)
+    deep_ones = [(called, touch) for called, touch in found(state) if gap(touch) < -DEEP]
+    if not deep_ones:
+        return
+    theirs = copy.copy(state.data)
+    state.mujoco.mj_forward(state.model, theirs)
+    of_equalities = np.array([called.startswith("equality") for called in step.extra.names])
+    tied = np.abs(step.extra.A[of_equalities.astype(bool)]).max(axis=0, initial=0.0)
     contacts = step.contacts
     along_n = np.einsum("jci,jc->ji", contacts.J[:, :3], contacts.n)
-    for touch, called, J_n in zip(found(state), contacts.name, along_n, strict=True):
-        if gap(touch) >= -DEEP:
-            continue
-        row = np.flatnonzero(np.abs(J_n) > FULL_RANK)
-        reason = "nothing: MuJoCo pushes them apart as soon as it runs"
-        if tied[row].any():
-            reason = "an equality may"
-        if (row < step.n_a).any():
-            reason = "a servo or spring may"
-        if not row.size:
-            reason = "their joints leave no way out"
+    rows = dict(zip(contacts.name, along_n, strict=True))
+    for called, touch in deep_ones:
+        apart = touch.frame[:3] @ jacobian(state, touch)[:3] @ theirs.qacc
+        out_in = np.sqrt(-2 * gap(touch) / apart) if apart > 0 else np.inf
+        row = np.flatnonzero(np.abs(rows.get(called, 0.0)) > FULL_RANK)
+        if called not in rows:
+            reason = "joints or equalities leave no way out"
+        elif out_in < SOON:
+            reason = "nothing: MuJoCo pushes them apart as soon as it runs"
+        elif tied[row].any():
+            reason = "an equality or the load"
+        elif (row < step.n_a).any():
+            reason = "a servo, a spring or the load"
+        else:
+            reason = "the load"
         by = f"its bodies penetrate by {-1e3 * gap(touch):.3g} mm"
         yield f"contact[{called}]: {by}; what keeps them there: {reason}"

@@ -1,0 +1,140 @@
+"""Rows of which only rounding is left bear nothing: contacts, limits and equalities."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.guests.mujoco import mujoco_step
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.tolerances import FULL_RANK
+
+H = 0.01
+GRAVITY = 9.81
+
+
+def turned(seed: int, world: str, more: str = "", options: str = "") -> tuple[Any, Any]:
+    """A scene whose world is turned about a random axis, with its gravity."""
+    q = np.random.default_rng(seed).normal(size=4)
+    q /= np.linalg.norm(q)
+    gravity = np.zeros(3)
+    mujoco.mju_rotVecQuat(gravity, np.array([0, 0, -GRAVITY]), q)
+    text = " ".join(map(str, gravity.tolist()))
+    quat = " ".join(map(str, q.tolist()))
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><option gravity="{text}" {options}/><worldbody><frame quat="{quat}">{world}'
+        f"</frame></worldbody>{more}</mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+PENDULUM = """<geom name="post" type="capsule" fromto="0 0 0 0 0 -.1" size=".02" mass="0"/>
+<site name="above" pos="0 .2 0"/><body name="arm"><joint name="pivot" {}/>
+<geom name="arm" type="capsule" fromto="0 0 0 .2 0 0" size=".02" mass="0"/><site name="on_axis"
+ pos="0 .05 0"/><geom type="box" size=".01 .01 .01" pos=".2 0 0" mass="2" contype="0"/>
+</body>"""
+"""An arm of 0.2 m that overlaps, at its pivot, with the post that it hangs on."""
+I_YY = 2 * 0.2**2 + 2 * (0.02**2 + 0.02**2) / 12
+FALL = H**2 * 2 * GRAVITY * 0.2 / I_YY
+"""How far the arm turns in a step: h^2 m g l / I, the inertia of a box and m l^2 [rad]."""
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("joint", ['axis="0 1 0"', 'type="ball"'])
+def test_a_contact_at_the_pivot_bears_nothing(seed: int, joint: str) -> None:
+    """Both capsules have an end at the pivot: the contact's point is there, its lever rounding."""
+    step, coordinates = mujoco_step(*turned(seed, PENDULUM.format(joint)), H)
+    answer = solve_step(step)
+    assert np.linalg.norm(answer.delta_q) == pytest.approx(FALL, rel=1e-9)
+    assert answer.wrench.sum() == 0.0
+    said = " ".join(coordinates.left_out)
+    assert "contact[0: post/arm]: left out: joints or equalities hold its bodies" in said
+    assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in said
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_limit_that_no_joint_moves_bears_nothing(seed: int) -> None:
+    """Both ends of the tendon are on the axis; it is 0.15 m long, and may have 0.1 m."""
+    more = (
+        '<tendon><spatial name="cord" range="0 .1"><site site="above"/><site site="on_axis"/>'
+        "</spatial></tendon>"
+    )
+    scene = PENDULUM.replace('mass="0"/>', 'mass="0" contype="0"/>').format('axis="0 1 0"')
+    step, coordinates = mujoco_step(*turned(seed, scene, more), H)
+    assert solve_step(step).delta_q[0] == pytest.approx(FALL, rel=1e-9)
+    assert any("limit of tendon[cord]: left out" in said for said in coordinates.left_out)
+
+
+LINK = """<body name="{0}" pos="{1} 0 0"><joint name="{0}" axis="0 1 0"/><inertial pos=".12 0 -.16"
+ mass="1" diaginertia="1e-3 1e-3 1e-3"/>{2}</body>"""
+COUPLER = """<body name="coupler" pos=".12 0 -.16"><joint name="coupler" axis="0 1 0"/>
+<inertial pos=".1 0 0" mass="3" diaginertia="1e-3 1e-3 1e-3"/></body>"""
+FOUR_BAR = LINK.format("left", 0, COUPLER) + LINK.format("right", 0.3, "")
+"""A parallelogram with links of 0.2 m, masses of 1 kg at their ends, and a coupler of 3 kg."""
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("cone", ["pyramidal", "elliptic"])
+def test_a_planar_four_bar_falls_in_a_turned_base(seed: int, cone: str) -> None:
+    """Of the three rows of ``connect``, the one across the plane is rounding.
+
+    The coupler does not turn, so that I = (1 + 1 + 3) l^2 + 2 * 1e-3, and the moment about the
+    pivots is (1 + 1 + 3) g times the horizontal lever.
+    """
+    more = '<equality><connect body1="coupler" body2="right" anchor=".3 0 0"/></equality>'
+    step, coordinates = mujoco_step(*turned(seed, FOUR_BAR, more, f'cone="{cone}"'), H)
+    turn = H**2 * 5 * GRAVITY * 0.12 / (5 * 0.2**2 + 2e-3)
+    moved = coordinates.T @ solve_step(step).delta_q
+    assert moved == pytest.approx([turn, -turn, turn], rel=1e-9)
+    assert any(said.startswith("equality[0]: left out, in part") for said in coordinates.left_out)
+    twice = more.replace("</equality>", more.removeprefix("<equality>"))
+    again, coordinates = mujoco_step(*turned(seed, FOUR_BAR, twice, f'cone="{cone}"'), H)
+    assert coordinates.T @ solve_step(again).delta_q == pytest.approx(moved, rel=1e-12)
+    assert any(said.startswith("equality[1]: left out") for said in coordinates.left_out)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed: int) -> None:
+    """A ball that is connected to the world where it touches a floor turns about that point.
+
+    It is pushed by its weight and a torque; about the point, I = 2/5 m r^2 + m r^2.
+    """
+    world = (
+        '<geom type="plane" size="1 1 1"/><body name="ball" pos="0 0 .0999"><freejoint/>'
+        '<geom size=".1" mass="2"/></body>'
+    )
+    more = '<equality><connect body1="ball" anchor="0 0 -.1"/></equality>'
+    model, data = turned(seed, world, more)
+    torque = np.random.default_rng(seed).normal(size=3)
+    across = data.geom_xmat[0].reshape(3, 3)[:, 2]
+    torque -= across * (across @ torque)
+    data.xfrc_applied[1, 3:] = torque
+    step, coordinates = mujoco_step(model, data, H)
+    turn = coordinates.T @ solve_step(step).delta_q
+    about = data.xmat[1].reshape(3, 3) @ turn[3:]
+    assert about == pytest.approx(H**2 * torque / (7 / 5 * 2 * 0.1**2), rel=1e-9)
+    assert any(
+        "contact[0: body[world]/body[ball]]: left out" in said for said in coordinates.left_out
+    )
+
+
+@pytest.mark.parametrize(("share", "bears"), [(0.5, False), (2.0, True)])
+def test_a_lever_counts_from_1e_9_of_its_terms(share: float, bears: bool) -> None:
+    """The wheel of radius r touches below the pivot, but for e; the centre of mass is at c.
+
+    A turn moves the centre of mass by c, and everything else by c + r about it at most: the terms
+    of a lever are 2 c + r. A lever e that counts bears the moment: N e = m g c.
+    """
+    c, r, m = 0.3, 0.1, 2.0
+    e = share * FULL_RANK * (2 * c + r)
+    text = f"""<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 {r}">
+    <joint axis="0 1 0" pos="{-e} 0 0"/><inertial pos="{c} 0 0" mass="{m}" diaginertia="1 1 1"/>
+    <geom size="{r}"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    step, coordinates = mujoco_step(model, mujoco.MjData(model), H)
+    forces = solve_step(step).wrench[:, 2]
+    assert any("left out" in said for said in coordinates.left_out) is not bears
+    assert forces.tolist() == (pytest.approx([m * GRAVITY * c / e], rel=1e-6) if bears else [])
