@@ -7,6 +7,7 @@ import json
 import math
 import re
 from functools import cache
+from itertools import product
 from pathlib import Path
 from types import MappingProxyType
 
@@ -38,6 +39,7 @@ from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.helpers import error, pinch
 from tests.lab.study.test_known_issues import highs_solved
 from validation.make.challenges import ANSWERS
+from validation.programs.engines.second_order import STUDY
 from validation.programs.engines.second_order_page import chosen as second_order
 
 ROOT = Path(__file__).parents[1]
@@ -373,8 +375,8 @@ def turns_of_clouds():
 class Compared(dict):
     """Runs against second-order simulators, by scene, speed [mm/s], engine and step [ms].
 
-    In mm, mm/s, degrees, and ms for a simulated second; "largest": the largest step [ms] with a
-    verdict, of the best setting.
+    In mm, mm/s, degrees, and ms for a simulated second or, "step", for a step; "largest": the
+    largest step [ms] with a verdict, of the best setting.
     """
 
     OURS = ("quasistatic_ref", "uncertified")
@@ -382,7 +384,9 @@ class Compared(dict):
         "ours": OURS, "ellipsoid": (OURS[0], "ellipsoid, uncertified"),
         "sap": ("drake", "point, sap"),
         "lagged": ("drake", "point, lagged, stiction tolerance 0.01 mm/s"),
+        "default lagged": ("drake", "point, lagged"),
         "impratio": ("mujoco", "implicitfast, elliptic, impratio 100"),
+        "noslip": ("mujoco", "implicitfast, elliptic, impratio 100, noslip 10, solref 5 ms"),
         "MuJoCo": ("mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms"),
     })  # fmt: skip
 
@@ -397,13 +401,72 @@ class Compared(dict):
             steps = [1e3 * row["h"] for row in every if row[verdict]]
             return min(steps) if h == "least" else max(steps)
         (row,) = second_order(**of, setting=setting, h=float(h) / 1e3)
-        return {key: row[key] for key in ("turn", "cost")} | {
-            key: 1e3 * row[key] for key in ("way", "end_way", "depth", "creep")
-        }
+        return (
+            {"step": row["h"] * row["cost"]}
+            | {key: row[key] for key in ("turn", "cost")}
+            | {key: 1e3 * row[key] for key in ("way", "end_way", "depth", "creep")}
+        )
 
 
 def compared():
     return Compared()
+
+
+def mjcf():
+    """Largest differences from MuJoCo, of what both compute and of what it iterates [m, -]."""
+    rows = table("mjcf.md")
+    columns = ("masses", "poses", "Jacobians", "mass matrix", "spheres and capsules")
+    return {
+        "exact": max(float(row[column]) for row in rows for column in columns),
+        "iterated": max(float(row["other shapes"]) for row in rows),
+        "reach": re.search(r"mesh reaches: (\S+) m from", text("mjcf.md"))[1],
+    }
+
+
+class Spread(dict):
+    """Least and most of a number over runs, such as "way; engine=drake; h=0.0001/0.0005"."""
+
+    def __missing__(self, name):
+        key, *fields = name.split("; ")
+        kept = second_order()
+        for field in fields:
+            of, values = field.split("=")
+            kept = [row for row in kept if str(row[of]) in values.split("/")]
+        found = [row[key] for row in kept]
+        least, most = min(found), max(found)
+        return {"least": least, "most": most, "least, mm": 1e3 * least, "most, mm": 1e3 * most}
+
+
+def spread():
+    return Spread()
+
+
+def ratios_to_ours():
+    """Of each engine to ours, least and most: steps of the lift, by the verdict; cost if right."""
+    ours, found = Compared.OURS, {}
+    for verdict in ("holds", "right"):
+        for engine in ("mujoco", "drake", "point, sap"):
+            found[verdict, engine] = []
+            for speed in STUDY["speeds"]:
+                runs = [row for row in second_order(scene="lift", speed=speed) if row[verdict]]
+                largest = max(row["h"] for row in runs if ours == (row["engine"], row["setting"]))
+                theirs = max(row["h"] for row in runs if engine in (row["engine"], row["setting"]))
+                found[verdict, engine].append(largest / theirs)
+    for engine in ("mujoco", "drake"):
+        found["cost", engine] = []
+    for scene, speed in product(STUDY["scene"], STUDY["speeds"]):
+        right = second_order(scene=scene, speed=speed, right=True)
+        own = [row["cost"] for row in right if ours == (row["engine"], row["setting"])]
+        for engine in ("mujoco", "drake") if own else ():
+            cost = min(row["cost"] for row in right if row["engine"] == engine)
+            found["cost", engine].append(cost / min(own))
+    of = ("scene", "speed", "h")
+    plain = {tuple(row[key] for key in of): row for row in second_order(setting="uncertified")}
+    found["cost", "certified"] = [
+        row["cost"] / plain[tuple(row[key] for key in of)]["cost"]
+        for row in second_order(setting="certified")
+    ]
+    return {", ".join(name): {"least": min(own), "most": max(own)} for name, own in found.items()}
 
 
 def needed_step():

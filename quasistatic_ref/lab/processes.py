@@ -7,12 +7,15 @@ import contextlib
 import ctypes
 import os
 import signal
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 PROC = Path("/proc")
 TOKEN = "QUASISTATIC_REF_SUPERVISED"
 """Variable of the environment by which children of a process are known when it has ended."""
+STARTING = 1.0
+"""How long processes are waited for whose environment is still empty [s]."""
 PAGE = os.sysconf("SC_PAGE_SIZE")
 _SUBREAPER = 36
 """PR_SET_CHILD_SUBREAPER: children whose parents have ended become children of this process."""
@@ -42,10 +45,13 @@ def detached(pid: int) -> list[int]:
 def marked(token: str) -> list[int]:
     """Processes whose environment has a token, wherever they are."""
     words = f"{TOKEN}={token}".encode()
+    end = time.monotonic() + STARTING
     found = []
     for folder in PROC.glob("[0-9]*"):
         with contextlib.suppress(OSError):
-            if words in (folder / "environ").read_bytes().split(b"\0"):
+            while not (environment := (folder / "environ").read_bytes()) and time.monotonic() < end:
+                time.sleep(1e-3)  # the process is being started
+            if words in environment.split(b"\0"):
                 found.append(int(folder.name))
     return [pid for pid in found if pid != os.getpid()]
 

@@ -210,7 +210,7 @@ class Recorder(Shown):
             "format": FORMAT,
             "version": VERSION,
             "h": self.h,
-            "backend": self.backend,
+            "backend": str(self.backend),  # a word of --set is a class of its own
             "cone": self.cone,
             "extra": list(self.extra),
             "record": self.record,

@@ -95,6 +95,7 @@ def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
     """NumPy's C code imports datetime, and makes an ImportError of any exception in it."""
     code = (
         "import os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # ignored in the background
         "class Interrupter:\n"
         "    def find_spec(self, name, *_):\n"
         f"        if name == {package!r}:\n"

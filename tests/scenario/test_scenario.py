@@ -24,7 +24,7 @@ K_Q = "K_q = { slide = 500, turn = 2.5 }"
 
 def test_the_settings_are_those_of_the_file(load):
     scenario = load()
-    assert (scenario.h, scenario.steps, scenario.backend) == (0.01, 5, "daqp")
+    assert (scenario.h, scenario.steps) == (0.01, 5)
     assert (scenario.certify, scenario.record) == ("full", "full")
     np.testing.assert_allclose(scenario.gravity, [0, 0, -9.81], rtol=EXACT)
     assert [c.name for c in scenario.system.coordinates[:3]] == [

@@ -32,7 +32,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def scenario(folder):
-    return load_scenario(written_scenario(folder), fast=True)
+    return load_scenario(written_scenario(folder), ["solver.backend=daqp"], fast=True)
 
 
 @pytest.fixture(scope="module")

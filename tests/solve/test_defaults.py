@@ -25,6 +25,7 @@ from tests.tolerances import OPTIMUM
 FAILED = Reply(None, None, False, "at a loss")
 
 
+@pytest.mark.extra("fast")
 def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
     by_certify = {"off": DENSE_BELOW, "residual": SPARSE_FROM_PIQP, "full": DENSE_BELOW_PROOFS}
     for certify, least in by_certify.items():
@@ -43,6 +44,7 @@ def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
         assert answer.certificate.error_bound < 1e-4
 
 
+@pytest.mark.extra("fast")
 def test_the_default_backend_is_clarabel_and_with_fast_daqp():
     assert default_backend("facets-8", "full", 0) == "daqp"
     assert default_backend("ellipsoid", "off", 10**9) == "clarabel"
@@ -77,6 +79,7 @@ def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path)
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("by_code", [True, False])
 def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by_code):
     scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
@@ -96,6 +99,7 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by
     assert backends == ["daqp", "clarabel", "clarabel", "daqp"]
 
 
+@pytest.mark.extra("fast")
 def test_a_failure_of_both_backends_is_that_of_the_first(monkeypatch):
     monkeypatch.setattr(Daqp, "reply", lambda *_: FAILED)
     monkeypatch.setattr(Clarabel, "reply", lambda *_: FAILED)
@@ -107,6 +111,7 @@ def test_a_failure_of_both_backends_is_that_of_the_first(monkeypatch):
             scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
 
 
+@pytest.mark.extra("fast")
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():
     scenario = load_scenario("sphere_spin")
     simulator = Simulator(

@@ -16,7 +16,10 @@ CVXPY for longer than 10 s, in 20,000 iterations of up to 1,500 inner ones; HiGH
 interfaces, ended the process."""
 PATHS = [
     *(("cvxpy", name) for name in installed_backends()),
-    *(("native", name) for name in installed("native")),
+    *(
+        pytest.param(("native", name), marks=pytest.mark.extra("fast"))
+        for name in installed("native")
+    ),
 ]
 """Every backend that is here by every interface."""
 

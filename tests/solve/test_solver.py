@@ -57,7 +57,11 @@ EVERY = [
     *((FastSolver, name, "native") for name in installed("native")),
     (NoSolver, "none", "none"),
 ]
-every_solver = pytest.mark.parametrize(("kind", "name", "interface"), EVERY)
+NEEDS = {FastSolver: [pytest.mark.extra("fast")]}
+every_solver = pytest.mark.parametrize(
+    ("kind", "name", "interface"),
+    [pytest.param(*one, marks=NEEDS.get(one[0], [])) for one in EVERY],
+)
 
 
 def test_every_backend_of_these_tests_is_installed_by_every_interface():
@@ -149,6 +153,7 @@ def test_rows_of_an_extension_count_as_rows_of_the_step(step):
             solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
 
 
+@pytest.mark.extra("fast")
 def test_a_sparse_solver_and_its_copy_certify_the_bits_of_the_exact_method(large_step):
     solver = copy.copy(solver_for(large_step, "osqp", fast=True))
     assert type(solver) is SparseSolver
@@ -165,7 +170,13 @@ def test_no_solver_gives_no_answer_of_its_own(step):
         NoSolver(step, "none").answer(NoSolver(step, "none").in_both_units(step), 1e-9)
 
 
-@pytest.mark.parametrize(("fast", "interface"), [(False, "cvxpy"), (True, "native")])
+@pytest.mark.parametrize(
+    ("fast", "interface"),
+    [
+        (False, "cvxpy"),
+        pytest.param(True, "native", marks=NEEDS[FastSolver]),
+    ],
+)
 def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
     run = some.simulator()
@@ -186,7 +197,7 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     [
         (CvxpySolver, "osqp", "cvxpy"),
         (QpsolversSolver, "qpsolvers:piqp", "qpsolvers"),
-        (FastSolver, "daqp", "native"),
+        pytest.param(FastSolver, "daqp", "native", marks=NEEDS[FastSolver]),
         (NoSolver, "none", "none"),
     ],
 )
@@ -268,6 +279,7 @@ def test_the_bound_of_an_error_is_finite_in_a_polyhedral_cone(step):
     assert 0 < bound < 1
 
 
+@pytest.mark.extra("fast")
 def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answer(
     step, monkeypatch
 ):

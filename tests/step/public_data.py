@@ -28,6 +28,7 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
+from tests.extras import missing
 from tests.helpers import always_in_blocks, random_step
 from tests.scenes import written_scenario
 
@@ -49,6 +50,17 @@ def sparse_step():
         return copy.copy(some.simulator).step(some.q, np.zeros(0), some.force).step
 
 
+def posed_data(step):
+    """What only compiled steps have."""
+    return {
+        "PosedStep": step,
+        "sparse PosedStep": sparse_step(),
+        "PosedContacts": step.contacts,
+        "SparseContacts": sparse_step().contacts,
+        "Blocks": sparse_step().contacts.blocks,
+    }
+
+
 def public_data(folder):
     """Every kind of public data, by name; a scenario is written into a folder."""
     scenario = load_scenario(written_scenario(folder), fast=True)
@@ -64,12 +76,8 @@ def public_data(folder):
     return {
         "StepData": step,
         "StepData with rows of a user's": step.replace(extra=extra),
-        "PosedStep": result.step,
-        "sparse PosedStep": sparse_step(),
         "Contacts": step.contacts,
-        "PosedContacts": result.step.contacts,
-        "SparseContacts": sparse_step().contacts,
-        "Blocks": sparse_step().contacts.blocks,
+        **({} if missing("fast") else posed_data(result.step)),
         "Extra": extra,
         "StepSolution": solution,
         "CoulombSolution": coulomb_step(step),

@@ -103,6 +103,7 @@ def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
     assert np.abs(failure.value.delta_q[:3]).max() > 1e3
 
 
+@pytest.mark.extra("fast")
 def test_groups_in_blocks_are_proved_and_verified(monkeypatch):
     always_in_blocks(monkeypatch)
     some = pile((3, 1, 2), gap=SIDE, yaw=1.0, backend="clarabel", certify="full")

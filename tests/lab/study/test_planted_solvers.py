@@ -5,11 +5,13 @@ import os
 import signal
 import stat
 import sys
+import threading
 import time
 
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
@@ -232,6 +234,18 @@ def test_what_a_solver_leaves_behind_is_ended(folder, problem):
     while alive(folder) and time.monotonic() < end:
         time.sleep(0.05)
     assert alive(folder) == []
+
+
+def test_a_process_that_is_being_started_is_known_by_its_token(tmp_path, monkeypatch):
+    """For a moment Linux shows an empty environment, here for 20 ms."""
+    monkeypatch.setattr(processes, "PROC", tmp_path)
+    (tmp_path / "7").mkdir()
+    environment = tmp_path / "7" / "environ"
+    environment.touch()
+    started = threading.Timer(0.02, environment.write_text, [f"A=b\0{processes.TOKEN}=mine\0"])
+    started.start()
+    assert processes.marked("mine") == [7]
+    started.join()
 
 
 def test_a_solver_that_eats_memory_is_ended_and_its_memory_reported(folder, harmless, problem):

@@ -126,6 +126,7 @@ print(status, [name for name in heavy if name in sys.modules])
 """
 
 
+@pytest.mark.extra("fast")
 def test_a_fast_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
     """It takes less time than these packages take to be imported."""
     command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]

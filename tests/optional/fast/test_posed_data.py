@@ -17,6 +17,7 @@ from tests.scenes import chain_scene
 NAN = np.nan
 
 
+@pytest.mark.extra("fast")
 def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(things):
     posed = things["PosedStep"]
     checked = posed.replace()
@@ -28,6 +29,7 @@ def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(thing
         np.testing.assert_array_equal(getattr(checked, name), getattr(posed, name))
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize(
     ("name", "like"), [("PosedStep", replace), ("sparse PosedStep", changed_blocks)]
 )
@@ -68,6 +70,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("changes", REFUSED.values(), ids=REFUSED)
 def test_sparse_contacts_refuse(things, changes):
     sparse = things["SparseContacts"]

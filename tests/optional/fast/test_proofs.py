@@ -39,6 +39,7 @@ def optimum_of(step):
     return solver.optimum(both, answer), len(solver.proofs.parts)
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("touching", [proofs.TOUCHING, -np.inf])
 def test_contacts_that_do_not_touch_are_left_out_and_proved_open(monkeypatch, touching):
     """With -inf all rows that bear nothing are left out, also those that the answer needs."""
@@ -56,6 +57,7 @@ def test_contacts_that_do_not_touch_are_left_out_and_proved_open(monkeypatch, to
     assert several > 1
 
 
+@pytest.mark.extra("fast")
 def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
     some = pile((5, 1, 1), gap=0.004, yaw=0.1, certify="full", backend="daqp")
     q = some.q
@@ -68,6 +70,7 @@ def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
     assert unlike(optimum_of(result.step)[0], whole) == []
 
 
+@pytest.mark.extra("fast")
 def test_groups_are_kept_while_h_and_what_couples_them_stay():
     some = pile((2, 1, 1), gap=SIDE, certify="off", backend="daqp")
     step = some.simulator.step(some.q, np.zeros(0), some.force).step.replace()
@@ -89,6 +92,7 @@ def numbered(counts, rng):
     return free_step(np.eye(n), np.ones(n), nothing, 0.01).replace(extra=own)
 
 
+@pytest.mark.extra("fast")
 @pytest.mark.parametrize("counts", [(1, 2), (2, 1), (0, 1), (1, 1, 2), (0, 2, 1), (1, 0, 1, 2)])
 def test_equal_groups_have_any_numbers_of_own_rows(counts):
     """A smaller number than that of the group before must not broadcast either."""
