@@ -9,12 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.formats.given import check_kind, made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.data import Array, Indices
 
 
+@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class ContactPair(Plain):
     """Two shapes that may touch.
@@ -45,8 +48,7 @@ class ContactPair(Plain):
     --------
     >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
     >>> system = qr.System([ball])
-    >>> ground = qr.HalfSpace((0, 0, 1), 0.0)
-    >>> floor = qr.PlacedShape("floor", link=0, R=np.eye(3), t=np.zeros(3), shape=ground)
+    >>> floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
     >>> qr.ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01, rows=6, k=1).n_c
     1
     """
@@ -61,6 +63,16 @@ class ContactPair(Plain):
     hull: bool = False
 
     def __post_init__(self) -> None:
+        for key in ("alpha", "beta"):
+            remedy = ", such as system.shapes[0] or PlacedShape.in_world"
+            check_kind(getattr(self, key), PlacedShape, f"{self.name}.{key}", remedy)
+        for key in ("mu_v", "mu_omega"):
+            friction = checked_array(getattr(self, key), f"{self.name}.{key}", (), ContactError)
+            if friction < 0:
+                problem = "must be at least 0"
+                raise ContactError(problem, field=f"{self.name}.{key}", value=float(friction))
+        if self.rows not in (4, 6):
+            raise ContactError("must be 4 or 6", field=f"{self.name}.rows", value=self.rows)
         if not isinstance(self.k, int | np.integer) or self.k < 1:
             problem = "must be a whole number, 1 or more"
             raise ContactError(problem, field=f"{self.name}.k", value=self.k)

@@ -55,7 +55,8 @@ class Field:
         if self.kind == "integer":
             return table.integer(name, default, **bounds, choices=self.choices)
         if self.kind == "text":
-            return table.text(name, default, self.choices)
+            text = table.text(name, default, self.choices)
+            return None if text is None else str(text)  # not a kind of str of the reader's
         if self.kind == "boolean":
             return table.boolean(name, default)
         if self.kind == "three numbers":

@@ -13,20 +13,39 @@ LONGEST = 200
 MOST_NAMES = 50
 """Most names that a sentence lists."""
 OTHER_WORDS = {
-    "dt": "h",
-    "time_step": "h",
-    "timestep": "h",
-    "time": "t",
-    "friction": "mu_v",
-    "torsion": "mu_omega",
-    "stiffness": "K_q",
-    "solver": "backend",
-    "tolerance": "accuracy",
-    "tol": "accuracy",
-    "eps": "accuracy",
-    "joints": "actuated",
+    "h": "dt time_step timestep",
+    "t": "time",
+    "steps": "n_steps num_steps nsteps horizon",
+    "mu_v": "mu friction static_friction lateral_friction sliding_friction",
+    "mu_omega": "mu_w mu_t torsion torsional_friction spinning_friction",
+    "K_q": "stiffness kp gains position_gain",
+    "backend": "solver",
+    "accuracy": "tolerance tol eps",
+    "actuated": "joints actuators motors",
+    "targets": "control ctrl qpos_des desired waypoints",
+    "target": "control ctrl qpos_des desired u",
+    "force": "wrench xfrc_applied qfrc_applied external_force tau",
+    "wrenches": "wrench xfrc_applied external_force forces force",
+    "positions": "q qpos q0 joint_positions initial_positions keyframe",
+    "base": "fixed_base freejoint usefixedbase floating_base",
+    "pose": "pos position xyz rpy quat origin transform",
+    "xyz": "pos position translation origin",
+    "rpy": "quat orientation euler rotation",
+    "urdf": "mesh file model filename path",
+    "cloud": "points point_cloud",
+    "shapes": "geometry geom geoms collision collisions",
+    "shape": "geometry geom solid",
+    "bodies": "body robots models links",
+    "contacts": "contact pairs collision_pairs",
+    "pairs": "contacts contact collision_pairs",
+    "alpha": "body_a geom1 a",
+    "beta": "body_b geom2 b",
+    "k": "condim n_contacts max_contacts",
+    "record": "log logging",
+    "fast": "compiled engine",
+    "gravity": "g",
 }
-"""What other programs call a field, and how it is called here."""
+"""Our names of fields, and what MuJoCo, Drake, pinocchio, PyBullet and others call the like."""
 
 
 def one_line(text: str) -> str:
@@ -62,9 +81,11 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     if len(name) > LONGEST:  # difflib's time is quadratic
         return ""
     by_lower = {known_name.lower(): known_name for known_name in known}
-    near = difflib.get_close_matches(name.lower(), by_lower, n=1)
-    meant = by_lower[near[0]] if near else OTHER_WORDS.get(name.lower(), "")
-    return f"; did you mean {clipped(meant)!r}?" if meant in by_lower.values() else ""
+    word = name.lower()
+    meant = [ours for ours in by_lower.values() if word in OTHER_WORDS.get(ours, "").split()]
+    near = difflib.get_close_matches(word, by_lower, n=1)
+    meant += [by_lower[one] for one in near]
+    return f"; did you mean {clipped(meant[0])!r}?" if meant else ""
 
 
 def short_words(text: str) -> str:

@@ -26,6 +26,11 @@ class TableReader:
         Dotted name of the table itself, ``""`` at the top.
     error : type
         The :class:`~quasistatic_ref.errors.InputError` to raise.
+
+    Attributes
+    ----------
+    given : dict
+        The table as it was parsed.
     """
 
     def __init__(self, table: Any, where: str = "", error: type[InputError] = InputError) -> None:
@@ -33,6 +38,7 @@ class TableReader:
         self.error = error
         if not isinstance(table, dict):
             raise error("must be a table of named fields", field=where or None, value=table)
+        self.given: dict[str, Any] = table
         self._left: dict[str, Any] = dict(table)
         self._known: set[str] = set()
 
@@ -55,6 +61,10 @@ class TableReader:
 
     def __contains__(self, field: str) -> bool:
         return field in self._left
+
+    def peek(self, field: str) -> Any:
+        """Return a field as parsed, which stays to be taken; None if it is not there."""
+        return self._left.get(field)
 
     def is_null(self, field: str) -> bool:
         """Tell whether a field is there and holds JSON's null."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
+from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
@@ -19,6 +20,7 @@ from quasistatic_ref.shapes.frozen import finite, freeze_array
 BASES = ("fixed", "floating", "planar")
 
 
+@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class Body(Plain):
     """One URDF in the world.
@@ -76,11 +78,12 @@ class Body(Plain):
         if self.base not in BASES:
             problem = f"is not a base{suggestion(str(self.base), BASES)}"
             raise ModelError(problem, field=f"{self.name}.base", value=self.base)
-        if isinstance(self.actuated, str) and self.actuated != "all":
-            problem = 'must be "all" or a sequence of joint names'
-            raise ModelError(problem, field=f"{self.name}.actuated", value=self.actuated)
-        if not isinstance(self.actuated, str):
-            object.__setattr__(self, "actuated", tuple(self.actuated))
+        if self.actuated != "all":
+            names = self.actuated
+            if not isinstance(names, list | tuple) or not all(isinstance(n, str) for n in names):
+                problem = 'must be "all" or a list of joint names, of which "base" is the base'
+                raise ModelError(problem, field=f"{self.name}.actuated", value=names)
+            object.__setattr__(self, "actuated", tuple(names))
         for key in ("xyz", "rpy"):
             with about_field(f"{self.name}.{key}"):
                 freeze_array(self, key, (3,))
@@ -118,4 +121,4 @@ class Body(Plain):
         ModelError
             If the shape is another one, or the mass not positive.
         """
-        return cls(name, solid_urdf(shape, mass, name), **({"base": "floating"} | more))
+        return cls(name, solid_urdf(shape, mass, name), **{"base": "floating", **more})

@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, checked_numbers
 
 _TWISTS = {
     "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),
@@ -154,7 +154,7 @@ class Order:
 
 def with_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
     """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
-    x = np.asarray(x, dtype=np.float64)
+    x = checked_numbers(x, name, ModelError)
     if x.shape != shape:
         raise ModelError(f"must have shape {shape}", field=name, value=x.shape)
     return x

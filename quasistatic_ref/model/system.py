@@ -8,8 +8,9 @@ base has x, y and the angle of the same twist, in the plane.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from threading import RLock
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -35,9 +36,10 @@ from quasistatic_ref.model.mass import (
     mass_matrix,
     rigid_masses,
 )
+from quasistatic_ref.model.named import Named
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
-from quasistatic_ref.step.arrays import Array, read_only, whole
+from quasistatic_ref.step.arrays import Array, Indices, checked_array, read_only, whole
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.step.pivots import positive_pivots
 
@@ -66,6 +68,8 @@ class System(Shown):
     joints : tuple of Joint
         In the paper's order, with their slices of q and delta_q; mimic joints are not among them.
     coordinates : tuple of Coordinate, length n_v
+    named : Named
+        Where the entries of each name stand; see :meth:`of`, :meth:`change_of`, :meth:`placed`.
     mimics : tuple of MimicJoint
     links : tuple of str
         ``"world"``, then ``"gripper/left_finger"``, ...
@@ -149,6 +153,7 @@ class System(Shown):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
         self._turning = [joint for joint in self.joints if joint.kind in screw.TURNING]
+        self.named = Named(self.joints)
         self.units = UnitParts(self.joints)
         self.actuated_units = UnitParts([joint for joint in self.joints if joint.actuated])
         others = [joint for joint in self.joints if joint.kind not in screw.TURNING]
@@ -189,11 +194,12 @@ class System(Shown):
 
     def link(self, name: str) -> int:
         """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
-        if name in self._roots:
+        if isinstance(name, str) and name in self._roots:
             return self._roots[name]
         if name not in self.links:
             known = (*self.links, *self._roots)
-            raise ModelError(f"is not a link{suggestion(name, known)}", field="link", value=name)
+            problem = f"is not a link{suggestion(str(name), known)}"
+            raise ModelError(problem, field="link", value=name)
         return self.links.index(name)
 
     def mass(self, body: str) -> float:
@@ -309,7 +315,7 @@ class System(Shown):
 
         The last result is kept, because the q at the end of a step is the q of the next one.
         """
-        q = np.asarray(q, dtype=np.float64)
+        q = with_shape(q, "q", (self.n_q,))
         bits = q.tobytes()
         if self._latest is None or self._latest[0] != bits:
             self.units.check(q)
@@ -317,39 +323,122 @@ class System(Shown):
             self._latest = bits, Kinematics(*self._workspace.poses(), self.column_map)
         return self._latest[1]
 
-    def centre_of_mass_force(
-        self, q: Array, body_name: str, force: ArrayLike, torque: ArrayLike
-    ) -> Array:
-        """Generalised force of a wrench on a body's root link, shape (n_v,) [N, N m].
-
-        The wrench acts at the centre of mass of the root link and of the links that fixed joints
-        weld to it. Only for a body without moving joints is it the whole body's centre of mass.
+    def of(self, q: ArrayLike, name: str) -> Array:
+        """What q holds of a body, a joint or one entry, as ``block``, ``arm/elbow``, ``block.z``.
 
         Parameters
         ----------
-        q : ndarray, shape (n_q,)
-        body_name : str
-        force, torque : array_like, shape (3,)
-            In the world frame [N, N m].
+        q : array_like, shape (..., n_q) or (..., n_q_a)
+            One configuration, or all of a trajectory; or targets.
+        name : str
+            See :class:`~quasistatic_ref.model.named.Named`.
+
+        Returns
+        -------
+        ndarray, shape (...,) for one entry, otherwise (..., entries) [m, rad, -]
 
         Raises
         ------
         ModelError
-            If there is no such body, or its base is fixed, so that the wrench would move nothing.
+            If there is no such name, or q has other entries.
         """
-        root = self._root(body_name)
-        joint = self._model.frames[self._frames[root - 1]].parentJoint
+        own = self.named.q(name)
+        return _taken(q, own, {self.n_q, self.n_q_a}, name)
+
+    def change_of(self, delta_q: ArrayLike, name: str) -> Array:
+        """What delta_q, or a generalised force, shape (..., n_v), holds of a name; as :meth:`of`.
+
+        Its single entries are coordinates, such as ``block/base.rz`` [m, rad; N, N m].
+        """
+        return _taken(delta_q, self.named.change(name), {self.n_v}, name)
+
+    def placed(self, values: Mapping[str, Any], q: ArrayLike | None = None) -> Array:
+        """Configuration with named positions and poses, shape (n_q,).
+
+        Parameters
+        ----------
+        values : mapping of str to object
+            As in ``{"arm/elbow": 0.3, "mug": {"xyz": (0, 0, 0.1), "rpy": (0, 0, 0)}}``; see
+            :meth:`Named.placed <quasistatic_ref.model.named.Named.placed>`.
+        q : array_like, shape (n_q,), optional
+            Where all else is; by default the start.
+
+        Raises
+        ------
+        ModelError
+            If there is no such name, or a value is not of its kind.
+        """
+        if not isinstance(values, Mapping):
+            problem = 'must name joints and bodies, as in {"arm/elbow": 0.3}'
+            raise ModelError(problem, field="values", value=values)
+        before = self.q_start if q is None else self.checked(q)
+        return self.checked(self.named.placed(before, values))
+
+    def load(
+        self,
+        q: Array,
+        name: str,
+        force: ArrayLike = (0.0, 0.0, 0.0),
+        torque: ArrayLike = (0.0, 0.0, 0.0),
+        at: ArrayLike | None = None,
+    ) -> Array:
+        """Generalised force of a force and a torque on a body or a link, shape (n_v,) [N, N m].
+
+        Loads add up: ``force=system.load(q, "mug", f) + system.load(q, "arm/hand", g)``.
+
+        Parameters
+        ----------
+        q : ndarray, shape (n_q,)
+        name : str
+            A link; or a body, which means its root link.
+        force, torque : array_like, shape (3,)
+            Along the world's axes [N, N m].
+        at : array_like, shape (3,), optional
+            Where the force acts [m], world frame; by default the centre of mass of the link; of a
+            body that of its root link and of the links that fixed joints weld to it.
+
+        Raises
+        ------
+        ModelError
+            If there is no such body or link, or it cannot move, so that a load would move nothing.
+        """
+        force = checked_array(force, "force", (3,), ModelError)
+        torque = checked_array(torque, "torque", (3,), ModelError)
+        link = self.link(name)
+        joint = self._model.frames[self._frames[link - 1]].parentJoint if link else 0
         if joint == 0:
-            problem = "has a fixed base, so a wrench has no effect on it"
-            raise ModelError(problem, field="body", value=body_name)
+            problem = "has a fixed base, so a load has no effect on it"
+            raise ModelError(problem, field="name", value=name)
         kinematics = self.kinematics(q)
-        # The root link's frame is that of the base's joint.
-        arm = product(kinematics.R[root], self._model.inertias[joint].lever)
-        moment = np.asarray(torque, dtype=np.float64) + np.cross(arm, np.asarray(force))
-        return product(kinematics.J[root].T, np.concatenate([np.asarray(force), moment]))
+        if at is None:
+            # The root link's frame is that of the base's joint.
+            of_body = name in self._roots
+            centre = self._model.inertias[joint].lever if of_body else self.centres[link]
+            arm = product(kinematics.R[link], centre)
+        else:
+            arm = checked_array(at, "at", (3,), ModelError) - kinematics.t[link]
+        moment = torque + np.cross(arm, force)
+        return product(kinematics.J[link].T, np.concatenate([force, moment]))
+
+    def pose(self, q: Array, link: str) -> tuple[Array, Array]:
+        """Rotation, shape (3, 3), and origin [m], (3,), of a link at q, in the world frame."""
+        i = self.link(link)
+        kinematics = self.kinematics(q)
+        return kinematics.R[i], kinematics.t[i]
 
     def _root(self, body: str) -> int:
         if body not in self._roots:
             problem = f"is not a body{suggestion(body, self._roots)}"
             raise ModelError(problem, field="body", value=body)
         return self._roots[body]
+
+
+def _taken(x: ArrayLike, own: Indices, lengths: set[int], name: str) -> Array:
+    """Entries of the last axis of an array, without that axis if there is one entry."""
+    x = np.asarray(x, dtype=np.float64)
+    if x.ndim == 0 or x.shape[-1] not in lengths or own.max() >= x.shape[-1]:
+        wanted = " or ".join(map(str, sorted(lengths)))
+        problem = f"cannot hold {name}: the last axis must have {wanted} entries"
+        raise ModelError(problem, field="q", value=x.shape)
+    taken = x.take(own, axis=-1)
+    return taken[..., 0] if len(own) == 1 else taken

@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.given import checked_items
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.angles import cos_sin
@@ -115,7 +116,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         does not have.
     """
     urdfs: dict[str, Urdf] = {}
-    for body in bodies:
+    for body in checked_items(bodies, Body, "bodies"):
         if body.name in urdfs:
             problem = "is the name of two bodies; rename one"
             raise ModelError(problem, field="body.name", value=body.name)

@@ -16,7 +16,7 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.paths import path_in, shared_folders
+from quasistatic_ref.scenario.paths import inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     WAYPOINT,
@@ -54,7 +54,7 @@ class Wrenches(Plain):
     def force(self, system: System, t: float, q: Array) -> Array:
         """Generalised force at time t, shape (n_v,)."""
         wrench = piecewise_linear(self.times, self.values, t)
-        return system.centre_of_mass_force(q, self.body, wrench[:3], wrench[3:])
+        return system.load(q, self.body, wrench[:3], wrench[3:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,11 +109,12 @@ class BodyEntry(Plain):
 def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
-    urdf = path_in(folder, table, "urdf")
+    text = inline_text(table, "urdf")
+    urdf = path_in(folder, table, "urdf") if text is None else None
     mjcf = path_in(folder, table, "mjcf")
-    if urdf is None and mjcf is None:
+    if text is None and urdf is None and mjcf is None:
         raise table.error_about("urdf", "is missing")
-    if urdf is not None and mjcf is not None:
+    if (text or urdf) is not None and mjcf is not None:
         raise table.error_about("mjcf", "cannot be combined with urdf; remove one of them")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
@@ -130,7 +131,9 @@ def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
             "gravity_compensated", "needs an actuated joint, and this body has none"
         )
     robot: str | Path
-    if urdf is not None:
+    if text is not None:
+        robot = text
+    elif urdf is not None:
         robot = urdf
         folders += shared_folders(urdf)
     else:

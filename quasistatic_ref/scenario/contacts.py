@@ -12,7 +12,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import number_within
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, about_field
-from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.quoting import known_names, suggestion
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.text import decimal
@@ -161,7 +161,14 @@ def _side(table: TableReader, key: str, shapes: Shapes) -> list[PlacedShape]:
             problem = f"is not a body, link or shape of this scenario{suggestion(name, shapes)}"
             raise table.error_about(key, problem, name)
         if not shapes[name]:
-            raise table.error_about(key, "has no collision shape; add one, or give a cloud", name)
+            others = {one.name for more in shapes.values() for one in more}
+            near = sorted(other for other in others if other.startswith(f"{name}/"))
+            remedy = "add one, or give a cloud"
+            if near:
+                remedy = (
+                    f"the body's shapes stand on other links: {known_names([f'{name}/*', *near])}"
+                )
+            raise table.error_about(key, f"has no collision shape; {remedy}", name)
         placed += shapes[name]
     if not placed:
         raise table.error_about(key, "must name at least one shape", given)

@@ -41,7 +41,7 @@ def apply_settings(
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):
         for key, value in settings.items():
-            _put(tables, str(key), _own(key, value), "settings", key)
+            _put(tables, str(key), own_value(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
@@ -51,7 +51,7 @@ def apply_settings(
             _put(tables, key, parsed(text), "--set", setting)
     made = _second_level(tables) - before
     for key, value in named.items():
-        tables[key] = _own(key, value)
+        tables[key] = own_value(key, value)
     return made & _second_level(tables)
 
 
@@ -87,8 +87,14 @@ def parsed(text: str) -> Any:
     return OwnWord(value) if isinstance(value, str) else value
 
 
-def _own(field: object, value: Any) -> Any:
-    """A value of Python's as a parser would have returned it, its paths being the user's own."""
+def own_value(field: object, value: Any) -> Any:
+    """A value of Python's as a parser would have returned it, its paths being the user's own.
+
+    Raises
+    ------
+    ScenarioError
+        If it holds itself, or is nested too deeply.
+    """
     try:
         return _as_parsed(plain(value))
     except RecursionError:

@@ -52,6 +52,16 @@ def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
     return path
 
 
+def inline_text(table: TableReader, field: str) -> str | None:
+    """The text of a URDF that stands in the field itself, from ``<`` on; None of anything else.
+
+    Only of the user's own words: the meshes of a text are looked for in the working folder.
+    """
+    text = table.peek(field)
+    own = isinstance(text, OwnWord) and text.lstrip().startswith("<")
+    return str(table.take(field)) if own else None
+
+
 def shared_folders(path: Path) -> list[Path]:
     """Folders of installed packages that a file lies in: where its own ``package://`` is sought."""
     return [folder for folder in _shared() if path.is_relative_to(folder)]

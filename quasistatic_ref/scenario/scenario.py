@@ -37,6 +37,7 @@ from quasistatic_ref.scenario.scenario_table import (
     VERSION,
     value,
 )
+from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
@@ -154,9 +155,7 @@ class Scenario(Plain, Shown):
         InputError
             If there is no ``optional/doctor``.
         """
-        doctor = needed_part("doctor.table", "findings")
-        findings: list[Finding] = doctor.scene_findings(self.simulator(), self.system.q_start)
-        return tuple(findings)
+        return self.simulator().findings()
 
     def run(self, progress: bool = True, **saving: Any) -> Trajectory:
         """Simulate the whole scenario.
@@ -194,12 +193,16 @@ class Scenario(Plain, Shown):
         )
 
 
-def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> Scenario:
-    """Load a scenario from a file, or by the name of one that comes with the package.
+def load_scenario(
+    name: str | Path | Mapping[str, Any], settings: Settings = (), **fields: Any
+) -> Scenario:
+    """Load a scenario from a file, by the name of one of the package, or from a mapping.
 
     Parameters
     ----------
-    name : str or Path
+    name : str, Path or mapping
+        A file; the name of a scenario that comes with the package; or the tables themselves, as
+        :func:`~quasistatic_ref.scenario.scene_words.scene_tables` takes them.
     settings : sequence of str, or mapping of str to object
         Changes, made before anything is checked: ``dotted.key=value``, as after the command
         line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
@@ -219,7 +222,24 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
     --------
     >>> qr.load_scenario("bunny_grasp", {"contacts.grip.mu_omega": 0.0}, steps=3).steps
     3
+    >>> scene = {
+    ...     "h": 0.01,
+    ...     "steps": 5,
+    ...     "bodies": {"ball": qr.Body.of_shape("ball", qr.Sphere(0.05), 0.3, xyz=(0, 0, 0.05))},
+    ...     "shapes": {"floor": qr.HalfSpace((0, 0, 1), 0.0)},
+    ...     "contacts": {"rest": {"alpha": "floor", "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    ... }
+    >>> qr.load_scenario(scene).run(progress=False).steps
+    5
     """
+    if isinstance(name, Mapping):
+        tables = scene_tables(name)
+        apply_settings(tables, settings, fields)
+        check_sizes(tables)
+        return _scenario(HERE, TableReader(tables, error=ScenarioError))
+    if not isinstance(name, str | Path):
+        problem = "must be a file, the name of a scenario of the package, or a mapping"
+        raise ScenarioError(problem, field="name", value=name)
     path = scenario_path(name)
     with about_file(path):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")

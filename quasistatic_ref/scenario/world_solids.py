@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.formats.declared import Field
@@ -66,3 +66,26 @@ SOLIDS: dict[str, Kind] = {
     ),
 }  # fmt: skip
 """The kinds by the name of their table."""
+
+
+def solid_table(shape: shapes.Shape, name: str) -> tuple[str, dict[str, Any]]:
+    """Kind and sizes of a solid called `name`, as its table says them.
+
+    Raises
+    ------
+    ScenarioError
+        If no table says such a shape.
+    """
+    if isinstance(shape, shapes.HalfSpace):
+        return "halfspace", {"normal": shape.normal.tolist(), "offset": shape.offset}
+    if isinstance(shape, shapes.Sphere):
+        return "sphere", {"radius": shape.radius}
+    if isinstance(shape, shapes.Box):
+        return "box", {"size": (2 * shape.half_extents).tolist()}
+    if isinstance(shape, shapes.Ellipsoid):
+        return "ellipsoid", {"size": (2 * shape.half_axes).tolist()}
+    if isinstance(shape, shapes.Cylinder | shapes.Capsule | shapes.Cone):
+        sizes = {"radius": shape.radius, "length": 2 * shape.half_length}
+        return type(shape).__name__.lower(), sizes
+    problem = f"is a {type(shape).__name__} that no file holds; write it as a mesh, and load that"
+    raise ScenarioError(problem, field=name)

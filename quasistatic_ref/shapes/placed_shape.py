@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.box import Box as Box
 from quasistatic_ref.shapes.capsule import Capsule as Capsule
@@ -21,7 +23,11 @@ from quasistatic_ref.shapes.sphere import Sphere as Sphere
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import ORTHONORMAL
 
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""The rotation by nothing [-]."""
 
+
+@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class PlacedShape(Plain):
     """A shape placed in the frame of a link.
@@ -45,10 +51,9 @@ class PlacedShape(Plain):
 
     Examples
     --------
-    >>> ground = qr.HalfSpace((0, 0, 1), 0.0)
-    >>> floor = qr.PlacedShape("floor", link=0, R=np.eye(3), t=np.zeros(3), shape=ground)
-    >>> floor.name
-    'floor'
+    >>> floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
+    >>> floor.name, floor.link
+    ('floor', 0)
     """
 
     name: str
@@ -63,3 +68,25 @@ class PlacedShape(Plain):
         defect = np.abs(self.R.T @ self.R - np.eye(3)).max()
         if not (defect <= ORTHONORMAL and np.linalg.det(self.R) > 0):
             raise ModelError("must be a rotation", field=f"{self.name}.R", value=self.R.tolist())
+
+    @classmethod
+    def in_world(
+        cls, name: str, shape: Shape, xyz: ArrayLike = (0, 0, 0), R: ArrayLike = IDENTITY
+    ) -> PlacedShape:
+        """A shape that stands still: a floor, a wall, a table.
+
+        Parameters
+        ----------
+        name : str
+        shape : Shape
+        xyz : array_like, shape (3,)
+            Origin of the shape's frame [m], world frame.
+        R : array_like, shape (3, 3)
+            Rotation from the shape's frame to the world's [-].
+
+        Raises
+        ------
+        ModelError
+            If R is no rotation, or a number is not finite.
+        """
+        return cls(name, 0, np.array(R), np.array(xyz), shape)

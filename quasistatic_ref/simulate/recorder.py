@@ -14,6 +14,7 @@ from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -149,7 +150,7 @@ class Recorder(Shown):
             row["lam_extra"] = solution.lam_extra
         self.extra = step.extra.names
         self._rows.append(row)
-        self.q = result.q
+        self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
         self.steps += 1
         if len(self._rows) == PACKED:
             self.packed()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
+from quasistatic_ref.formats.given import arguments_checked, checked_items
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
@@ -36,6 +37,7 @@ not certified. A run that is resumed must take these steps again.
 """
 
 
+@arguments_checked
 def rollout(
     simulator: Simulator,
     q: Array,
@@ -61,11 +63,13 @@ def rollout(
     simulator : Simulator
     q : ndarray, shape (n_q,)
         Where to start; quaternions are normalised.
-    target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
-        q_bar_a as a function of t [s], of (t, q) or of (t, q, last), constant, or step by step.
+    target : callable, ndarray of shape (n_q_a,) or (steps, n_q_a), or mapping
+        q_bar_a as a function of t [s], of (t, q) or of (t, q, last), constant, or step by step; or
+        by names, as ``{"thumb": 0.01}``, all others as at the start.
     steps : int
-    force : callable, optional
-        External generalised force, shape (n_v,) [N, N m], as a function of the same.
+    force : callable or ndarray of shape (n_v,), optional
+        External generalised force [N, N m], as a function of the same or constant;
+        :meth:`~quasistatic_ref.model.system.System.load` makes it.
     record : str
         ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
         of single contacts in their place.
@@ -113,7 +117,8 @@ def rollout(
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
-    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
+    watching = checked_items(observers, Observer, "observers")
+    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *watching])
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)
     saved = None

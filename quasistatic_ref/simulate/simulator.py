@@ -3,33 +3,37 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from inspect import Signature, signature
 from typing import Any, ClassVar, TypeVar, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.given import arguments_checked, check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import fast_part, needed_part
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scene import Scene
+from quasistatic_ref.simulate.stiffness import stiffness_matrix
+from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solve import check_accuracy, solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.pivots import positive_definite
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
@@ -99,8 +103,9 @@ class Simulator(Shown):
     pairs : sequence of ContactPair
     h : float
         Time step [s].
-    K_q : ndarray, shape (n_a, n_a)
-        Stiffness of the actuated coordinates [N/m, N m/rad], in the order of delta_q.
+    K_q : ndarray, shape (n_a, n_a); or its diagonal, a number, or a mapping of joints to these
+        Stiffness of the actuated coordinates [N/m, N m/rad], in the order of delta_q; see
+        :func:`~quasistatic_ref.simulate.stiffness.stiffness_matrix`.
     gravity : array_like, shape (3,)
         [m/s^2], world frame.
     gravity_acts : ndarray of bool, shape (n_a,), optional
@@ -160,13 +165,14 @@ class Simulator(Shown):
 
     __signature__: ClassVar[Signature]
 
+    @arguments_checked
     def __init__(
         self,
         system: System,
         pairs: Sequence[ContactPair],
         *,
         h: float,
-        K_q: Array,
+        K_q: ArrayLike | Mapping[str, ArrayLike],
         gravity: Sequence[float] = GRAVITY,
         gravity_acts: Array | None = None,
         backend: str | None = None,
@@ -178,17 +184,19 @@ class Simulator(Shown):
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
+        check_kind(system, System, "system", ", qr.System([body, ...])")
         self.system = system
-        self.pairs = tuple(pairs)
+        self.pairs = checked_items(pairs, ContactPair, "pairs")
         self.scene = Scene(system, self.pairs)
-        self.layout = contact_layout(pairs)
+        self.layout = contact_layout(self.pairs)
         self.h = seconds(h)
-        K_q = checked_array(K_q, "K_q", (system.n_a, system.n_a))
-        self.K_q = positive_definite("K_q", K_q)
-        self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
+        self.K_q = stiffness_matrix(system, K_q)
+        self.gravity = tuple(checked_array(gravity, "gravity", (3,)).tolist())
         self.gravity_factor = np.ones(system.n_v)
-        self.gravity_factor[: system.n_a] = False if gravity_acts is None else gravity_acts
+        acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
+        self.gravity_factor[: system.n_a] = checked_array(acts, "gravity_acts", (system.n_a,))
         self.fast = fast
+        check_accuracy(accuracy)
         self.accuracy = accuracy
         self.certify = certify
         self.cone = cone
@@ -199,6 +207,7 @@ class Simulator(Shown):
             raise InputError(problem, field="extension", value=type(extension).__name__)
         self.extension = extension
         self.limits = Limits() if limits is None else limits
+        check_kind(self.limits, Limits, "limits")
         self.named_backend = backend
         self.backend = self.usable_backend()
         self.solver: Solver | None = None
@@ -225,6 +234,7 @@ class Simulator(Shown):
         settings["gravity_acts"] = self.gravity_factor[: self.system.n_a]
         return _remade, (type(self), self.system, self.pairs, settings)
 
+    @arguments_checked
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
@@ -235,7 +245,7 @@ class Simulator(Shown):
         q_bar_a : ndarray, shape (n_q_a,)
             Target of the actuated coordinates at the end of the step.
         force : ndarray, shape (n_v,), optional
-            External generalised force, in addition to gravity [N, N m].
+            External generalised force, in addition to gravity [N, N m]; `system.load` makes it.
 
         Returns
         -------
@@ -313,12 +323,22 @@ class Simulator(Shown):
 
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
-        shape = np.asarray(force).shape
-        if shape and shape != self.gravity_factor.shape:
-            problem = f"must have shape {self.gravity_factor.shape}"
-            raise StepDataError(problem, field="force", value=shape)
+        force = checked_force(self.system, force)
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
         return tau
+
+    def findings(self, q: Array | None = None) -> tuple[Finding, ...]:
+        """What is wrong with the scene at q, shape (n_q,); by default where the system starts.
+
+        Raises
+        ------
+        InputError
+            If there is no ``optional/doctor``.
+        """
+        doctor = needed_part("doctor.table", "findings")
+        q = self.system.q_start if q is None else self.system.checked(q)
+        findings: list[Finding] = doctor.scene_findings(self, q)
+        return tuple(findings)
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """A step solved with the user's own constraints and costs at q, shape (n_q,)."""

@@ -3,15 +3,17 @@
 They are functions of the time, of where the step starts, and of the result of the step before.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.system import System
+from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
@@ -22,9 +24,10 @@ OfTimeAndQ = Callable[[float, Array], ArrayLike]
 OfTimeQAndLast = Callable[[float, Array, "StepResult | None"], ArrayLike]
 Checked = Callable[[float, Array, "StepResult | None"], Array]
 """A function of (t, q, last) whose results have the right shape."""
-Target = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
-Force = OfTime | OfTimeAndQ | OfTimeQAndLast
+Target = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike | Mapping[str, ArrayLike]
+Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
+FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
@@ -36,9 +39,10 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     system : System
     h : float
         Time step [s].
-    target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
+    target : callable, ndarray of shape (n_q_a,) or (steps, n_q_a), or mapping
         q_bar_a [m, rad, -] as a function of t [s], of (t, q) or of (t, q, last), constant, or step
-        by step.
+        by step. A mapping, which a function may return, too, names actuated joints, and bodies
+        with a base, as :meth:`System.placed` does; the others keep their targets of the start.
     steps : int
 
     Raises
@@ -51,12 +55,16 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     def checked(q_a: Array) -> Array:
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
+    def unnamed(given: Any) -> Any:
+        return named_target(system, given) if isinstance(given, Mapping) else given
+
     if callable(target):
-        goal = _returning(with_all_arguments(target, "target"), (n,), "target")
+        goal = _returning(with_all_arguments(target, "target"), unnamed, (n,), "target")
         return lambda t, q, last: checked(goal(t, q, last))
-    values = np.asarray(target, dtype=np.float64)
+    values = checked_numbers(unnamed(target), "target", InputError)
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
-        problem = f"must contain finite numbers of shape ({n},) or ({steps}, {n})"
+        problem = f"must contain finite numbers of shape ({n},) or ({steps}, {n}), or name joints"
+        problem += f": {known_names(joint.name for joint in system.joints if joint.actuated)}"
         raise InputError(problem, field="target", value=values.shape)
     if values.ndim == 1:
         constant = checked(values)
@@ -65,18 +73,45 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     return lambda t, q, last: table[round(t / h) - 1]
 
 
+def named_target(system: System, values: Mapping[str, ArrayLike]) -> Array:
+    """q_bar_a, shape (n_q_a,), of named joints; InputError if one of them is not actuated."""
+    for name, value in values.items():
+        if (system.named.q(name) >= system.n_q_a).any():
+            problem = "is not actuated; make it so where the body is made, by actuated=[...]"
+            raise InputError(problem, field=f"target[{name}]", value=value)
+    return system.placed(values)[: system.n_q_a]
+
+
 def force_function(system: System, force: Force | None) -> Checked:
     """An external force as a function of (t, q, last), shape (n_v,) [N, N m]; zero where None.
 
     Raises
     ------
     InputError
-        If it takes other arguments, or returns another shape.
+        If it takes other arguments, or has or returns another shape.
     """
-    if force is None:
-        nothing = np.zeros(system.n_v)
-        return lambda t, q, last: nothing
-    return _returning(with_all_arguments(force, "force"), (system.n_v,), "force")
+    if callable(force):
+        function = with_all_arguments(force, "force")
+        return _returning(function, lambda tau: tau, (system.n_v,), "force")
+    constant = checked_force(system, 0.0 if force is None else force) + np.zeros(system.n_v)
+    return lambda t, q, last: constant
+
+
+def checked_force(system: System, force: Any) -> Array:
+    """A generalised force, shape (n_v,) or () [N, N m].
+
+    Raises
+    ------
+    StepDataError
+        If it has another shape, or is no array of numbers.
+    """
+    wanted = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
+    if isinstance(force, Mapping):
+        raise StepDataError(wanted, field="force", value=force)
+    tau = checked_numbers(force, "force")
+    if tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0):
+        raise StepDataError(wanted, field="force", value=tau.shape)
+    return tau
 
 
 def with_all_arguments(function: Callable[..., Any], name: str) -> OfTimeQAndLast:
@@ -118,17 +153,21 @@ def needed_arguments(function: Callable[..., Any], name: str) -> int:
     raise InputError(problem, field=name, value=written)
 
 
-def _returning(function: OfTimeQAndLast, shape: tuple[int, ...], name: str) -> Checked:
+def _returning(
+    function: OfTimeQAndLast, unnamed: Callable[[Any], Any], shape: tuple[int, ...], name: str
+) -> Checked:
     """The same function, its results as arrays of one shape."""
 
     def value(t: float, q: Array, last: "StepResult | None") -> Array:
-        returned = function(t, q, last)
+        returned = unnamed(function(t, q, last))
         try:
             array = np.asarray(returned, dtype=np.float64)
         except (TypeError, ValueError):
             array = np.asarray(np.nan)
         if array.shape != shape:
-            raise InputError(f"must return numbers of shape {shape}", field=name, value=returned)
+            remedy = f"; {FROM_LOADS}" if name == "force" else ""
+            problem = f"must return numbers of shape {shape}{remedy}"
+            raise InputError(problem, field=name, value=returned)
         return array
 
     return value

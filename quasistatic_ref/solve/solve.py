@@ -14,6 +14,7 @@ from quasistatic_ref.certify.exact import check_length
 from quasistatic_ref.certify.norm import relative_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
@@ -96,8 +97,8 @@ def solve_step(
     >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
     True
     """
-    if not accuracy > 0:
-        raise InputError("must be greater than 0", field="accuracy", value=accuracy)
+    check_kind(step, StepData, "step")
+    check_accuracy(accuracy)
     if isinstance(solver, Solver) and fast:
         problem = "has no effect on an existing solver; pass it to solver_for"
         raise InputError(problem, field="fast", value=fast)
@@ -114,6 +115,12 @@ def solve_step(
         solver = solver_for(step, solver, fast)
     both = without_warnings(solver.in_both_units, step)
     return without_warnings(solved, both, solver, accuracy, certify)
+
+
+def check_accuracy(accuracy: float) -> None:
+    """Refuse an accuracy that no answer can have: InputError."""
+    if not isinstance(accuracy, int | float) or not accuracy > 0:
+        raise InputError("must be a number greater than 0", field="accuracy", value=accuracy)
 
 
 def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str) -> StepSolution:

@@ -69,7 +69,7 @@ def found(own, mechanism, q):
     links = [own.links[body["name"]] for body in mechanism["bodies"]]
     poses = np.concatenate([at.R, at.t[:, :, None]], axis=2)[links]
     body = system.links[links[0]].partition("/")[0]
-    pushed = system.centre_of_mass_force(q, body, FORCE, TORQUE)[own.v]
+    pushed = system.load(q, body, FORCE, TORQUE)[own.v]
     free = own.v[system.n_a :]
     M_u = system.M_u(q)[np.ix_(free - system.n_a, free - system.n_a)]
     return poses, at.J[links][:, :, own.v], system.gravity_force(q, GRAVITY)[free], pushed, M_u

@@ -51,8 +51,8 @@ def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
         scene.link("desk/uper")
     with pytest.raises(ModelError, match="body: is not a body; did you mean 'desk'"):
         scene.mass("dessk")
-    with pytest.raises(ModelError, match="body: has a fixed base, so a wrench has no effect on it"):
-        scene.centre_of_mass_force(scene.q_start, "desk", np.ones(3), np.ones(3))
+    with pytest.raises(ModelError, match="name: has a fixed base, so a load has no effect on it"):
+        scene.load(scene.q_start, "desk", np.ones(3), np.ones(3))
 
 
 BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
@@ -61,7 +61,7 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
     "space": ({"name": "a b"}, "body.name: must not contain"),
     "spherical": ({"base": "spherical"}, r"c.base: is not a base; .* \(got 'spherical"),
     "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, r"c.rpy: must be \[0, 0, yaw\]"),
-    "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a sequence'),
+    "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a list'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
     "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
     "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; set base = "floating"'),

@@ -203,7 +203,7 @@ def test_a_backend_of_the_other_interface_only_is_named_with_its_interface(monke
 
 @pytest.mark.parametrize("accuracy", [0.0, -1.0, float("nan")])
 def test_an_accuracy_that_is_not_positive_is_refused(accuracy):
-    with pytest.raises(InputError, match="accuracy: must be greater than 0"):
+    with pytest.raises(InputError, match="accuracy: must be a number greater than 0"):
         solve_step(pinch(), accuracy=accuracy)
 
 

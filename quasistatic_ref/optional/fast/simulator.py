@@ -38,6 +38,7 @@ from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
+from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step, solved
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -174,8 +175,8 @@ class FastSimulator(Simulator):
             If the force has another shape.
         """
         numbers = self.numbers
-        if not isinstance(force, float) and np.shape(force) not in ((), numbers["force"].shape):
-            self.generalised_force(q, force)  # which says so
+        if np.shape(force) != numbers["force"].shape:
+            force = checked_force(self.system, force)
         numbers["force"][:] = force
         numbers["delta_q_bar_a"][:] = delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         delta_q_bar_a.setflags(write=False)

@@ -1,8 +1,9 @@
-"""A scene that was made in Python, written as a scenario file and URDFs."""
+"""A scene, made in Python or loaded, written as a scenario file and URDFs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,22 +23,17 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_element
 from quasistatic_ref.model.urdf.urdf_file import is_inline
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.scenario.bodies import BodyEntry
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import FORMAT, VERSION
+from quasistatic_ref.scenario.world_solids import solid_table
 from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
     PlacedShape,
     PointCloud,
-    Shape,
-    Sphere,
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.extension import NO_RISES
 
 WORLD: Final = 0
 """Number of the world among the links."""
@@ -45,20 +41,22 @@ NEIGHBOURS: Final = 4
 """How many floats on each side of an angle are tried."""
 
 
-def scenario_written(simulator: Simulator, path: str | Path, steps: int) -> Path:
-    """Write a simulator as a scenario: a TOML file, and next to it a URDF for each body.
+def scenario_written(
+    scene: Simulator | Scenario, path: str | Path, steps: int | None = None
+) -> Path:
+    """Write a scene as a scenario: a TOML file, and next to it a URDF for each body.
 
-    The targets stay where the actuated joints start; waypoints can be added to the file. A pair's
-    name gains those of its shapes when it is loaded. What was written is loaded again, and its
-    first step compared with the simulator's, before a file appears.
+    A simulator has no targets: they stay where the actuated joints start, and waypoints can be
+    added to the file. A pair's name gains those of its shapes when it is loaded. What was written
+    is loaded again, and its first step compared with the scene's, before a file appears.
 
     Parameters
     ----------
-    simulator : Simulator
+    scene : Simulator or Scenario
     path : str or Path
         Of the scenario, ``NAME.toml``; the other files are named ``NAME_BODY``.
     steps : int
-        Of a run of the scenario.
+        Of a run of the scenario; by default those of `scene`, if it is one.
 
     Returns
     -------
@@ -74,29 +72,37 @@ def scenario_written(simulator: Simulator, path: str | Path, steps: int) -> Path
     Examples
     --------
     >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
-    >>> system = qr.System([ball])
-    >>> ground = qr.HalfSpace((0, 0, 1), 0.0)
-    >>> floor = qr.PlacedShape("floor", link=0, R=np.eye(3), t=np.zeros(3), shape=ground)
-    >>> pair = qr.ContactPair("rest", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01, rows=6, k=1)
-    >>> simulator = qr.Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)))
+    >>> scene = qr.load_scenario({"h": 0.01, "steps": 100, "bodies": {"ball": ball}})
     >>> import tempfile
     >>> from pathlib import Path
-    >>> path = qr.scenario_written(simulator, Path(tempfile.mkdtemp()) / "ball.toml", steps=100)
+    >>> path = qr.scenario_written(scene, Path(tempfile.mkdtemp()) / "ball.toml")
     >>> qr.load_scenario(path).system.q_start
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
     path = Path(path)
     if path.suffix != ".toml":
         raise InputError("must end in .toml", file=path)
+    entries: Mapping[str, BodyEntry] = {}
+    if isinstance(scene, Scenario):
+        entries = scene.bodies
+        # Tables of bodies say the rises and the pairs of supports.
+        supports = {f"support of {name}" for name in entries}
+        pairs = tuple(pair for pair in scene.pairs if pair.name not in supports)
+        simulator = replace(scene, pairs=pairs, rises=NO_RISES).simulator()
+        steps = scene.steps if steps is None else steps
+    else:
+        simulator = scene
+    if steps is None:
+        raise InputError("is missing: a simulator does not know how many", field="steps")
     if simulator.extension is not None:
         problem = "is a function, and a scenario has no words for it; pass it to Scenario.simulator"
         raise InputError(problem, field="extension")
     with TemporaryDirectory() as folder:
-        scene = _SceneFiles(simulator.system, Path(folder), path.stem)
+        files = _SceneFiles(simulator.system, Path(folder), path.stem)
         contacts: dict[str, dict[str, Any]] = {}
         for pair in simulator.pairs:
             short = pair.name.partition("(")[0]  # a loaded pair's name has those of its shapes
-            contacts[pair.name if short in contacts else short] = scene.contact(pair)
+            contacts[pair.name if short in contacts else short] = files.contact(pair)
         top = {
             "format": FORMAT,
             "version": VERSION,
@@ -104,12 +110,16 @@ def scenario_written(simulator: Simulator, path: str | Path, steps: int) -> Path
             "steps": steps,
             "gravity": list(simulator.gravity),
             "cone": simulator.cone,
+            "law": simulator.law,
             "fast": simulator.fast,
         }
+        bodies = files.bodies(simulator)
+        for name, entry in entries.items():
+            bodies[name] |= _said_of_motion(entry)
         solver = {name: getattr(simulator, name) for name in ("backend", "accuracy", "certify")}
         tables = {"": top, "solver": solver, "limits": vars(simulator.limits)}
-        tables |= {f"bodies.{name}": table for name, table in scene.bodies(simulator).items()}
-        tables |= {f"shapes.{name}": table for name, table in scene.standing.items()}
+        tables |= {f"bodies.{name}": table for name, table in bodies.items()}
+        tables |= {f"shapes.{name}": table for name, table in files.standing.items()}
         tables |= {f"contacts.{json_text(name)}": table for name, table in contacts.items()}
         written = text_written(Path(folder) / path.name, _toml_text(tables))
         _check_same(simulator, written)
@@ -152,7 +162,7 @@ class _SceneFiles:
         if any(placed is own for own in self.system.shapes):
             return placed.name
         if placed.link == WORLD:
-            kind, sizes = _solid_table(placed)
+            kind, sizes = solid_table(placed.shape, placed.name)
             pose = {"xyz": placed.t.tolist(), "rpy": _roll_pitch_yaw(placed)}
             self.standing[placed.name] = {kind: sizes, "pose": pose}
             return placed.name
@@ -174,7 +184,7 @@ class _SceneFiles:
 
     def added(self, placed: PlacedShape, body: str, link: str) -> str:
         """A solid as a collision shape of its link."""
-        kind, _ = _solid_table(placed)
+        kind, _ = solid_table(placed.shape, placed.name)
         if not isinstance(placed.shape, Homogeneous):
             problem = (
                 f"is a {kind} on a link; a URDF has box, sphere, cylinder, capsule, and clouds "
@@ -249,28 +259,17 @@ class _SceneFiles:
                     mesh.set("filename", name)
 
 
-def _solid_table(placed: PlacedShape) -> tuple[str, dict[str, Any]]:
-    """Kind and sizes of a solid, as ``[shapes.NAME]`` has them.
-
-    Raises
-    ------
-    InputError
-        If it is none of these.
-    """
-    shape: Shape = placed.shape
-    if isinstance(shape, HalfSpace):
-        return "halfspace", {"normal": shape.normal.tolist(), "offset": shape.offset}
-    if isinstance(shape, Sphere):
-        return "sphere", {"radius": shape.radius}
-    if isinstance(shape, Box):
-        return "box", {"size": (2 * shape.half_extents).tolist()}
-    if isinstance(shape, Ellipsoid):
-        return "ellipsoid", {"size": (2 * shape.half_axes).tolist()}
-    if isinstance(shape, Cylinder | Capsule | Cone):
-        sizes = {"radius": shape.radius, "length": 2 * shape.half_length}
-        return type(shape).__name__.lower(), sizes
-    problem = f"is a {type(shape).__name__} that no file holds; write it as a mesh, and load that"
-    raise InputError(problem, field=placed.name)
+def _said_of_motion(entry: BodyEntry) -> dict[str, Any]:
+    """What a body's table says of targets, wrenches and friction, which no simulator knows."""
+    said: dict[str, Any] = {"targets": entry.targets} if entry.targets else {}
+    if entry.wrenches is not None:
+        rows = zip(entry.wrenches.times.tolist(), entry.wrenches.values.tolist(), strict=True)
+        said["wrenches"] = [{"t": t, "force": w[:3], "torque": w[3:]} for t, w in rows]
+    if entry.joint_friction is not None:
+        said["joint_friction"] = entry.joint_friction
+    if entry.support is not None:
+        said["support"] = entry.support.given
+    return said
 
 
 def _roll_pitch_yaw(placed: PlacedShape) -> list[float]:
@@ -303,7 +302,9 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     InputError
         If a name or a number differs.
     """
-    other = load_scenario(path).simulator()
+    loaded = load_scenario(path)
+    pairs = [pair for pair in loaded.pairs if "(" in pair.name]  # those of supports have none
+    other = replace(loaded, pairs=tuple(pairs), rises=NO_RISES).simulator()
     for own, loaded in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
             shape = getattr(own, side)

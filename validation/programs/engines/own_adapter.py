@@ -94,7 +94,7 @@ def phenomena(scene: Any, setting: Any) -> Any:
         force = np.zeros(system.n_v)
         for name, load in loads.items() if scene["loads"] else ():
             if bodies[name]["joint"] == "free":
-                force += system.centre_of_mass_force(state["q"], name, *load)
+                force += system.load(state["q"], name, *load)
             elif bodies[name]["joint"] == "rail_x":
                 force[system.joint(f"{name}/joint").v] += load[0, 0]
         state["q"] = simulator.step(state["q"], state["target"], force).q

@@ -134,6 +134,8 @@ optional/readers/dae.py
     mesh_files
 shapes/frozen.py
     shapes plain_data SYSTEM
+model/named.py
+    named
 model/kinematics.py
     system random_mechanisms CONTACT
 model/column_map.py

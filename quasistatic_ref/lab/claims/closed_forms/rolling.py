@@ -43,7 +43,7 @@ def evidence() -> Evidence:
         theta = h**2 * force / (M + INERTIA / RADIUS**2) / RADIUS
         sinc = np.sin(theta) / theta
         for _ in range(STEPS):
-            push = system.centre_of_mass_force(q, "ball", force * direction, np.zeros(3))
+            push = system.load(q, "ball", force * direction)
             result = steps_of(simulator, 1, q=q, force=push)[0]
             phi = q[2] - RADIUS
             # exp6 of a twist that rolls by theta and rises by -phi: an arc, not a straight line.

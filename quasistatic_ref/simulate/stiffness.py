@@ -1,0 +1,51 @@
+"""K_q in each form that a user may give it: a matrix, a diagonal, a number, or by name."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.model.system import System
+from quasistatic_ref.step.arrays import Array, checked_array, checked_numbers
+from quasistatic_ref.step.pivots import positive_definite
+
+
+def stiffness_matrix(system: System, K_q: Any) -> Array:
+    """The matrix K_q, shape (n_a, n_a) [N/m, N m/rad], symmetric and positive definite.
+
+    Parameters
+    ----------
+    system : System
+    K_q : array_like or mapping
+        The matrix; its diagonal, shape (n_a,); one number for all coordinates; or one of these for
+        each name of a joint, or of a body, as in ``{"gripper/width": 1000.0}``.
+
+    Raises
+    ------
+    StepDataError
+        If it is none of these, an actuated joint has no stiffness, or the matrix is not positive
+        definite.
+    """
+    if not isinstance(K_q, Mapping):
+        return positive_definite("K_q", _block(K_q, "K_q", system.n_a))
+    matrix = np.zeros((system.n_a, system.n_a))
+    for name, given in K_q.items():
+        own = system.named.change(name)
+        if (own >= system.n_a).any():
+            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=given)
+        matrix[np.ix_(own, own)] = _block(given, f"K_q[{name}]", len(own))
+    for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
+        if stiffness == 0:
+            raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")
+    return positive_definite("K_q", matrix)
+
+
+def _block(given: Any, name: str, n: int) -> Array:
+    """A matrix of shape (n, n) from a number, a diagonal or itself."""
+    values = checked_numbers(given, name)
+    if values.ndim == 0:
+        return values * np.eye(n)
+    if values.ndim == 1 and n != 0:
+        return np.diag(checked_array(values, name, (n,)))
+    return checked_array(values, name, (n, n))

@@ -1,0 +1,107 @@
+"""Entries of q and of delta_q by name, named configurations, and loads in world axes."""
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.lab.scenes.systems import RAIL
+from quasistatic_ref.model.rotation import quaternion, rotation
+
+BLOCK = qr.Body.of_shape("block", qr.Box((0.1, 0.2, 0.3)), 2.0, xyz=(0.5, 0, 0.3))
+PUCK = qr.Body.of_shape("puck", qr.Sphere(0.1), 1.0, base="planar", xyz=(0, 1, 0.1))
+WHEEL = """<robot name="wheel"><link name="hub"/><link name="rim"><inertial>
+  <origin xyz="0.1 0 0"/><mass value="0.5"/>
+  <inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="axle" type="continuous"><parent link="hub"/><child link="rim"/>
+  <axis xyz="0 0 1"/></joint></robot>"""
+SYSTEM = qr.System([
+    BLOCK, qr.Body("rail", RAIL, actuated=["slide"]), PUCK,
+    qr.Body("wheel", WHEEL, actuated="all"),
+])  # fmt: skip
+RPY = np.array([0.2, -0.4, 1.3])
+
+
+def test_each_entry_stands_under_the_name_that_tables_give_it():
+    q = np.arange(SYSTEM.n_q) * 1.0
+    for joint in SYSTEM.joints:
+        np.testing.assert_array_equal(np.atleast_1d(SYSTEM.of(q, joint.name)), q[joint.q])
+        for i, name in enumerate(joint.positions):
+            assert (
+                SYSTEM.of(q, name.partition(" ")[0]) == q[joint.q][i] or len(joint.positions) == 1
+            )
+    delta_q = np.arange(SYSTEM.n_v) * 1.0
+    for i, coordinate in enumerate(SYSTEM.coordinates):
+        assert SYSTEM.change_of(delta_q, coordinate.name) == i
+
+
+def test_a_trajectory_and_targets_have_the_same_names():
+    q = np.arange(3.0 * SYSTEM.n_q).reshape(3, SYSTEM.n_q)
+    start = SYSTEM.joint("block/base").q.start
+    np.testing.assert_array_equal(SYSTEM.of(q, "block.z"), q[:, start + 2])
+    assert SYSTEM.of(q, "block").shape == (3, 7)
+    np.testing.assert_array_equal(
+        SYSTEM.of(q[:, : SYSTEM.n_q_a], "rail"), SYSTEM.of(q, "rail/slide")
+    )
+    with pytest.raises(ModelError, match="q: cannot hold block: the last axis must have"):
+        SYSTEM.of(q[:, : SYSTEM.n_q_a], "block")
+    with pytest.raises(ModelError, match="did you mean 'block"):
+        SYSTEM.of(q, "blok.z")
+
+
+def test_named_values_are_where_kinematics_puts_the_links():
+    q = SYSTEM.placed({
+        "block": {"xyz": (1, 2, 3), "rpy": RPY}, "puck": (4, 5, 0.7), "wheel/axle": 2.5,
+        "rail/slide": 0.25, "puck.y": 6.0,
+    })  # fmt: skip
+    R, t = SYSTEM.pose(q, "block")
+    np.testing.assert_allclose(R, rotation(RPY), atol=1e-15)
+    np.testing.assert_array_equal(t, [1, 2, 3])
+    R, t = SYSTEM.pose(q, "puck/solid")
+    np.testing.assert_allclose(R, rotation(np.array([0, 0, 0.7])), atol=1e-15)
+    np.testing.assert_array_equal(t, [4, 6, 0.1])  # the height of a planar base stays
+    R, _ = SYSTEM.pose(q, "wheel/rim")
+    np.testing.assert_allclose(R, rotation(np.array([0, 0, 2.5])), atol=1e-15)
+    assert SYSTEM.of(q, "rail/slide") == 0.25
+    moved = SYSTEM.placed({"block": {"xyz": (0, 0, 9)}}, q)
+    np.testing.assert_array_equal(SYSTEM.of(moved, "block")[3:], quaternion(RPY))
+    assert SYSTEM.of(moved, "puck.y") == 6.0
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"block": 1.0}, "block: must be 7 numbers"),
+        ({"block": {"pos": (0, 0, 1)}}, "block.pos: is unknown; did you mean 'xyz'"),
+        ({"block": {"xyz": (0, 1)}}, r"block.xyz: must have shape \(3,\)"),
+        ({"rail/slide": "far"}, "rail/slide: must be numbers"),
+        ({"puck.cos": 0.5}, r"its \(cos, sin\) must have length one"),
+        ({"wheel/axl": 0.5}, "did you mean 'wheel/axle'"),
+    ],
+)
+def test_a_value_of_another_kind_is_refused_by_name(values, words):
+    with pytest.raises(ModelError, match=words):
+        SYSTEM.placed(values)
+
+
+def test_the_power_of_a_load_is_force_times_velocity_of_its_point():
+    """Tau' delta_q = f' (v + omega x arm) + m' omega, by a difference quotient of the poses."""
+    rng = np.random.default_rng(5)
+    q = SYSTEM.placed({"block": {"rpy": RPY}, "wheel/axle": 0.4, "rail/slide": 0.1})
+    step = 1e-6
+    for name in ("block", "puck", "wheel/rim", "rail/finger"):
+        for own_point in (True, False):
+            force, torque = rng.normal(size=(2, 3))
+            R, t = SYSTEM.pose(q, name)
+            local = SYSTEM.centres[SYSTEM.link(name)] if own_point else rng.normal(size=3)
+            at = None if own_point else R @ local + t
+            tau = SYSTEM.load(q, name, force, torque, at=at)
+            delta_q = rng.normal(size=SYSTEM.n_v)
+            R_next, t_next = SYSTEM.pose(SYSTEM.integrate(q, step * delta_q), name)
+            velocity = ((R_next - R) @ local + t_next - t) / step
+            spin = (R_next @ R.T - R @ R_next.T) / (2 * step)
+            omega = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+            power = force @ velocity + torque @ omega
+            assert tau @ delta_q == pytest.approx(power, abs=1e-4)
+    with pytest.raises(ModelError, match="name: has a fixed base, so a load has no effect"):
+        SYSTEM.load(q, "rail", force=(1, 0, 0))

@@ -1,0 +1,102 @@
+"""Scenes that are written in Python in the words of the files."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.lab.scenes.systems import RAIL
+from tests.extras import SCENARIOS
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_the_tables_of_a_file_are_the_same_scene(monkeypatch, name):
+    path = scenario_path(name).resolve()
+    monkeypatch.chdir(path.parent)
+    tables = tomllib.loads(path.read_text())
+    runs = [
+        qr.load_scenario(scene, fast=True, steps=1).run(progress=False) for scene in (tables, path)
+    ]
+    assert runs[0] == runs[1]
+
+
+def with_objects():
+    hand = qr.Body("hand", RAIL, actuated=["slide"], xyz=(0, 0, 0.05), positions={"slide": -0.2})
+    return {
+        "h": np.float64(0.02), "steps": 3, "gravity": np.array([0, 0, -9.81]),
+        "bodies": {
+            "hand": {"urdf": hand, "K_q": {"slide": 100.0}, "positions": {"slide": -0.1}},
+            "ball": qr.Body.of_shape("ball", qr.Sphere(0.05), 0.3, xyz=(0, 0, 0.05)),
+        },
+        "shapes": {
+            "floor": qr.HalfSpace((0, 0, 1), 0.0),
+            "wall": {"shape": qr.Box(size=(0.1, 1, 1)), "pose": {"xyz": (0.5, 0, 0)}},
+        },
+        "contacts": {"floor": {"alpha": ("floor", "wall"), "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    }  # fmt: skip
+
+
+def in_tables():
+    ball = with_objects()["bodies"]["ball"].urdf
+    return {
+        "h": 0.02, "steps": 3, "gravity": [0.0, 0.0, -9.81],
+        "bodies": {
+            "hand": {
+                "urdf": RAIL, "actuated": ["slide"], "pose": {"xyz": [0, 0, 0.05]},
+                "K_q": {"slide": 100.0}, "positions": {"slide": -0.1},
+            },
+            "ball": {"urdf": ball, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}},
+        },
+        "shapes": {
+            "floor": {"halfspace": {"normal": [0, 0, 1]}},
+            "wall": {"box": {"size": [0.1, 1, 1]}, "pose": {"xyz": [0.5, 0, 0]}},
+        },
+        "contacts": {"floor": {"alpha": ["floor", "wall"], "beta": "ball", "mu_v": 0.5, "rows": 4}},
+    }  # fmt: skip
+
+
+def test_objects_and_tables_say_the_same():
+    objects, tables = (qr.load_scenario(scene) for scene in (with_objects(), in_tables()))
+    assert objects.run(progress=False) == tables.run(progress=False)
+    assert [pair.name for pair in objects.pairs] == [pair.name for pair in tables.pairs]
+    assert objects.system.of(objects.system.q_start, "hand/slide") == -0.1
+
+
+def test_the_scene_that_was_given_stays_as_it_was():
+    scene = with_objects()
+    qr.load_scenario(scene, {"contacts.floor.mu_v": 0.1})
+    assert scene["contacts"]["floor"]["mu_v"] == 0.5
+    assert "format" not in scene
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"h": -1.0}, "h: must be greater than 0"),
+        ({"gravty": 1}, "gravty: is unknown; did you mean 'gravity'"),
+        ({"shapes": {"floor": qr.PointCloud(np.eye(3))}}, "floor: is a PointCloud that no file"),
+        (
+            {"bodies": {"arm": {"urdf": RAIL, "q": {}}}},
+            "bodies.arm.q: is unknown; did you mean 'pos",
+        ),
+        ({"bodies": {"arm": {"urdf": "<robot"}}}, "not well-formed|malformed"),
+    ],
+)
+def test_mistakes_are_answered_as_in_a_file(change, words):
+    with pytest.raises(InputError, match=words):
+        qr.load_scenario(with_objects() | change)
+
+
+def test_a_body_whose_root_link_has_no_shape_is_answered_with_the_shapes_that_it_has():
+    pad = '<collision><geometry><sphere radius="0.01"/></geometry></collision>'
+    scene = with_objects()
+    scene["bodies"]["hand"] = {
+        "urdf": RAIL.replace('<link name="finger">', f'<link name="finger">{pad}', 1),
+        "actuated": ["slide"], "K_q": {"slide": 100.0},
+    }  # fmt: skip
+    scene["contacts"]["floor"]["beta"] = "hand"
+    with pytest.raises(InputError, match=r"beta: has no collision shape; .*known: hand/\*, hand/"):
+        qr.load_scenario(scene)
