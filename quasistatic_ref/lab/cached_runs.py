@@ -9,7 +9,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 @cache
-def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
+def scenario_run(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
     """A scenario that comes along, loaded and run; a second time without work.
 
     Parameters
@@ -24,7 +24,7 @@ def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
 
 def grasp(case: str) -> tuple[Scenario, Trajectory]:
     """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``."""
-    return ran("bunny_grasp", *CASES[case])
+    return scenario_run("bunny_grasp", *CASES[case])
 
 
 def lift(case: str) -> tuple[LinkMotion, slice]:

@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.study.calling.calls import call_of, tried
+from quasistatic_ref.lab.study.calling.calls import call_of, reply_or_failure
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, OPTIMAL, hides
 from quasistatic_ref.lab.study.calling.guests import installed_here
 from quasistatic_ref.lab.study.calling.options import options_at
@@ -208,7 +208,7 @@ def claims_of(solver: str, interface: str, some: Sequence[Problem]) -> list[str]
     call = call_of(one)
     options = one.settings_of(HIGH, SECONDS) if one.takes(HIGH) else {}
     options |= INNER if one.label == "native:proxqp" else {}
-    replies = [tried(call, p.natural.form, options, None) for p in some]
+    replies = [reply_or_failure(call, p.natural.form, options, None) for p in some]
     return [one.claim(reply.status) for reply in replies]
 
 

@@ -6,7 +6,7 @@ DAQP). docs/speed.md compares it with the paper's Fig. 4.
 
 from pathlib import Path
 
-from quasistatic_ref.lab.bench.profile import PARTS, SOLVE, Microseconds, measured, share
+from quasistatic_ref.lab.bench.profile import PARTS, SOLVE, Microseconds, share, step_profiles
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.measuring.environment import machine
 from validation.tools.scripts import asked, shown
@@ -15,7 +15,7 @@ from validation.tools.scripts import asked, shown
 def main() -> None:
     """Measure, and write the page."""
     options = asked(__doc__, out=Path)
-    found = measured()
+    found = step_profiles()
     m = machine()
     words = (
         f"Written by `python -m validation.make.step_profile` on {m['processor']}, {m['cores']} "

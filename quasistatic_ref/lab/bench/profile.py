@@ -101,7 +101,7 @@ class Profiles(NamedTuple):
         return next(p for p in self.all if (p.backend, p.certify, p.distances) == wanted)
 
 
-def measured() -> dict[str, Any]:
+def step_profiles() -> dict[str, Any]:
     """Profiles of the steps of bunny_grasp, and how many signed distances a step evaluates."""
     scenario = grasp_scenario(DEFAULT, UNCERTIFIED)
     return {

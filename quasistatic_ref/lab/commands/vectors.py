@@ -83,9 +83,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _challenge(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.challenge.command import challenged
+    from quasistatic_ref.lab.vectors.challenge.command import challenge_status
 
-    return challenged(options)
+    return challenge_status(options)
 
 
 def _check(options: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
@@ -54,7 +54,7 @@ def slips(pulls: Array, mu_v: float = MU_V, h: float = H) -> Array:
 
 def main() -> Numbers:
     """The load of the corners at rest, and slips on both sides of the threshold."""
-    _, run = ran("block_push", *SETTINGS)
+    _, run = scenario_run("block_push", *SETTINGS)
     below, beyond = slips(np.array([0.99, 1.5]))
     return {
         "load on the four corners [N]": run["wrench"][-1, :4, 2].sum(),
@@ -75,7 +75,7 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
         [-], [s].
     """
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
-    scenario, run = ran("block_push", *SETTINGS, f"h={h}", f"contacts.floor.mu_v={mu_v}")
+    scenario, run = scenario_run("block_push", *SETTINGS, f"h={h}", f"contacts.floor.mu_v={mu_v}")
     draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.3 * HALF))
     right.plot(PULLS, 1e3 * slips(PULLS, mu_v, h), marker="o", markersize=scaled(3), clip_on=False)
     labelled(right, r"pull / ($\mu_v m g$) [-]", "slip in one step [mm]", caption(h))

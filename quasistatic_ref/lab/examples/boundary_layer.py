@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
@@ -45,7 +45,7 @@ def spun(mu_omega: float = MU_OMEGA, h: float = H) -> tuple[Trajectory, Array]:
     mu_omega, h : float
         [m], [s].
     """
-    scenario, run = ran("sphere_spin", f"h={h}", f"steps={round(2 / h)}",
+    scenario, run = scenario_run("sphere_spin", f"h={h}", f"steps={round(2 / h)}",
                         f"contacts.floor.mu_omega={mu_omega}")  # fmt: skip
     (wrenches,) = scenario.wrenches
     return run, np.interp(run["t"], wrenches.times, wrenches.values[:, 5])

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -30,7 +30,7 @@ def place(theta: Array) -> Array:
 
 def opened(h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run at a time step h [s]."""
-    return ran("door", f"h={h}", f"steps={round(TIME / h)}")
+    return scenario_run("door", f"h={h}", f"steps={round(TIME / h)}")
 
 
 def main() -> Numbers:

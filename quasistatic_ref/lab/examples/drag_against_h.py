@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
@@ -50,7 +50,7 @@ def drag_and_layer(h: Sequence[float] = TIME_STEPS, mu_v: float = MU_V) -> tuple
     shares = []
     layers = []
     for each in h:
-        _, run = ran("block_push", *SETTINGS, f"h={each}", f"contacts.floor.mu_v={mu_v}")
+        _, run = scenario_run("block_push", *SETTINGS, f"h={each}", f"contacts.floor.mu_v={mu_v}")
         force = K_Q * (run["q_bar_a"][-1, 0] - run["q"][-1, 0])
         shares.append(force / friction - 1)
         layers.append(run["phi"][-1, :4].max())

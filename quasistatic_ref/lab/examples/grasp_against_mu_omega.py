@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import grasp, ran
+from quasistatic_ref.lab.cached_runs import grasp, scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
@@ -41,7 +41,7 @@ def rotations(values: tuple[float, ...] = VALUES) -> tuple[Array, Array]:
         mu_omega of the others [m].
     """
     own = ("solver.certify=off", f"steps={round(TOP / 0.01)}")
-    runs = [ran("bunny_grasp", f"contacts.grip.mu_omega={x}", *own) for x in values]
+    runs = [scenario_run("bunny_grasp", f"contacts.grip.mu_omega={x}", *own) for x in values]
     runs += [grasp(case) for case in CASES]
     mu_omega = np.array([run["mu_omega"].max() for _, run in runs])
     turned = np.array([float(str(grasp_report(*run)["rotation_deg"])) for run in runs])

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers, only
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -29,7 +29,7 @@ MIDDLE = ("palm", "_4.0", "_5.0", "_6.0", "_7.0", "drum")
 def turned(h: float = H, mu_v: float = 1.5) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at a time step h [s] and mu_v of the fingertips [-]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.tips.mu_v={mu_v}"
-    return ran("allegro_turn", *settings)
+    return scenario_run("allegro_turn", *settings)
 
 
 def angles(scenario: Scenario, run: Trajectory) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -28,7 +28,7 @@ WALLS = ("east", "west", "north", "south")
 def inserted(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at mu_v [-] and a time step h [s]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.walls.mu_v={mu_v}"
-    return ran("peg_in_hole", *settings)
+    return scenario_run("peg_in_hole", *settings)
 
 
 def main() -> Numbers:

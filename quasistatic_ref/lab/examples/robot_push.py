@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.cached_runs import ran
+from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -29,7 +29,7 @@ H, TIME = 0.02, 1.2
 def pushed(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at mu_v of the floor [-] and a time step h [s]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.floor.mu_v={mu_v}"
-    return ran("panda_push", *settings)
+    return scenario_run("panda_push", *settings)
 
 
 def torques(mu_v: float = MU_V, h: float = H) -> tuple[Array, Array]:

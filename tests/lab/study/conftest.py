@@ -10,7 +10,7 @@ from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, problem_set_
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import Limits, solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import measured
+from quasistatic_ref.lab.study.measuring.measure import measured_row
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report
@@ -98,7 +98,7 @@ def harmless(tmp_path_factory):
 
         def row_of(name, problem, units="natural", warm=False):
             limits = Limits(30.0, 30.0, 2)
-            return measured(keeper, problem, setting(name), units, warm, limits)
+            return measured_row(keeper, problem, setting(name), units, warm, limits)
 
         yield row_of
 

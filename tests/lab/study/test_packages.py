@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.calling.packages import announced, loaded
+from quasistatic_ref.lab.study.calling.packages import announced, announced_function
 from quasistatic_ref.lab.study.store.store import contents
 
 PROBLEMS = "repetitions = 2\n[problems]\nset = 'contact-qp-2'\nfamilies = { gaps = 2 }\n"
@@ -89,6 +89,6 @@ def test_a_package_that_cannot_be_imported_is_said_with_its_reason(planted, valu
     planted("planted-other", {}, "planted_package_2", "raise RuntimeError('no licence')")
     planted("planted-qp", {"mine": value})
     with pytest.raises(InputError, match=words) as caught:
-        loaded("mine")
+        announced_function("mine")
     assert f"{value} of planted-qp" in str(caught.value)
     assert "\n" not in str(caught.value)

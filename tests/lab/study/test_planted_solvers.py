@@ -16,7 +16,7 @@ from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
-from quasistatic_ref.lab.study.measuring.measure import measured
+from quasistatic_ref.lab.study.measuring.measure import measured_row
 from quasistatic_ref.lab.study.measuring.worker import GRACE
 from quasistatic_ref.lab.study.problems.folder import set_read
 from tests.lab.study.planted import FAKES
@@ -56,7 +56,7 @@ def row_of(solver, problem, folder, limits=LIMITS, **options):
     """The row of a planted solver in a process of its own."""
     solver = fake(solver) if isinstance(solver, str) else solver
     with Keeper(solver, folder, **options) as keeper:
-        return measured(keeper, problem, DEFAULT, "natural", False, limits)
+        return measured_row(keeper, problem, DEFAULT, "natural", False, limits)
 
 
 def fake(name):
@@ -133,7 +133,9 @@ def executable(tmp_path_factory, problem):
         def row_of_body(body, limit=30.0, units="natural"):
             path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
             keeper.seen.clear()
-            return measured(keeper, problem, DEFAULT, units, False, Limits(limit, limit, 1)), folder
+            return measured_row(
+                keeper, problem, DEFAULT, units, False, Limits(limit, limit, 1)
+            ), folder
 
         yield row_of_body
 
@@ -162,7 +164,7 @@ def test_one_process_of_a_program_serves_many_problems(tmp_path, problem):
     path.touch(stat.S_IRWXU)
     path.write_text(SERVER.format(python=sys.executable))
     with Keeper(Solver("mine", "executable", ("./server",)), tmp_path) as keeper:
-        rows = [measured(keeper, problem, DEFAULT, units, False, Limits(30.0, 30.0, 2))
+        rows = [measured_row(keeper, problem, DEFAULT, units, False, Limits(30.0, 30.0, 2))
                 for units in ("natural", "raw")]  # fmt: skip
     counts = [row["iterations"] for row in rows]
     assert counts[0] >= 2

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.calls import NEAR, neighbour
 from quasistatic_ref.lab.study.calling.solvers import Setting
-from quasistatic_ref.lab.study.measuring.grade import grades, prepared
+from quasistatic_ref.lab.study.measuring.grade import grades, problem_forms
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.solve.reply import Reply
@@ -49,7 +49,7 @@ def lam_of(form, x):
 @pytest.mark.parametrize("exponent", [3, 6])
 def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     """X = x* + 10^-e ||H^-1 g||_H v with ||v||_H = 1 has an error of 10^-e, whatever the units."""
-    ready = prepared(problem)
+    ready = problem_forms(problem)
     H = problem.form.H
     g = problem.form.g
     v = np.linalg.solve(H, g) / np.sqrt(g @ np.linalg.solve(H, g))
@@ -80,14 +80,16 @@ def test_residuals_are_those_of_qpbenchmark(problem):
     primal = max(max(0.0, sum(G[i] * x) - h[i]) for i in range(len(h)))
     dual = max(abs(sum(P[v] * x) + q[v] + sum(G[:, v] * z)) for v in range(len(q)))
     gap = abs(sum(x[v] * sum(P[v] * x) for v in range(len(q))) + sum(q * x) + sum(h * z))
-    row = grades(prepared(problem), "raw", reply_of(x, z), ANY, Setting("", None))
+    row = grades(problem_forms(problem), "raw", reply_of(x, z), ANY, Setting("", None))
     found = [row["residuals"][name] for name in ("primal", "dual", "gap")]
     np.testing.assert_allclose(found, [primal, dual, gap], rtol=1e-10, atol=1e-16)
 
 
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
     for x, digits in ((problem.answer.x, 16.0), (np.full(len(problem.form.g), np.nan), None)):
-        row = grades(prepared(problem), "raw", reply_of(x, None, False), ANY, Setting("", None))
+        row = grades(
+            problem_forms(problem), "raw", reply_of(x, None, False), ANY, Setting("", None)
+        )
         assert (row["outcome"], row["wrong"]) == ("failed", False)
         assert row["digits"] == {"delta_q": digits, "net_wrench": None, "multipliers": None}
 

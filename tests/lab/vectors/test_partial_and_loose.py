@@ -6,7 +6,7 @@ import json
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.vectors.check.case import judged
+from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from tests.lab.vectors.material import cases, expected, in_float32, report_on, right_answers
@@ -102,7 +102,9 @@ def test_float32_is_right_to_six_digits_and_not_to_twelve(layer):
     for case in cases(layer):
         record = expected(layer)[case.id]
         answer = in_float32(right_answers(layer)[case.id])
-        verdicts = [judged(layer, case.input, record, answer, d).verdict for d in (None, 6, 12)]
+        verdicts = [
+            verdict_to_digits(layer, case.input, record, answer, d).verdict for d in (None, 6, 12)
+        ]
         assert verdicts[1] != "failed", case.id
         inexact += verdicts == ["failed", "acceptable", "failed"]
     assert inexact > 0.3 * len(cases(layer)) or layer == "selection"

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
-from quasistatic_ref.lab.vectors.check.case import judged
+from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
@@ -90,7 +90,10 @@ def test_digits_of_an_answer_do_not_depend_on_the_digits_that_are_asked_for(laye
     for case in cases(layer):
         record = expected(layer)[case.id]
         given = in_float32(right_answers(layer)[case.id])
-        found = {judged(layer, case.input, record, given, digits).digits for digits in (3, 4, 5)}
+        found = {
+            verdict_to_digits(layer, case.input, record, given, digits).digits
+            for digits in (3, 4, 5)
+        }
         assert len(found) == 1, case.id
 
 

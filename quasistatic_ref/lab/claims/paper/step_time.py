@@ -5,8 +5,8 @@ from quasistatic_ref.lab.bench.profile import (
     SOLVE,
     TRACKER,
     Profiles,
-    measured,
     share,
+    step_profiles,
 )
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, Evidence, comparison, within
 
@@ -23,7 +23,7 @@ FEWER = 0.1
 
 def evidence() -> Evidence:
     """The share of the solve in a step, by backend and by distances, and what was evaluated."""
-    found = measured()
+    found = step_profiles()
     taken: Profiles = found["profiles"]
 
     def solve(backend: str, distances: str, expected: tuple[float, float]) -> Comparison:

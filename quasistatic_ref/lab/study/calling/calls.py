@@ -19,7 +19,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
-from quasistatic_ref.lab.study.calling.packages import function_at, loaded
+from quasistatic_ref.lab.study.calling.packages import announced_function, function_at
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
@@ -88,7 +88,7 @@ class Crashed(Exception):
         super().__init__(words)
 
 
-def tried(call: Callable[..., Reply], *given: Any) -> Reply:
+def reply_or_failure(call: Callable[..., Reply], *given: Any) -> Reply:
     """The reply of a call; of one that raises, what it raised and when.
 
     Raises
@@ -151,7 +151,7 @@ def function_of(solver: Solver) -> Callable[..., Any]:
         If it cannot be imported.
     """
     target = str(solver.target)
-    return loaded(target) if solver.interface == "package" else function_at(target)
+    return announced_function(target) if solver.interface == "package" else function_at(target)
 
 
 def takes_start(function: Callable[..., Any]) -> bool:

@@ -69,7 +69,7 @@ def function_at(target: str) -> Callable[..., Any]:
     return function
 
 
-def loaded(name: str) -> Callable[..., Any]:
+def announced_function(name: str) -> Callable[..., Any]:
     """The function that a package announces.
 
     Raises

@@ -46,7 +46,7 @@ def modes_of(solver: Solver) -> tuple[str, ...]:
     return (COLD, UPDATES, own) if own else (COLD, UPDATES)
 
 
-def kept(mode: str, before: Reply) -> Reply | None:
+def kept_reply(mode: str, before: Reply) -> Reply | None:
     """What a mode keeps of the reply to the step before; None if it keeps nothing.
 
     A step without an answer leaves nothing that is known to be whole: the next is set up again.

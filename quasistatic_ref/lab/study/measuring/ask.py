@@ -14,7 +14,7 @@ from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import measured
+from quasistatic_ref.lab.study.measuring.measure import measured_row
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER
 from quasistatic_ref.lab.study.problems.problem import Problem
@@ -106,7 +106,7 @@ def measured_again(one: Question) -> dict[str, Any]:
         If the solver cannot be imported.
     """
     with Keeper(one.solver, memory=one.limits.memory, settings=(one.setting,)) as keeper:
-        return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
+        return measured_row(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
 
 
 def _problem(name: str, store: str | Path | None) -> Problem:

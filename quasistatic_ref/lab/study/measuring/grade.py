@@ -37,8 +37,8 @@ SLACK = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared:
-    """A problem prepared for calls and their grading.
+class ProblemForms:
+    """A problem in both units, with what the grading of calls needs.
 
     Parameters
     ----------
@@ -61,17 +61,19 @@ class Prepared:
 
 
 @lru_cache(maxsize=8)  # of the problem at which all solvers are
-def prepared(problem: Problem) -> Prepared:
-    """A problem prepared: its natural units, and the norm that errors are measured in."""
+def problem_forms(problem: Problem) -> ProblemForms:
+    """A problem in both units, and the norm that errors are measured in."""
     natural = problem.natural
     form = natural.form
     norm = energy_norm(form.H)
     free = float(norm.of_impulses(form.g[None])[0])
-    return Prepared({RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free)
+    return ProblemForms(
+        {RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free
+    )
 
 
 def grades(
-    ready: Prepared, units: str, reply: Reply, solver: Solver, setting: Setting
+    ready: ProblemForms, units: str, reply: Reply, solver: Solver, setting: Setting
 ) -> dict[str, Any]:
     """Outcome, claims, digits, residuals of one reply, as fields of a row.
 
@@ -101,10 +103,10 @@ def grades(
                 row["digits"] = _digits(ready, ready.answer, x, lam)
     row["seconds"] |= {"solver": _finite(reply.own), "setup": _finite(reply.setup)}
     row |= {"said_optimal": reply.solved, "iterations": reply.iterations}
-    return judged(row, solver.claim(reply.status), solver.promises(setting))
+    return row_with_verdict(row, solver.claim(reply.status), solver.promises(setting))
 
 
-def judged(row: Row, claim: str, promised: float) -> Row:
+def row_with_verdict(row: Row, claim: str, promised: float) -> Row:
     """A row with what is made of its claim and digits: whether the claim is false.
 
     Parameters
@@ -169,7 +171,9 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
 
 
-def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[str, float | None]:
+def _digits(
+    of: ProblemForms, answer: Answer, x: Array, lam: Array | None
+) -> dict[str, float | None]:
     digits: dict[str, float | None] = {
         "delta_q": _digits_of(of.norm.of_displacement(x - answer.x), of, answer.error),
         "net_wrench": None,
@@ -193,7 +197,7 @@ def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[s
     return digits
 
 
-def _digits_of(size: float, of: Prepared, bound: float) -> float:
+def _digits_of(size: float, of: ProblemForms, bound: float) -> float:
     if of.free == 0:
         return MOST if size == 0 else 0.0
     # Of an enclosure no more digits are reported than are known.

@@ -25,10 +25,10 @@ from quasistatic_ref.lab.study.measuring.grade import (
     CRASHED,
     MEMORY,
     TIMEOUT,
-    Prepared,
+    ProblemForms,
     grades,
     not_run,
-    prepared,
+    problem_forms,
     ungraded,
 )
 from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
@@ -52,7 +52,7 @@ NEARER = 1e3
 one solver, so that errors of its own differ less."""
 
 
-def measured(
+def measured_row(
     keeper: Keeper, problem: Problem, setting: Setting, units: str, warm: bool, limits: Limits
 ) -> Row:
     """Run one solver on one problem; whatever it does, fields of a row come back.
@@ -78,7 +78,7 @@ def measured(
     begin = perf_counter()
     keeper.start()
     seconds: dict[str, float | None] = {"start": perf_counter() - begin, "warm_up": None}
-    ready = prepared(problem)
+    ready = problem_forms(problem)
     form = ready.forms[units]
     other = neighbour(form, problem.id).g
     start = other if warm else None
@@ -142,7 +142,7 @@ def sequence_measured(
     InputError
         If the solver cannot be imported.
     """
-    ready = [prepared(replace(one, units=problems[0].units)) for one in problems]
+    ready = [problem_forms(replace(one, units=problems[0].units)) for one in problems]
     turns: list[list[Row]] = []
     for _ in range(limits.repetitions):
         turn: list[Row] = []
@@ -164,7 +164,9 @@ def sequence_measured(
     return [_worst(repeated) for repeated in zip(*turns, strict=True)]
 
 
-def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | None) -> bool | None:
+def _repeats(
+    one: ProblemForms, before: ProblemForms, x: Array | None, last: Array | None
+) -> bool | None:
     """Whether x is the last answer again, or answers the step before; None: cannot be known."""
     exact = one.answer.x
     old = before.answer.x
@@ -176,7 +178,7 @@ def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | Non
 
 
 def _step(
-    keeper: Keeper, ready: Prepared, request: Request, units: str, shape: object, warm_up: float
+    keeper: Keeper, ready: ProblemForms, request: Request, units: str, shape: object, warm_up: float
 ) -> tuple[Row, Array | None]:
     """One call on the next step of a sequence, and the x that it returned."""
     form = ready.forms[units]
@@ -211,7 +213,9 @@ def _worst(repeated: Sequence[Row]) -> Row:
     return row | {"calls": calls, "seconds": row["seconds"] | clocks}
 
 
-def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits) -> Row:
+def _graded(
+    keeper: Keeper, ready: ProblemForms, request: Request, units: str, limits: Limits
+) -> Row:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
     form = ready.forms[units]
     solver = keeper.solver

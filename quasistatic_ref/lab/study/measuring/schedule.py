@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.grade import not_run
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import measured, sequence_measured
+from quasistatic_ref.lab.study.measuring.measure import measured_row, sequence_measured
 from quasistatic_ref.lab.study.measuring.plan import Measurement
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.rows import Row, label_of
@@ -71,7 +71,7 @@ def _measured_together(keeper: Keeper, block: Block, limits: Limits, left: Left)
         if min(_less(left, rows)) <= 0:
             row = not_run(problem.feasible)
         else:
-            row = measured(keeper, problem, m.setting, m.units, m.warm, limits)
+            row = measured_row(keeper, problem, m.setting, m.units, m.warm, limits)
         rows.append(m.fields() | row)
     return rows
 

@@ -19,8 +19,14 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.lab.processes import adopt_orphans
-from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, tried
-from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
+from quasistatic_ref.lab.study.calling.calls import (
+    Crashed,
+    Options,
+    call_of,
+    on_path,
+    reply_or_failure,
+)
+from quasistatic_ref.lab.study.calling.sessions import kept_reply, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.messages import KEPT, NOTHING, READY, Response, to_bytes
 from quasistatic_ref.solve.reply import Reply
@@ -90,7 +96,7 @@ class Called:
         for setting in settings:
             options = self.solver.settings_of(setting, PATIENCE)
             if self.solver.known and options:
-                said = tried(self.call, TINY, options, None).status
+                said = reply_or_failure(self.call, TINY, options, None).status
                 if RAISED.match(said):
                     words = f"refuses options of the setting {setting.name!r}: {said[:120]}"
                     raise InputError(f"{words}; leave them out, or take another interface")
@@ -114,9 +120,9 @@ class Called:
 
     def _next(self, form: StandardForm, request: dict[str, Any], options: Options) -> Response:
         """The next step of a sequence."""
-        before = None if request["first"] else kept(request["mode"], self.before)
+        before = None if request["first"] else kept_reply(request["mode"], self.before)
         begin = perf_counter()
-        self.before = tried(self.call, form, options, before)
+        self.before = reply_or_failure(self.call, form, options, before)
         return Response(self.before, (perf_counter() - begin,))
 
     def _alone(self, form: StandardForm, request: dict[str, Any], options: Options) -> Response:
@@ -130,8 +136,8 @@ class Called:
         for _ in range(request["count"]):
             if request["start"] is not None:
                 start = form._replace(g=request["start"])
-                before = tried(self.call, start, options, None)
-            reply = tried(self.call, form, options, before)
+                before = reply_or_failure(self.call, start, options, None)
+            reply = reply_or_failure(self.call, form, options, before)
             times.append(reply.call_seconds)
         return Response(reply, tuple(times))
 

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 
 
-def challenged(options: argparse.Namespace) -> int:
+def challenge_status(options: argparse.Namespace) -> int:
     """Serve, ask one case again, or challenge; the exit status.
 
     Raises

@@ -98,7 +98,7 @@ def _compared(layer: str, case: Json, record: Json, expected: Json, answer: Json
     return verdict if verdict.field else Verdict("", verdict.verdict, verdict.reason, "", digits)
 
 
-def judged(
+def verdict_to_digits(
     layer: str, case: Json, record: Json, answer: Json, digits: float | None = None
 ) -> Verdict:
     """The same, an answer that is right to so many digits being acceptable [-]."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
-from quasistatic_ref.lab.vectors.check.case import judged
+from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
@@ -166,7 +166,7 @@ def answer_judged(
     """
     try:
         output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
-        verdict = judged(layer, case.input, record, output, digits).named(case.id)
+        verdict = verdict_to_digits(layer, case.input, record, output, digits).named(case.id)
     except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
         output = given

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import matrices
-from quasistatic_ref.lab.vectors.layers.step import answered, of_pair, shape_pose, with_rows
+from quasistatic_ref.lab.vectors.layers.step import of_pair, shape_pose, step_output, with_rows
 from quasistatic_ref.step.data import Array
 
 TIED = 1e-9
@@ -97,7 +97,7 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     entries, _, rows = with_rows(case, given)
     program = {key: record["output"][key] for key in ("H", "g")} | rows.output
     solved = layer("qp").expected(program)
-    output, _, _ = answered(case, entries, program, solved)
+    output, _, _ = step_output(case, entries, program, solved)
     if "forces" in record["output"]:
         found, _ = compliant_forces(matrices(program), case, entries, output["lam"])
         output["forces"] = found

@@ -48,7 +48,7 @@ def expected(
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
     solved = qp.expected(program, errors)
-    output, wrenches, after = answered(case_input, contacts, program, solved)
+    output, wrenches, after = step_output(case_input, contacts, program, solved)
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
         "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
@@ -91,7 +91,7 @@ def with_rows(case: Json, contacts: list[Json]) -> tuple[list[Json], Expected, E
     return found, jacobian, layer("rows").expected({"cone": case["cone"], "contacts": found})
 
 
-def answered(
+def step_output(
     case: Json, contacts: list[Json], program: Json, solved: Expected
 ) -> tuple[dict[str, Json], Expected | None, Expected | None]:
     """The output of a step whose program is solved, and how: by the layers wrench and integrate."""

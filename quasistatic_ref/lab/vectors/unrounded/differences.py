@@ -14,8 +14,14 @@ from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
-from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
-from quasistatic_ref.lab.vectors.unrounded.step import Contact, Solved, after, contact, solved
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept_candidates, pool
+from quasistatic_ref.lab.vectors.unrounded.step import (
+    Contact,
+    Solved,
+    after,
+    contact,
+    step_solution,
+)
 from quasistatic_ref.lab.vectors.unrounded.world import World, world
 
 
@@ -46,14 +52,14 @@ class Base:
 
     def _kept(self, at: World, pair: int) -> list[Near]:
         near = candidates(at, pair, self.pools[pair])
-        return kept(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
+        return kept_candidates(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
 
     def step_at(self, case: Json) -> tuple[Solved, list[Contact], Vector]:
         """A step nearby: solved, its contacts, and q+ in the tangent space at the base's q+."""
         moved = case["q"] is not self.at.case["q"]  # if not, bodies and contacts stay
         at = world(case) if moved else World(case, self.at.at)
         contacts = self.contacts_at(at) if moved else self.contacts
-        found = solved(at, contacts, self.step.optimum.minimiser.working)
+        found = step_solution(at, contacts, self.step.optimum.minimiser.working)
         return found, contacts, away(at, self.q_next, after(at, found.delta_q))
 
 
@@ -84,9 +90,9 @@ def base(case: Json) -> Base:
         found = candidates(at, pair)
         solids = are_solids(case, pair)
         pools.append(pool(found, written["k"], solids=solids))
-        near = kept(found, written["k"], solids=solids)
+        near = kept_candidates(found, written["k"], solids=solids)
         contacts += [contact(at, one) for one in near]
-    step = solved(at, contacts)
+    step = step_solution(at, contacts)
     return Base(at, contacts, step, after(at, step.delta_q), pools)
 
 

@@ -123,7 +123,7 @@ def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, 
     return sorted((late[i], found[i].phi, i) for i in range(len(found)))
 
 
-def kept(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
+def kept_candidates(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
     """Those that a step keeps, in the order of their index; parameters as for `ordered`."""
     order = ordered(found, k, solids=solids)
     return [found[i] for i in sorted(i for _, _, i in order[:k])]
@@ -131,11 +131,11 @@ def kept(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
 
 def pool(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
     """Indices of the candidates that a step nearby can keep; parameters as for `ordered`."""
-    far = max(one.phi for one in kept(found, k, solids=solids)) + POOL
+    far = max(one.phi for one in kept_candidates(found, k, solids=solids)) + POOL
     return [one.index for one in found if one.phi <= far]
 
 
-def tied(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
+def tied_indices(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
     """Indices of candidates as near as one another of which some are kept and some are not."""
     order = ordered(found, k, solids=solids)
     if len(order) <= k or order[k][0] != order[k - 1][0]:

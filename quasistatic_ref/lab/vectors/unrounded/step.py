@@ -94,7 +94,7 @@ def rows(case: Json, contacts: Sequence[Contact]) -> tuple[list[Vector], list[Re
     return A, b
 
 
-def solved(at: World, contacts: Sequence[Contact], warm: Sequence[int] = ()) -> Solved:
+def step_solution(at: World, contacts: Sequence[Contact], warm: Sequence[int] = ()) -> Solved:
     """delta_q of a step with these contacts.
 
     Parameters
