@@ -34,22 +34,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "file", help="a URDF, a scenario (TOML), or the name of an installed scenario"
     )
     shared.completed(file, scenario_names, ".toml", ".urdf")
-    parser.add_argument(
-        "--package-dir",
-        action="append",
-        default=[],
-        metavar="FOLDER",
-        help="where package://NAME/ is looked for as FOLDER/NAME/ (of a URDF; may be repeated)",
-    )
-    shared.add(parser, "--set", "--json")
+    shared.add(parser, "--set", "--root", "--json")
 
 
 def run(options: argparse.Namespace) -> int:
     """Print what there is."""
     if Path(options.file).suffix.lower() in (".urdf", ".xml"):
         path = Path(options.file)
-        folders = tuple(options.package_dir)
-        body = Body(name=body_name(path), urdf=path, actuated="all", package_dirs=folders)
+        body = Body(body_name(path), path, actuated="all", package_dirs=options.roots)
         record = {"read_as": READ_AS, **system_record(System([body]))}
     else:
         record = scenario_record(load_scenario(options.file, shared.scenario_settings(options)))

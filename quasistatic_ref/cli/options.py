@@ -1,6 +1,7 @@
 """Options and habits that several commands share."""
 
 import argparse
+import os
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Sequence
@@ -39,6 +40,13 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
         "metavar": "KEY=VALUE",
         "dest": "settings",
         "help": "change a field of the scenario, e.g. contacts.grip.mu_omega=0",
+    },
+    "--root": {
+        "action": "append",
+        "default": [],
+        "metavar": "FOLDER",
+        "dest": "roots",
+        "help": "folder from which robots are read, too, and in which package:// is looked for",
     },
     "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
 }
@@ -123,7 +131,7 @@ def progress_line(options: argparse.Namespace, line: str, end: str = "\n") -> No
 
 
 def scenario_settings(options: argparse.Namespace) -> list[str]:
-    """``--set`` and the options of ``SOLVER`` as changes of a scenario."""
+    """``--set``, ``--root`` and the options of ``SOLVER`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
     for key in ("backend", "certify"):
         value = getattr(options, key, None)
@@ -135,6 +143,8 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
         settings.append(f"cone={json_text(options.cone)}")
     if getattr(options, "law", None) is not None:
         settings.append(f"law={json_text(options.law)}")
+    if getattr(options, "roots", []):
+        settings.append(f"roots={json_text([os.path.abspath(root) for root in options.roots])}")
     return settings
 
 

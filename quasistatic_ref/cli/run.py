@@ -32,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
-    shared.add(parser, *shared.SOLVER, "--law", "--set", "--json")
+    shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
     shared.add_resume(parser)
     parser.add_argument(
         "--sweep",

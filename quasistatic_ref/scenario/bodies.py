@@ -1,5 +1,6 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.paths import inline_text, path_in, shared_folders
+from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     WAYPOINT,
@@ -106,8 +107,13 @@ class BodyEntry(Plain):
         return joint.name.removeprefix(f"{self.body.name}/")
 
 
-def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
-    """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
+def body_entry(
+    name: str, table: TableReader, folder: Path, roots: Sequence[Path] = ()
+) -> BodyEntry:
+    """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder.
+
+    Robots are read from `roots`, too.
+    """
     check_names(table, BODY)
     text = inline_text(table, "urdf")
     urdf = path_in(folder, table, "urdf") if text is None else None
@@ -125,7 +131,8 @@ def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
     xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names_left()}
-    folders = [folder / folder_name for folder_name in value(table, BODY, "package_dirs")]
+    own = value(table, BODY, "package_dirs")
+    folders = [*folders_in(folder, table, "package_dirs", own), *roots]
     if "gravity_compensated" in table and not actuated:
         raise table.error_about(
             "gravity_compensated", "needs an actuated joint, and this body has none"

@@ -84,7 +84,7 @@ def parsed(text: str) -> Any:
         tables = {}
     # Anything but one value, such as a second line, is taken as a word.
     value = tables["value"] if list(tables) == ["value"] else text.strip()
-    return OwnWord(value) if isinstance(value, str) else value
+    return _as_parsed(value)
 
 
 def own_value(field: object, value: Any) -> Any:

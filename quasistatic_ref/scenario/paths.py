@@ -9,6 +9,7 @@ PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the mo
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from quasistatic_ref.formats.table_reader import TableReader
@@ -34,8 +35,22 @@ def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
         is not installed.
     """
     text = table.text(field, None)
-    if text is None:
-        return None
+    setting = f"--set {table.name(field)}=PATH"
+    remedy = f"move the file there, or give the path on the command line, as {setting}"
+    return None if text is None else _path(folder, table, field, text, remedy)
+
+
+def folders_in(folder: Path, table: TableReader, field: str, names: Sequence[str]) -> list[Path]:
+    """The paths of a list in one field, as `path_in` has one; ScenarioError if one is no folder."""
+    remedy = "name it on the command line, as --root FOLDER"
+    folders = [_path(folder, table, field, name, remedy) for name in names]
+    for path, name in zip(folders, names, strict=True):
+        if not path.is_dir():
+            raise table.error_about(field, "is no folder", name)
+    return folders
+
+
+def _path(folder: Path, table: TableReader, field: str, text: str, remedy: str) -> Path:
     if not text.strip():
         raise table.error_about(field, "must name a file", text)
     path = folder / text
@@ -46,8 +61,6 @@ def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
         raise table.error_about(field, f"cannot be a path: {error}", text) from None
     if not inside:
-        remedy = "move the file there, or give the path on the command line, as --set "
-        remedy += f"{table.name(field)}=PATH"
         raise table.error_about(field, f"is outside the scenario's folder; {remedy}", text)
     return path
 

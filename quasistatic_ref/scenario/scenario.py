@@ -29,6 +29,7 @@ from quasistatic_ref.scenario.bodies import (
 from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Settings, apply_settings
+from quasistatic_ref.scenario.paths import folders_in
 from quasistatic_ref.scenario.scenario_table import (
     FORMAT,
     LIMITS,
@@ -268,8 +269,10 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
+    roots = folders_in(path.parent, top, "roots", value(top, TOP, "roots"))
     entries = {
-        name: body_entry(name, tables.table(name), path.parent) for name in tables.names_left()
+        name: body_entry(name, tables.table(name), path.parent, roots)
+        for name in tables.names_left()
     }
     tables.close()
     if not entries:

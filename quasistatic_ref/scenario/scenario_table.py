@@ -75,6 +75,10 @@ TABLES = Tables({
         ),
         "solver": Field("table", "the backend, and what is proved", default={}, of=SOLVER),
         "limits": Field("table", "where a run ends early", default={}, of=LIMITS),
+        "roots": Field(
+            "list of words", "folders from which robots are read besides their own, and in which "
+            "package:// is looked for; --root FOLDER names them", default=[],
+        ),
         "bodies": Field("tables by name", "what moves", of=BODY, schema={"minProperties": 1}),
         "shapes": Field("tables by name", "solids that stand still", default={}, of=SHAPE),
         "contacts": Field("tables by name", "who may touch whom", default={}, of=CONTACT),
@@ -111,7 +115,7 @@ TABLES = Tables({
             schema={"type": "object", "additionalProperties": NUMBER},
         ),
         "package_dirs": Field(
-            "list of words", "folders in which the URDF's package:// is looked for", default=[],
+            "list of words", "roots of this body alone", default=[],
         ),
         "K_q": Field(
             "table by joint, or a matrix",

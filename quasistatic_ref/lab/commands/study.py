@@ -44,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
-    shared.add(run_, "--json")
+    shared.add(run_, "--root", "--json")
     words = "results of a machine, and its name; else the folder's"
     merge = parsers["merge"]
     merge.add_argument("parts", nargs="+", metavar="[NAME=]FOLDER", help=words)
@@ -100,8 +100,11 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
         from quasistatic_ref.lab.study.file.sweeps import sweep_study
         from quasistatic_ref.lab.study.measuring.sweep import run_sweep
 
-        rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
+        settings = shared.scenario_settings(options)
+        rows = run_sweep(sweep_study(path, tables, options.quick, settings), options.out, **where)
         return _swept(rows, options)
+    if options.roots:
+        raise InputError("is of sweeps, and this study compares solvers", field="--root")
     from quasistatic_ref.lab.study.file.study_file import solver_study
     from quasistatic_ref.lab.study.measuring.run import run_study
 

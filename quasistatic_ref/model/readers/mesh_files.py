@@ -42,7 +42,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     packages = [Path(given) for given in package_dirs]
     if uri.startswith(PACKAGE):
         if not packages:
-            problem = "needs package_dirs, the folders that contain package:// files"
+            problem = "needs package_dirs (--root FOLDER), which contain package:// files"
             raise ModelError(problem, value=uri)
         inside = uri.removeprefix(PACKAGE).lstrip("/")
         places = [package / inside for package in packages]
@@ -60,7 +60,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
             f"leads to {path}, outside the folder of this file and of package_dirs; "
-            "move the mesh, or name its folder in package_dirs"
+            "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
         )
         raise ModelError(problem, value=uri)
     if path.suffix.lower() == ".dae":

@@ -20,6 +20,8 @@ _MOVING = ("revolute", "continuous", "prismatic")
 MOST_LINKS = 1000
 """Most links in a file: urdfdom recurses from link to link, and ends the process where the
 stack does."""
+MOST_SHAPES = 1000
+"""Most shapes that touch: pinocchio takes time with the cube of their number, 1.5 s for these."""
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _ROBOT = ("name", "version")
@@ -159,9 +161,13 @@ def _content(path: Path, text: str) -> UrdfFile:
     ignored = Tag(robot, "robot").ignored("link", "joint", "ignored", attributes=_ROBOT)
     ignored += [Tag(each, "robot.ignored").text("name") for each in robot.findall("ignored")]
     links: dict[str, FileLink] = {}
-    if len(robot.findall("link")) > MOST_LINKS:
-        problem = f"holds more than {MOST_LINKS} links"
-        raise ModelError(problem, field="robot", value=len(robot.findall("link")))
+    counts = {
+        "links": (len(robot.findall("link")), MOST_LINKS),
+        "collisions": (len(robot.findall("link/collision")), MOST_SHAPES),
+    }
+    for what, (count, most) in counts.items():
+        if count > most:
+            raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
     for element in robot.findall("link"):
         link = _link(element, ignored)
         if link.name in links:

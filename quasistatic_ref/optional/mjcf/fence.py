@@ -4,16 +4,25 @@ A model reads only from its own folder, and from the folders that its user names
 file in several places; each of them at which there is one is checked.
 """
 
+from __future__ import annotations
+
+import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from xml.etree import ElementTree
+from typing import NoReturn
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.formats.files import LARGEST_TEXT, bytes_read, text_of
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.model.urdf.urdf_file import LARGEST_FILE, MOST_LINKS
 
 MOST_FILES = 1000
 """Most files of XML of one model."""
-MOST_COPIES = 10_000
+DEEPEST = 300
+"""Most elements that are nested; MuJoCo's XML reader ends at 500."""
+MOST_COPIES = MOST_LINKS
 """Most copies by nested replicas, and most parts of a composite."""
 MOST_NUMBERS = 4_000_000
 """Most numbers of a height field, points of a texture, or entries of a buffer."""
@@ -25,12 +34,15 @@ _COUNTED = {
     "hfield": ("nrow", "ncol", MOST_NUMBERS),
     "texture": ("width", "height", MOST_NUMBERS),
     "mesh": ("params", MOST_NUMBERS // 4),
+    "numeric": ("size", MOST_NUMBERS),
+    "user": ("dim", MOST_NUMBERS),
 }
 """Element -> attributes of which the product of all numbers is bounded, and the bound."""
 
 
-def check_model(path: Path, roots: Sequence[str | Path] = ()) -> None:
-    """Refuse a model that reads elsewhere, or asks for more than any robot has.
+@dataclass
+class Fence:
+    """A model, and where its elements stand, so that a refusal can name them.
 
     Parameters
     ----------
@@ -38,46 +50,154 @@ def check_model(path: Path, roots: Sequence[str | Path] = ()) -> None:
     roots : sequence of str or Path
         Folders from which it may read besides its own.
 
+    Attributes
+    ----------
+    read : int
+        Bytes of XML that were read.
+    places : list of (Element, Path, int)
+        Each element with its file and line.
+    costs : list of (float, Element, str)
+        The bytes of each file that an element names, or the numbers that it asks for [-], with the
+        element and the attribute.
+
     Raises
     ------
     ModelError
-        Naming file, element and attribute.
+        If the model reads elsewhere, or asks for more than any robot has: naming file, element and
+        attribute.
     """
-    allowed = [folder.resolve() for folder in (path.parent, *map(Path, roots))]
-    folders = {path.parent}
-    found = [path]
-    for file in found:  # which grows by what each includes
-        if len(found) > MOST_FILES:
-            raise ModelError(f"consists of more than {MOST_FILES} files", file=path)
-        with about_file(file):
-            tree = _tree(file)
-            folders |= {file.parent}
-            folders |= {
-                folder / compiler.get(name, "")
-                for compiler in tree.iter("compiler")
-                for name in _FOLDERS
-                for folder in tuple(folders)
-            }
-            _check_sizes(tree)
-            for element, inside in _files(tree, folders, allowed):
-                if element.tag in ("include", "model") and inside not in found:
-                    found.append(inside)
+
+    path: Path
+    roots: Sequence[str | Path] = ()
+    read: int = 0
+    places: list[tuple[Element, Path, int]] = field(default_factory=list)
+    costs: list[tuple[float, Element, str]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        allowed = [folder.resolve() for folder in (self.path.parent, *map(Path, self.roots))]
+        folders = {self.path.parent}
+        found = [self.path]
+        for file in found:  # which grows by what each includes
+            if len(found) > MOST_FILES:
+                raise ModelError(f"consists of more than {MOST_FILES} files", file=self.path)
+            with about_file(file):
+                tree = self._tree(file)
+                folders |= {file.parent}
+                folders |= {
+                    folder / compiler.get(name, "")
+                    for compiler in tree.iter("compiler")
+                    for name in _FOLDERS
+                    for folder in tuple(folders)
+                }
+                self._check_sizes(tree)
+                for element, attribute, inside in _files(tree, folders, allowed):
+                    self.costs.append((inside.stat().st_size, element, attribute))
+                    if element.tag in ("include", "model") and inside not in found:
+                        found.append(inside)
+
+    def refusal(self, said: str) -> ModelError:
+        """What MuJoCo says, about the element that it means: by its line, or by its name."""
+        quoted = re.findall(r"'([^']+)'", said)
+        words = re.findall(r"\w+", said)
+        line = re.search(r"Element '(.*)', line (\d+)", said)
+        error = ModelError(f"MuJoCo refuses it: {' '.join(said.split())}")
+        best = 0
+        for element, file, number in self.places:
+            marked = [a for a in element.attrib if a in words and a != "name"]
+            marked += [a for a, value in element.attrib.items() if value in quoted]
+            at = line is not None and (element.tag, str(number)) == line.groups()
+            named = element.get("name") in quoted
+            score = 8 * at + 4 * named + 2 * (element.tag in words) + bool(marked)
+            if score > best and (at or marked):
+                best = score
+                error.field = _named(element, *marked[:1])
+                error.file = file
+        return error
+
+    def too_much(self, problem: str) -> ModelError:
+        """What MuJoCo could not do, about the attribute that asks for most."""
+        error = ModelError(f"{problem}; give it fewer copies, or smaller meshes and textures")
+        if self.costs:
+            _, element, attribute = max(self.costs, key=lambda cost: cost[0])
+            error = _about(element, attribute, error.problem)
+            error.file = next(file for other, file, _ in self.places if other is element)
+        return error
+
+    def _tree(self, path: Path) -> Element:
+        content = bytes_read(path, ModelError, LARGEST_FILE)
+        self.read += len(content)
+        if self.read > LARGEST_FILE:
+            raise ModelError(f"makes the model larger than {LARGEST_FILE / 2**20:g} MiB of XML")
+        text = text_of(content, path, ModelError)
+        builder = TreeBuilder()
+        parser = expat.ParserCreate("utf-8")
+        open_: list[Element] = []
+
+        def start(tag: str, attributes: dict[str, str]) -> None:
+            element = builder.start(tag, attributes)
+            open_.append(element)
+            self.places.append((element, path, parser.CurrentLineNumber))
+            if len(open_) > DEEPEST:
+                raise ModelError(f"is nested deeper than {DEEPEST} elements", field=_named(element))
+
+        def end(tag: str) -> None:
+            builder.end(tag)
+            open_.pop()
+
+        parser.StartElementHandler = start
+        parser.EndElementHandler = end
+        parser.StartDoctypeDeclHandler = _refuse_doctype
+        try:
+            parser.Parse(text.encode(), True)
+        except expat.ExpatError as error:
+            raise ModelError(f"is not XML: {error}") from None
+        return builder.close()
+
+    def _check_sizes(self, tree: Element) -> None:
+        front = [(tree, 1.0)]
+        for element, copies in front:
+            inner = copies
+            if element.tag == "replicate":
+                inner *= self._product(element, "count")
+                if not inner <= MOST_COPIES:
+                    raise _about(element, "count", f"makes more than {MOST_COPIES} copies")
+            if element.tag == "size":
+                for attribute in element.attrib:
+                    if attribute != "memory":
+                        asked = self._product(element, attribute)
+                        if not asked <= MOST_NUMBERS:
+                            raise _about(element, attribute, f"must be at most {MOST_NUMBERS}")
+            if element.tag in _COUNTED:
+                *attributes, most = _COUNTED[element.tag]
+                product = 1.0
+                for attribute in map(str, attributes):
+                    product *= self._product(element, attribute)
+                    if not product <= float(most):
+                        problem = f"makes more than {most} parts or numbers"
+                        raise _about(element, attribute, problem)
+            front.extend((child, inner) for child in element)
+
+    def _product(self, element: Element, attribute: str) -> float:
+        """The product of the sizes of an attribute's numbers, each at least 1."""
+        product = 1.0
+        for word in element.get(attribute, "").split():
+            try:
+                product *= max(abs(float(word)), 1.0)
+            except ValueError:
+                continue  # MuJoCo says what is wrong with it
+        if product > 1:
+            self.costs.append((product, element, attribute))
+        return product
 
 
-def _tree(path: Path) -> ElementTree.Element:
-    text = text_of(bytes_read(path, ModelError, LARGEST_TEXT), path, ModelError)
-    if "<!DOCTYPE" in text.upper():
-        raise ModelError("declares a DOCTYPE, which no model needs; remove it")
-    try:
-        return ElementTree.fromstring(text)
-    except (ElementTree.ParseError, ValueError) as error:
-        raise ModelError(f"is not XML: {error}") from None
+def _refuse_doctype(*_: object) -> NoReturn:
+    raise ModelError("declares a DOCTYPE, which no model needs; remove it", field="DOCTYPE")
 
 
 def _files(
-    tree: ElementTree.Element, folders: set[Path], allowed: Sequence[Path]
-) -> Iterator[tuple[ElementTree.Element, Path]]:
-    """Each element that names a file that is there, with that; ModelError if it lies elsewhere."""
+    tree: Element, folders: set[Path], allowed: Sequence[Path]
+) -> Iterator[tuple[Element, str, Path]]:
+    """Each element and attribute that name a file that is there, and that file, if allowed."""
     for element in tree.iter():
         for attribute, value in element.attrib.items():
             if not attribute.startswith("file"):
@@ -94,50 +214,21 @@ def _files(
                     if not any(inside.is_relative_to(root) for root in allowed):
                         problem = (
                             f"leads to {inside}, outside the folder of the model; move it there, "
-                            "or name its folder in package_dirs (in Python: roots)"
+                            "or name its folder: --root FOLDER, or package_dirs of the body"
                         )
                         raise _about(element, attribute, problem)
                     if not inside.is_file():
                         if name:
                             raise _about(element, attribute, "is a folder, a device or a pipe")
                         continue
-                    yield element, inside
+                    yield element, attribute, inside
 
 
-def _check_sizes(tree: ElementTree.Element) -> None:
-    front = [(tree, 1.0)]
-    for element, copies in front:
-        inner = copies
-        if element.tag == "replicate":
-            inner *= _product(element, "count")
-            if not inner <= MOST_COPIES:
-                raise _about(element, "count", f"makes more than {MOST_COPIES} copies")
-        if element.tag == "size":
-            for attribute in element.attrib:
-                if attribute != "memory" and not _product(element, attribute) <= MOST_NUMBERS:
-                    raise _about(element, attribute, f"must be at most {MOST_NUMBERS}")
-        if element.tag in _COUNTED:
-            *attributes, most = _COUNTED[element.tag]
-            product = 1.0
-            for attribute in map(str, attributes):
-                product *= _product(element, attribute)
-                if not product <= float(most):
-                    raise _about(element, attribute, f"makes more than {most} parts or numbers")
-        front.extend((child, inner) for child in element)
+def _about(element: Element, attribute: str, problem: str) -> ModelError:
+    return ModelError(problem, field=_named(element, attribute), value=element.get(attribute))
 
 
-def _product(element: ElementTree.Element, attribute: str) -> float:
-    """The product of the sizes of an attribute's numbers, each at least 1."""
-    product = 1.0
-    for word in element.get(attribute, "").split():
-        try:
-            product *= max(abs(float(word)), 1.0)
-        except ValueError:
-            continue  # MuJoCo says what is wrong with it
-    return product
-
-
-def _about(element: ElementTree.Element, attribute: str, problem: str) -> ModelError:
+def _named(element: Element, *attribute: str) -> str:
     name = element.get("name")
     where = f"{element.tag}[{name}]" if name else element.tag
-    return ModelError(problem, field=f"{where}.{attribute}", value=element.get(attribute))
+    return ".".join((where, *attribute))

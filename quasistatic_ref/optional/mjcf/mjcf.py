@@ -8,9 +8,7 @@ drops bodies, masses and names of joints without a word.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, tostring
@@ -21,9 +19,10 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.optional.mjcf.compared import check_shapes
-from quasistatic_ref.optional.mjcf.fence import check_model
+from quasistatic_ref.optional.mjcf.compiler import compiled
+from quasistatic_ref.optional.mjcf.fence import Fence
 from quasistatic_ref.optional.mjcf.geoms import FREE, GEOMS, HINGE, SLIDE, drawn, rgba, touching
-from quasistatic_ref.optional.mjcf.ignored import ignored_of_free, ignored_of_spec
+from quasistatic_ref.optional.mjcf.ignored import ignored_of_free
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.arrays import Array
 
@@ -64,14 +63,11 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
     >>> system.links, system.masses.tolist()
     (('world', 'b/ball'), [0.0, 0.3])
     """
-    with about_file(path), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated and still read
-        check_model(Path(path), roots)
-        spec, model = _compiled(path)
+    with about_file(path):
+        model, ignored = _compiled(Path(path), roots)
         names = Names.of(model)
         root = _root(model, names, base)
         robot = Element("robot", name="mjcf", version="1.1")
-        ignored = ignored_of_spec(spec)
         if root:
             ignored += ignored_of_free(model, names)
         for i in range(root, model.nbody):
@@ -85,23 +81,13 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
         return text
 
 
-def _compiled(path: str | Path) -> tuple[Any, Any]:
-    """What MuJoCo reads, and what it makes of that; the one place where files are read."""
+def _compiled(path: Path, roots: Sequence[str | Path]) -> tuple[Any, list[str]]:
+    """What MuJoCo makes of a file, and what of it is ignored."""
     try:
-        mujoco: Any = import_module("mujoco")
+        return compiled(Fence(path, roots))
     except ImportError:
         problem = "mjcf needs MuJoCo: pip install 'quasistatic-ref[engines]'"
         raise ModelError(problem) from None
-    handler = mujoco.get_mju_user_warning()
-    # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
-    mujoco.set_mju_user_warning(lambda text: None)
-    try:
-        spec = mujoco.MjSpec.from_file(str(path))
-        return spec, spec.compile()
-    except ValueError as error:
-        raise ModelError(f"MuJoCo refuses it: {' '.join(str(error).split())}") from None
-    finally:
-        mujoco.set_mju_user_warning(handler)
 
 
 def _root(model: Any, names: Names, base: str) -> int:

@@ -59,7 +59,7 @@ OUTSIDE = {
     "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
     "link": ("link.obj", "leads to .*, outside the folder of this file"),
     "file": ("file:///a.obj", "must be package://NAME/PATH or a relative path"),
-    "no package": ("package://arm/a.obj", "needs package_dirs, the folders that contain"),
+    "no package": ("package://arm/a.obj", r"needs package_dirs \(--root FOLDER\), which contain"),
     "missing": ("b.obj", "no such file"),
     "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .obj, .stl"),
 }

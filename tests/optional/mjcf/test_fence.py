@@ -1,14 +1,27 @@
 """What an MJCF file may read, and how much it may ask for."""
 
 import os
+import time
 
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import ModelError, ScenarioError
+from quasistatic_ref.optional.mjcf import compiler
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from quasistatic_ref.scenario.scenario import load_scenario
 from tests.model.urdf.urdf_texts import written
 
-BODY = '<mujoco><worldbody><body name="b"><geom size="0.1"/></body></worldbody></mujoco>'
+BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
+
+
+SCENE = """format = "quasistatic-ref/scenario"
+version = 1
+h = 0.01
+steps = 1
+[bodies.b]
+mjcf = "m.xml"
+"""
 
 
 def model(inside):
@@ -30,7 +43,7 @@ MESH = '<asset><mesh name="m" file="outside.xml"/></asset>'
 REFUSED = {
     # name: (the model, words of the sentence)
     "an include": ('<include file="../outside.xml"/>', "include.file: leads to "),
-    "an absolute include": ('<include file="{home}/../outside.xml"/>', "package_dirs (in Python"),
+    "an absolute include": ('<include file="{home}/../outside.xml"/>', "folder: --root FOLDER"),
     "a link": ('<include file="link.xml"/>', "include.file: leads to "),
     "an attached model": (
         '<asset><model name="m" file="../outside.xml"/></asset>', "model[m].file: leads to "
@@ -39,11 +52,32 @@ REFUSED = {
     "a pipe": ('<include file="pipe.xml"/>', "include.file: is a folder, a device or a pipe"),
     "replicas": (
         '<worldbody><replicate count="200"><replicate count="200"><geom size="1"/></replicate>'
-        "</replicate></worldbody>", "replicate.count: makes more than 10000 copies",
+        "</replicate></worldbody>", "replicate.count: makes more than 1000 copies",
     ),
     "a height field": (
         '<asset><hfield name="f" nrow="20000" ncol="20000" size="1 1 1 1"/></asset>',
         "hfield[f].ncol: makes more than 4000000 parts or numbers (got '20000')",
+    ),
+    "elements in elements": (
+        "<worldbody>" + "<body>" * 400 + "</body>" * 400 + "</worldbody>",
+        "body: is nested deeper than 300 elements",
+    ),
+    "a crash of MuJoCo's": (
+        '<asset><model name="m" file="m.xml"/></asset><worldbody><frame>'
+        '<attach model="m" body="b" prefix="p"/></frame></worldbody>',
+        "model[m].file: needs more than 2 GiB, or ends MuJoCo",
+    ),
+    "memory": (
+        '<size memory="10T"/>', "size.memory: MuJoCo refuses it: Error: engine error: Could not"
+    ),
+    "an unknown attribute": ('<option foo="1"/>', "option.foo: MuJoCo refuses it: XML Error: "),
+    "a size": (
+        '<worldbody><body name="c"><geom name="g" type="box" size="1"/></body></worldbody>',
+        "geom[g].size: MuJoCo refuses it: Error: size 1 must be positive in geom",
+    ),
+    "an unknown mesh": (
+        '<worldbody><body name="c"><geom type="mesh" mesh="none"/></body></worldbody>',
+        "geom.mesh: MuJoCo refuses it: Error: mesh 'none' not found",
     ),
     "user data": ('<size nuserdata="400000000"/>', "size.nuserdata: must be at most 4000000"),
 }  # fmt: skip
@@ -76,12 +110,36 @@ def test_what_is_no_plain_xml_is_refused(tmp_path, content, says):
     assert says in str(caught.value)
 
 
-def test_a_folder_that_is_named_may_be_read(home, tmp_path):
+def test_a_folder_that_is_named_may_be_read(home, tmp_path, capsys):
     text = '<mujoco><include file="../outside.xml"/></mujoco>'
     path = written(home, text, "m.xml")
     with pytest.raises(ModelError, match="outside the folder of the model"):
         mjcf_urdf(path)
     assert '<link name="b">' in mjcf_urdf(path, roots=[tmp_path])
+    scene = written(home, SCENE, "scene.toml")
+    assert main(["inspect", str(scene)]) == 2
+    assert "m.xml: include.file: leads to " in capsys.readouterr().err
+    assert main(["inspect", str(scene), "--root", str(tmp_path)]) == 0
+    assert load_scenario(scene, roots=[tmp_path]).system.links == ("world", "b/worldbody", "b/b")
+
+
+@pytest.mark.parametrize("field", ["roots", "bodies.b.package_dirs"])
+def test_a_scenario_cannot_name_folders_outside_of_its_own(home, tmp_path, field):
+    line = f'{field.rpartition(".")[2]} = [".."]'
+    text = SCENE + line if "." in field else f"{line}\n{SCENE}"
+    with pytest.raises(ScenarioError, match=r"is outside the scenario's folder; .* --root FOLDER"):
+        load_scenario(written(home, text, "scene.toml"))
+    with pytest.raises(ScenarioError, match=rf"{field}: is no folder"):
+        load_scenario(written(home, text.replace("..", "m.xml"), "scene.toml"))
+
+
+def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
+    monkeypatch.setattr(compiler, "SECONDS", 1)
+    keys = BODY.replace("<worldbody>", '<size nkey="3000000"/><worldbody>')
+    begun = time.monotonic()
+    with pytest.raises(ModelError, match=r"size\.nkey: takes MuJoCo longer than 1 s"):
+        mjcf_urdf(written(tmp_path, keys, "m.xml"))
+    assert time.monotonic() - begun < 5
 
 
 def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):

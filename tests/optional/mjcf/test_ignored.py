@@ -19,6 +19,9 @@ from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written
 
+# Some 600 small files; MuJoCo warns of two.
+pytestmark = [pytest.mark.usefixtures("in_this_process"), pytest.mark.filterwarnings("ignore")]
+
 Element = tuple[str, ...]
 """The tags from below <mujoco> to an element."""
 

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.mjcf import mjcf
+from quasistatic_ref.optional.mjcf import compiler, mjcf
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -76,6 +76,7 @@ def test_everything_is_where_mujoco_has_it(arm):
     assert found.curved < CURVED
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_meshes_are_where_mujoco_has_them_however_they_are_written():
     """A sample of those of ``validation/results/mjcf.md``."""
     tried = random_models(range(8))
@@ -182,7 +183,7 @@ def test_without_mujoco_one_sentence_says_what_to_install(arm, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr(mjcf, "import_module", missing)
+    monkeypatch.setattr(compiler, "import_module", missing)
     with pytest.raises(ModelError, match=r"needs MuJoCo: pip install 'quasistatic-ref\[engines\]'"):
         mjcf.mjcf_urdf(arm)
 
@@ -200,7 +201,7 @@ REFUSED = {
     '<geom size="0.1"/></body><body mocap="true">': r"body\[body2\]\.mocap: is not supported",
     '<geom size="0.1"/></body></worldbody><equality><weld name="w" body1="ball"/></equality>'
     "<worldbody><body>": r"equality\[w\]: ties bodies or joints",
-    "<geon/>": r"ball\.xml: MuJoCo refuses it: XML Error: Schema violation",
+    "<geon/>": r"ball\.xml: geon: MuJoCo refuses it: XML Error: Schema violation",
 }
 
 

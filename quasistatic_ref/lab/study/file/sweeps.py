@@ -1,7 +1,7 @@
 """Studies of kind ``"sweep"``: which scenarios are run with which values, read field by field."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -91,7 +91,9 @@ class Sweep:
         return [*changes, 'record="light"', "fast=true"]
 
 
-def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tuple[Sweep, ...]:
+def sweep_study(
+    path: Path, tables: dict[str, Any], quick: bool = False, settings: Sequence[str] = ()
+) -> tuple[Sweep, ...]:
     """The sweeps of a study file.
 
     Parameters
@@ -100,6 +102,8 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
     tables : dict
     quick : bool
         The first and the last value of each axis only.
+    settings : sequence of str
+        Changes of all scenarios, ``dotted.key=value``.
 
     Raises
     ------
@@ -110,7 +114,7 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
         top = TableReader(tables)
         sweeps: dict[str, Sweep] = {}
         for i, table in enumerate(TABLES.all_values(top, SWEEPS)["sweeps"]):
-            sweep = _sweep(TableReader(table, f"sweeps[{i}]"), path.parent, quick)
+            sweep = _sweep(TableReader(table, f"sweeps[{i}]"), path.parent, quick, settings)
             if sweep.name in sweeps:
                 raise top.error_about(f"sweeps[{i}].name", "is given twice", sweep.name)
             sweeps[sweep.name] = sweep
@@ -119,14 +123,15 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
     return tuple(sweeps.values())
 
 
-def _sweep(table: TableReader, folder: Path, quick: bool) -> Sweep:
+def _sweep(table: TableReader, folder: Path, quick: bool, settings: Sequence[str]) -> Sweep:
     given = TABLES.all_values(table, SWEEP)
     named = given["scenario"]
     link = given["link"]
     scenario = str(folder / named) if named.endswith(".toml") else named
     name = Path(named).stem if given["name"] is None else given["name"]
     axes = _axes(given["axes"], quick)
-    sweep = Sweep(name, scenario, link, given["duration"], given["since"], axes)
+    duration = given["duration"]
+    sweep = Sweep(name, scenario, link, duration, given["since"], axes, tuple(settings))
     count = len(sweep.points())
     if count > MOST_RUNS:
         raise table.error_about("axes", f"make more than {MOST_RUNS} runs", count)

@@ -1,0 +1,127 @@
+"""MuJoCo's compiler, in a process of its own: what it is given may end it, hang it or fill it.
+
+The process is a program that is started, not a copy of this one, which may have threads. It prints
+one line of JSON, and after it the model as MuJoCo's own binary file (MJB), in which each number has
+the bits that were compiled; nothing that it prints is executed.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS, MOST_SHAPES
+from quasistatic_ref.optional.mjcf.fence import Fence
+from quasistatic_ref.optional.mjcf.geoms import touching
+from quasistatic_ref.optional.mjcf.ignored import ignored_of_spec
+
+MODULE = "quasistatic_ref.optional.mjcf.compiler"
+SECONDS = 8
+"""Longest time of a compilation [s], so that what is done before and after ends within 10 s."""
+MEMORY = 2 * 2**30
+"""Largest memory of it [bytes]."""
+ARENA = 2**20
+"""Memory for contacts [bytes], of which none are computed here; by default it may be GiBs."""
+LARGEST_MODEL = 256 * 2**20
+"""Largest model as a binary file [bytes]."""
+
+
+def compiled(fence: Fence) -> tuple[Any, list[str]]:
+    """The model of a file as MuJoCo compiles it, and what of the file is ignored.
+
+    Returns
+    -------
+    mujoco.MjModel
+    list of str
+
+    Raises
+    ------
+    ImportError
+        If MuJoCo is not installed.
+    ModelError
+        If MuJoCo refuses the file, or needs more time or memory than it is given.
+    """
+    mujoco: Any = import_module("mujoco")
+    try:
+        line, _, binary = printed(fence.path.resolve()).partition(b"\n")
+    except subprocess.TimeoutExpired:
+        raise fence.too_much(f"takes MuJoCo longer than {SECONDS} s") from None
+    except subprocess.CalledProcessError:
+        raise fence.too_much(f"needs more than {MEMORY / 2**30:g} GiB, or ends MuJoCo") from None
+    said = json.loads(line)
+    if "refused" in said:
+        raise fence.refusal(said["refused"])
+    if "makes" in said:
+        raise fence.too_much(f"makes {said['makes']}")
+    return mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary}), said["ignored"]
+
+
+def printed(path: Path) -> bytes:
+    """The answer of a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-P", "-W", "ignore", "-m", MODULE, str(path)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        # The same packages, and no memory that is only reserved, for threads.
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"},
+        timeout=SECONDS,
+        check=True,
+    ).stdout
+
+
+def answer(path: Path) -> bytes:
+    """A line that says what is ignored, and the model; or a line that says why there is none."""
+    mujoco: Any = import_module("mujoco")
+    # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
+    mujoco.set_mju_user_warning(lambda text: None)
+    try:
+        return _compiled(mujoco, path)
+    except ValueError as error:
+        return _line({"refused": str(error)})
+
+
+def _compiled(mujoco: Any, path: Path) -> bytes:
+    spec = mujoco.MjSpec.from_file(str(path))
+    threads = spec.compiler.usethread
+    memory = spec.memory
+    spec.compiler.usethread = False
+    spec.memory = ARENA
+    model = spec.compile()
+    sizes = {
+        "bodies": (model.nbody, MOST_LINKS),
+        "geoms that touch": (int(touching(model).sum()), MOST_SHAPES),
+        "bytes of a compiled model": (mujoco.mj_sizeModel(model), LARGEST_MODEL),
+    }
+    for what, (count, most) in sizes.items():
+        if count > most:
+            return _line({"makes": f"{count} {what}, more than {most}"})
+    binary = np.empty((mujoco.mj_sizeModel(model), 1), np.uint8)
+    mujoco.mj_saveModel(model, None, binary)
+    spec.compiler.usethread = threads
+    spec.memory = memory
+    return _line({"ignored": ignored_of_spec(spec)}) + binary.tobytes()
+
+
+def _line(said: dict[str, Any]) -> bytes:
+    return json.dumps(said).encode() + b"\n"
+
+
+def _limit() -> None:
+    """Limit this process, also where its parent has ended; macOS limits no memory."""
+    with suppress(ImportError, OSError, ValueError):
+        resource: Any = import_module("resource")
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+if __name__ == "__main__":
+    _limit()
+    sys.stdout.buffer.write(answer(Path(sys.argv[1])))
