@@ -212,7 +212,8 @@ def _modules(folder):
 
 def _example(name):
     """One example in the gallery: what it says of itself, its figure, and its code folded away."""
-    path = PACKAGE / "lab" / "examples" / f"{name}.py"
+    file = f"quasistatic_ref/lab/examples/{EXAMPLES[name]}/{name}.py"
+    path = ROOT / file
     title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
     text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
     return f"""
@@ -229,10 +230,10 @@ def _example(name):
    figure_of("{name}")
 ```
 
-:::{{admonition}} quasistatic_ref/lab/examples/{name}.py
+:::{{admonition}} {file}
 :collapsible: closed
 
-```{{literalinclude}} ../../quasistatic_ref/lab/examples/{name}.py
+```{{literalinclude}} ../../{file}
 :language: python
 ```
 :::

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.clouds import mug
 from quasistatic_ref.lab.clouds import rows as clouds_table
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
-from quasistatic_ref.lab.examples import grasp_against_mu_omega
+from quasistatic_ref.lab.examples.grasps import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step

@@ -30,7 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _examples() -> Sequence[str]:
     from quasistatic_ref.lab.examples.gallery import EXAMPLES
 
-    return EXAMPLES
+    return tuple(EXAMPLES)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -5,44 +5,45 @@ from typing import Any
 
 from quasistatic_ref.optional.show.figures import Figure, figure_style
 
-EXAMPLES = (
-    "block_on_a_table",
-    "six_rows_of_a_contact",
-    "cone_surfaces",
-    "finger_spring_block",
-    "the_step_loop",
-    "phi_and_j_of_a_cloud",
-    "two_moving_bodies",
-    "mass_of_a_free_body",
-    "a_screw",
-    "slip_margins",
-    "drag_against_h",
-    "both_laws",
-    "planar_pushing",
-    "flat_patch",
-    "which_cone_is_real",
-    "boundary_layer",
-    "pinch_threshold",
-    "hold_or_slip",
-    "grasp",
-    "grasp_against_mu_omega",
-    "clouds_of_a_grasp",
-    "margin_of_a_grip",
-    "gradient_of_a_push",
-    "where_no_gradient_is",
-    "what_smoothing_does",
-    "plan_a_push",
-    "solver_digits",
-    "door",
-    "peg_in_a_hole",
-    "robot_push",
-    "hand_turns_a_drum",
-)
+EXAMPLES = {
+    "block_on_a_table": "one_step",
+    "six_rows_of_a_contact": "one_step",
+    "cone_surfaces": "friction",
+    "finger_spring_block": "one_step",
+    "the_step_loop": "one_step",
+    "phi_and_j_of_a_cloud": "geometry",
+    "two_moving_bodies": "geometry",
+    "mass_of_a_free_body": "geometry",
+    "a_screw": "geometry",
+    "slip_margins": "one_step",
+    "drag_against_h": "friction",
+    "both_laws": "friction",
+    "planar_pushing": "friction",
+    "flat_patch": "friction",
+    "which_cone_is_real": "friction",
+    "boundary_layer": "friction",
+    "pinch_threshold": "grasps",
+    "hold_or_slip": "grasps",
+    "grasp": "grasps",
+    "grasp_against_mu_omega": "grasps",
+    "clouds_of_a_grasp": "grasps",
+    "margin_of_a_grip": "grasps",
+    "gradient_of_a_push": "gradients",
+    "where_no_gradient_is": "gradients",
+    "what_smoothing_does": "gradients",
+    "plan_a_push": "gradients",
+    "solver_digits": "one_step",
+    "door": "mechanisms",
+    "peg_in_a_hole": "mechanisms",
+    "robot_push": "mechanisms",
+    "hand_turns_a_drum": "mechanisms",
+}
+"""Its folder, by the name of each."""
 
 
 def example(name: str) -> Any:
     """The module of an example."""
-    return import_module(f"quasistatic_ref.lab.examples.{name}")
+    return import_module(f"quasistatic_ref.lab.examples.{EXAMPLES[name]}.{name}")
 
 
 def figure_of(name: str, ax: Any = None, **parameters: Any) -> Figure:

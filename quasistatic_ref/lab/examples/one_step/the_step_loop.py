@@ -11,7 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.finger_spring_block import GAP, K_Q, H, M, finger_and_block
+from quasistatic_ref.lab.examples.one_step.finger_spring_block import (
+    GAP,
+    K_Q,
+    H,
+    M,
+    finger_and_block,
+)
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, panels

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
+from quasistatic_ref.lab.examples.friction.which_cone_is_real import measured
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.examples.which_cone_is_real import measured
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
