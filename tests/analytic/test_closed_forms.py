@@ -8,12 +8,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-import pytest
-from scipy.optimize import linprog, minimize
 
 from quasistatic_ref import coulomb_step
 from quasistatic_ref.lab.claims.closed_forms.lift import MU_V, PAD, SQUEEZE, M, lifting_step
-from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
+from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import (
     actuated_step,
@@ -23,43 +21,12 @@ from quasistatic_ref.lab.scenes.rigid import (
     sphere_step,
 )
 from quasistatic_ref.lab.sweep_numbers import exact
-from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import CLOSED_FORM
-from tests.contact.still import found_for, placed, standing
+from tests.analytic.instances import INFEASIBLE, INSTANCES, G, instances, log, near
 from tests.oracles.balance import balances
 from tests.oracles.random_steps import mixed_step
-
-G = 9.81
-INSTANCES = 40
-INFEASIBLE = {11, 12}
-"""Seeds of mixed steps, of those below INSTANCES."""
-
-
-@pytest.fixture
-def both():
-    """Cases that a test has to see, True and False of each."""
-    seen = set()
-    yield lambda *cases: seen.update(enumerate(map(bool, cases)))
-    names = {name for name, _ in seen}
-    assert seen == {(name, case) for name in names for case in (True, False)}
-
-
-def log(rng, low, high):
-    return 10 ** rng.uniform(np.log10(low), np.log10(high))
-
-
-def near(found, expected, scale):
-    """Equal up to rounding, relative to a length or force of the instance."""
-    np.testing.assert_allclose(found, expected, rtol=0, atol=CLOSED_FORM * scale)
-
-
-def instances(rng, count=INSTANCES):
-    """Mass [kg], time step [s], mu_v and mu_omega [m]."""
-    for _ in range(count):
-        yield log(rng, 0.01, 100), log(rng, 1e-3, 0.1), rng.uniform(0.05, 1.5), log(rng, 1e-3, 0.1)
 
 
 def test_r1_r2_impedance(rng, both):
@@ -314,129 +281,6 @@ def test_r17_wedging(rng, both):
             s = h**2 * F / (m * (1 + sideways**2) + 4 * inertia * mu**2 / depth**2)
             expected = s * np.array([-sideways, 0, -1, 0, 2 * mu / depth, 0])
             near(moved, expected, np.abs(expected).max())
-
-
-def random_contact(rng):
-    """A frame d1, d2, n, its middle point and gap, and the centres of both bodies."""
-    frame = np.linalg.qr(rng.normal(size=(3, 3)))[0].T
-    frame[2] = np.cross(*frame[:2])
-    point, *centres = rng.normal(size=(3, 3))
-    return frame, point, rng.normal() * 0.1, centres
-
-
-def jacobian(alpha, beta, n, centres):
-    """J of two bodies by the twists at their centres, alpha's body first."""
-    first, second = centres
-    return np.hstack([-point_jacobian(alpha - first, n), point_jacobian(beta - second, n)])
-
-
-def test_r18_the_couple_of_a_gap(rng):
-    """What a contact exerts on both bodies has no sum, and the moment phi n x f about any point."""
-    for _ in range(INSTANCES):
-        frame, alpha, phi, centres = random_contact(rng)
-        n = frame[2]
-        J = jacobian(alpha, alpha + phi * n, n, centres)
-        wrench = rng.normal(size=4)  # f along the world's axes, and a torque about n
-        forces, torques = (J.T @ wrench).reshape(2, 2, 3).swapaxes(0, 1)
-        about = rng.normal(size=3)
-        moment = (torques + np.cross(np.array(centres) - about, forces)).sum(axis=0)
-        near(forces.sum(axis=0), np.zeros(3), 10.0)
-        near(moment, phi * np.cross(n, wrench[:3]), 100.0)
-
-
-def test_r20_one_contact_point_instead_of_two(rng):
-    """Rows differ by +- mu (phi / 2) (n x t_k).(omega_1 + omega_2) along tangents, and not else."""
-    for _, _, mu_v, mu_omega in instances(rng):
-        frame, p, phi, centres = random_contact(rng)
-        d1, d2, n = frame
-        half = phi / 2 * n
-        ours, theirs = (
-            friction_rows(contacts_of(phi, frame, J[None], mu_v, mu_omega, rows=6))
-            for J in (jacobian(p - half, p + half, n, centres), jacobian(p, p, n, centres))
-        )
-        twists = rng.normal(size=12)
-        turns = twists[3:6] + twists[9:]
-        along, across = (mu_v * phi / 2 * np.cross(n, t) @ turns for t in (d1, d2))
-        near((ours - theirs)[0] @ twists, [along, across, -along, -across, 0, 0], 100.0)
-
-
-def common(A, B, n):
-    """How far points that two convex hulls have in common are along n; None without one."""
-    weights = np.block([
-        [A.T, -B.T], [np.ones(len(A)), np.zeros(len(B))], [np.zeros(len(A)), np.ones(len(B))],
-    ])  # fmt: skip
-    height = np.append(A @ n, np.zeros(len(B)))
-    found = [linprog(s * height, A_eq=weights, b_eq=[0, 0, 0, 1, 1]) for s in (1, -1)]
-    return None if found[0].status == 2 else [found[0].fun, -found[1].fun]
-
-
-def nearest_in_hull(A, p):
-    """The point of a convex hull nearest to p."""
-    start = np.full(len(A), 1 / len(A))
-    whole = {"type": "eq", "fun": lambda w: w.sum() - 1, "jac": np.ones_like}
-    found = minimize(lambda w: ((w @ A - p) ** 2).sum(), start, jac=lambda w: 2 * A @ (w @ A - p),
-                     bounds=[(0, 1)] * len(A), constraints=whole, tol=1e-14)  # fmt: skip
-    return found.x @ A
-
-
-def test_r37_contacts_of_convex_bodies_share_a_normal(rng, both):
-    """Across n nothing meets, though a row along another normal would stop it.
-
-    Hulls of points on both sides of a plane across n; where they touch, what they share is on it.
-    """
-    for k in range(INSTANCES):
-        n = np.linalg.qr(rng.normal(size=(3, 3)))[0][0]
-        phi = rng.choice([0.0, rng.random()])
-        A = rng.normal(size=(6, 3))
-        A -= A[np.argmax(A @ n)]  # 0 is the highest point
-        B = rng.normal(size=(6, 3))
-        B += phi * n - B[np.argmin(B @ n)]
-        if k % 2:  # more points in the plane
-            A[1:4] -= np.outer(A[1:4] @ n, n)
-            B[1:4] -= np.outer(B[1:4] @ n - phi, n)
-        p = B[rng.integers(6)]
-        away = p - nearest_in_hull(A, p)
-        gap = np.linalg.norm(away)
-        m = away / gap if gap > 1e-3 else n
-        aside = m - (m @ n) * n
-        both(np.linalg.norm(aside) > 1e-3, phi)
-        v = rng.normal(size=3)
-        v -= (v @ n) * n
-        if np.linalg.norm(aside) > 1e-3:
-            v = -1.01 * gap * aside / (aside @ aside)
-            assert gap + m @ v < 0
-        met = common(A, B + v, n)
-        if phi:
-            assert met is None
-        elif met is not None:
-            np.testing.assert_allclose(met, 0.0, atol=1e-7)
-        # No point is deeper than the pair is along its normal.
-        assert m @ p - (A @ m).max() >= (B @ m).min() - (A @ m).max()
-
-
-def test_bodies_that_are_apart_may_come_to_touch_along_another_normal():
-    """A box that moves from diagonally above an edge of another onto its top, without a turn."""
-    large, small = (placed(Box(np.full(3, half)), link) for half, link in ((0.1, 1), (0.01, 2)))
-    for xyz, n in (([0.12, 0, 0.12], [np.sqrt(0.5), 0, np.sqrt(0.5)]), ([0, 0, 0.11], [0, 0, 1])):
-        where = standing((np.eye(3), np.zeros(3)), (np.eye(3), np.array(xyz)))
-        near(found_for(large, small, where).n, [n], 1.0)
-
-
-def test_r19_the_gap_of_a_loaded_contact(rng, both):
-    """Phi + n'nu = max(mu_v |nu_1|, mu_v |nu_2|, mu_omega |omega_n|): zero where it sticks."""
-    for seed in range(INSTANCES):
-        if seed in INFEASIBLE:
-            continue
-        step = mixed_step(seed)
-        answer = exact(step)
-        c = step.contacts
-        for j in np.flatnonzero(answer.wrench[:, 2] > 0):
-            nu = c.J[j] @ answer.delta_q
-            spin = c.mu_omega[j] * nu[3] * (c.rows[j] == 6)
-            slips = np.abs([c.mu_v[j] * c.d1[j] @ nu[:3], c.mu_v[j] * c.d2[j] @ nu[:3], spin])
-            size = np.abs(c.J[j]) @ np.abs(answer.delta_q)
-            near(c.phi[j] + c.n[j] @ nu[:3], slips.max(), size.sum() + abs(c.phi[j]))
-            both(slips.max() > 1e-9)
 
 
 def test_r39_given_equal_loads(rng, both):
