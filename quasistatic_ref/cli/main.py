@@ -27,7 +27,7 @@ COMMANDS = {
     "extract": "write one step of a trajectory as a step file",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
-    "study": "compare solvers on problems with exact answers, or sweep a scenario's parameters",
+    "study": "compare solvers on problems with exact answers",
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",

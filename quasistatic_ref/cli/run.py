@@ -39,7 +39,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         dest="sweeps",
         metavar="FIELD=FIRST:LAST:COUNT",
-        help="run it with each of these values, or FIELD=VALUE,VALUE,...; several make a grid",
+        help="run it with each of these values, or FIELD=VALUE,VALUE,...; several make a grid, and "
+        "FIELD,FIELD=... sets both to the same",
     )
     parser.add_argument(
         "--jobs", type=int, metavar="N", help="with --sweep: runs at once (default: all cores)"

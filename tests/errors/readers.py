@@ -18,8 +18,7 @@ from quasistatic_ref.formats.files import json_text, toml_read
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.file.study_file import solver_study, study_kind
-from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.file.study_file import solver_study
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, TestSet, study_problems
 from quasistatic_ref.lab.study.report.report import study_report
@@ -262,14 +261,9 @@ def stores(folder: Path) -> dict[str, Reader]:
 
 def studies(_: Path) -> dict[str, Reader]:
     def study(path: Path) -> None:
-        tables = toml_read(path)
-        (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
+        solver_study(path, toml_read(path))
 
-    kinds = {"solvers": texts.SOLVERS, "sweep": texts.SWEEP}
-    return {
-        f"study TOML, {kind}": Reader(f"{kind}.toml", (text.encode(),), spoilt_toml, study)
-        for kind, text in kinds.items()
-    }
+    return {"study TOML": Reader("study.toml", (texts.SOLVERS.encode(),), spoilt_toml, study)}
 
 
 FAMILIES = (models, clouds, scenes, steps, answers, stores, studies)

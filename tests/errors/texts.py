@@ -85,21 +85,6 @@ units = ["natural", "raw"]
 warm = [false, true]
 every = 3
 """
-SWEEP = """format = "quasistatic-ref/study"
-version = 1
-kind = "sweep"
-[[sweeps]]
-name = "mu"
-scenario = "sphere_spin"
-link = "sphere"
-duration = 0.5
-since = 0.1
-[sweeps.axes.mu_omega]
-fields = ["contacts.floor.mu_omega"]
-values = [0.0, 0.01]
-[sweeps.axes.h]
-values = [0.02, 0.01]
-"""
 TRIANGLES = (0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)
 CORNERS = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 PCD = """VERSION .7

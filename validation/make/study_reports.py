@@ -3,6 +3,9 @@
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
 that the numbers of the committed report are those of the committed rows. ``--report`` runs nothing,
 and reports the rows that are there.
+
+``bunny_torsion`` compares no solvers. It is the grasp with other values, run as by ``run --sweep``,
+but for 3 s whatever h is, and measured from when the grip is closed.
 """
 
 import sys
@@ -10,10 +13,27 @@ import tempfile
 import time
 
 from quasistatic_ref.cli.main import main as command
+from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
 from validation.tools.scripts import ROOT, asked
 
 FOLDER = ROOT / "validation" / "studies"
-NAMES = ("default", "sequences", "bunny_torsion")
+GRIP = "bunny_torsion"
+NAMES = ("default", "sequences", GRIP)
+K = ("contacts.grip.k", "contacts.floor.k")
+AXES = {
+    "mu_omega and h": (
+        Axis(
+            "mu_omega", ("contacts.grip.mu_omega",), (0.0, 0.001, 0.002, 0.003, 0.005, 0.01, 0.02)
+        ),
+        Axis("h", ("h",), (0.04, 0.02, 0.01)),
+    ),
+    "stiffness of the grip": (
+        Axis("K_width", ("bodies.gripper.K_q.width",), (250, 500, 1000, 2000)),
+    ),
+    "closest points": (Axis("k", K, (1, 2, 5, 10)),),
+    "cone": (Axis("cone", ("cone",), ("pyramid", "facets-8", "product")),),
+}
+SWEEPS = [Sweep(name, "bunny_grasp", "bunny", 3.0, 0.7, axes) for name, axes in AXES.items()]
 
 
 def made(name: str, run: bool) -> None:
@@ -21,8 +41,11 @@ def made(name: str, run: bool) -> None:
     out = str(FOLDER / name)
     with tempfile.TemporaryDirectory() as store:
         begun = time.perf_counter()
-        steps = [["run", name, "--out", store], ["pack", store, "--out", out]] if run else []
-        for step in (*steps, ["report", out, "--out", out]):
+        if run and name == GRIP:
+            run_sweep(SWEEPS, store)
+        steps = [] if name == GRIP else [["run", name, "--out", store]]
+        steps.append(["pack", store, "--out", out])
+        for step in (*(steps if run else []), ["report", out, "--out", out]):
             if command(["study", *step]):
                 sys.exit(f"study {step[0]} of {name} failed")
             print(f"{name}: {step[0]} ended after {time.perf_counter() - begun:.0f} s")

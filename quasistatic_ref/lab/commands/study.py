@@ -1,15 +1,13 @@
-"""``study``: compare solvers, sweep the parameters of scenarios, report what was found."""
+"""``study``: compare solvers, report what was found."""
 
 import argparse
 import sys
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.commands import study_ask, study_problems
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
@@ -44,7 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     run_.add_argument(
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
-    shared.add(run_, "--root", "--json")
+    shared.add(run_, "--json")
     words = "results of a machine, and its name; else the folder's"
     merge = parsers["merge"]
     merge.add_argument("parts", nargs="+", metavar="[NAME=]FOLDER", help=words)
@@ -78,37 +76,28 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace) -> int:
     shared.check_at_least_one(options, "jobs")
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
-    from quasistatic_ref.lab.study.file.study_file import study_kind, study_path
+    from quasistatic_ref.lab.study.file.study_file import study_path
 
-    path = study_path(options.study)
-    tables = toml_read(path)
     try:
-        kind = study_kind(tables)
-    except InputError as error:
-        raise error.in_file(path) from None
-    try:
-        return _measured(path, tables, kind, options)
+        return _measured(study_path(options.study), options)
     except KeyboardInterrupt:
         kept = f"what was measured is in {options.out}; the same command goes on from there"
         print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
         return 130
 
 
-def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.Namespace) -> int:
-    where = {"jobs": options.jobs, "scheduler": options.scheduler, "progress": not options.quiet}
-    if kind == "sweep":
-        from quasistatic_ref.lab.study.file.sweeps import sweep_study
-        from quasistatic_ref.lab.study.measuring.sweep import run_sweep
-
-        settings = shared.scenario_settings(options)
-        rows = run_sweep(sweep_study(path, tables, options.quick, settings), options.out, **where)
-        return _swept(rows, options)
-    if options.roots:
-        raise InputError("is of sweeps, and this study compares solvers", field="--root")
+def _measured(path: Path, options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.file.study_file import solver_study
     from quasistatic_ref.lab.study.measuring.run import run_study
 
-    rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
+    study = solver_study(path, toml_read(path), options.quick)
+    rows = run_study(
+        study,
+        options.out,
+        jobs=options.jobs,
+        scheduler=options.scheduler,
+        progress=not options.quiet,
+    )
     if options.json:
         counts = Counter(row["outcome"] for row in rows)
         shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
@@ -138,23 +127,3 @@ def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
         cells = (str(counts[c]) for c in columns)
         table.append((label, str(len(own)), *cells, *map(str, wrong)))
     return table
-
-
-def _swept(rows: list[Row], options: argparse.Namespace) -> int:
-    failed = sum(row["outcome"] != "done" for row in rows)
-    if options.json:
-        summary = {"rows": len(rows), "fast": True, "failed": failed, "store": str(options.out)}
-        shared.print_json(summary)
-        return 0
-    measures = sorted({name for row in rows for name in row["measures"]})
-    table: list[tuple[str, ...]] = [("sweep", "values", "outcome", *measures)]
-    for row in rows:
-        values = ", ".join(f"{k}={v}" for k, v in row["values"].items())
-        found = (row["measures"].get(name) for name in measures)
-        cells = ("-" if v is None else f"{v:.6g}" for v in found)
-        table.append((row["sweep"], values, row["outcome"], *cells))
-    shared.print_rows(table)
-    print(
-        f"{len(rows)} runs (fast path), {failed} of which ended early; wrote {options.out / STORE}"
-    )
-    return 0

@@ -46,7 +46,11 @@ def run(options: argparse.Namespace) -> int:
     )
     failed = sum(row["outcome"] != DONE for row in rows)
     # Of a field that is swept, the scene may need a value of the sweep.
-    first = [f"{name}={json_text(values[0])}" for name, values in variations.items()]
+    first = [
+        f"{field}={json_text(values[0])}"
+        for name, values in variations.items()
+        for field in name.split(",")
+    ]
     fast = load_scenario(options.scenario, [*settings, *first]).fast
     if options.json:
         summary = {"runs": len(rows), "fast": fast, "failed": failed, "store": str(options.out)}

@@ -62,6 +62,19 @@ def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, 
         np.testing.assert_array_equal(found["q"], alone.run(progress=False)["q"])
 
 
+def test_fields_that_are_named_together_have_the_same_values(tmp_path, capsys):
+    both = "contacts.rough.mu_v,contacts.smooth.mu_v"
+    argv = ["run", *SLOPE[:3], "--sweep", f"{both}=0.1,0.3", "--jobs", "1", "--quiet"]
+    assert main([*argv, "--out", str(tmp_path)]) == 0
+    for line in table(tmp_path):
+        settings = dict.fromkeys(both.split(","), float(line[both])) | {"steps": 2}
+        alone = load_scenario("block_incline", settings, fast=True).run(progress=False)
+        np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
+    assert main(["study", "report", str(tmp_path)]) == 0
+    assert f"| {both} [the scenario's unit] |" in (tmp_path / "report" / "report.md").read_text()
+    capsys.readouterr()
+
+
 @pytest.mark.parametrize(
     ("text", "values"),
     [

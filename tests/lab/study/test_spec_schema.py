@@ -11,12 +11,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.file.fields import TABLES, study_schema
-from quasistatic_ref.lab.study.file.study_file import (
-    solver_study,
-    study_kind,
-    study_names,
-)
-from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_names
 
 
 def test_every_field_of_a_study_is_on_the_page_that_is_made_of_the_table():
@@ -29,7 +24,6 @@ def test_every_field_of_a_study_is_on_the_page_that_is_made_of_the_table():
 
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'
-SWEEP = HEAD + 'kind = "sweep"\n[[sweeps]]\nscenario = "stack"\nlink = "upper"\naxes.h.values = '
 MISTAKES = {
     "another format": (
         'format = "quasistatic-ref/scenario"\nversion = 1',
@@ -72,14 +66,6 @@ MISTAKES = {
     "no repetition": (HEAD + "repetitions = 0", "repetitions: must be at least 1"),
     "less than nothing again": (HEAD + "[[runs]]\nagain = -1", "runs[0].again: must be at least 0"),
     "every half": (HEAD + "[[runs]]\nevery = 0.5", ""),
-    "no sweeps": (HEAD + 'kind = "sweep"\nsweeps = []', "sweeps: must not be empty"),
-    "runs in a sweep": (HEAD + 'kind = "sweep"\n[[runs]]\n', ""),
-    "no values": (SWEEP + "[]", "sweeps[0].axes.h.values"),
-    "true for a value": (SWEEP + "[[0.01]]", ""),
-    "no fields": (SWEEP + "[0.01]\naxes.h.fields = []", ""),
-    "no duration": (SWEEP + "[0.01]\nduration = 0.0", ""),
-    "a time before the start": (SWEEP + "[0.01]\nsince = -1.0", ""),
-    "a misspelt name": (SWEEP + "[0.01]\nsicne = 1.0", "sweeps[0].sicne: is unknown; did you"),
 }
 
 
@@ -89,11 +75,6 @@ def validator():
     return Draft4Validator(study_schema())
 
 
-def loaded(path):
-    tables = toml_read(path)
-    (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
-
-
 @pytest.mark.parametrize(("text", "says"), MISTAKES.values(), ids=MISTAKES)
 def test_a_mistake_is_one_sentence_of_the_loader_and_refused_by_the_schema(
     text, says, validator, tmp_path
@@ -101,7 +82,7 @@ def test_a_mistake_is_one_sentence_of_the_loader_and_refused_by_the_schema(
     path = tmp_path / "study.toml"
     path.write_text(text)
     with pytest.raises(InputError) as refused:
-        loaded(path)
+        solver_study(path, toml_read(path))
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not validator.is_valid(tomllib.loads(text))
@@ -126,13 +107,11 @@ again = 3
 """
 
 
-@pytest.mark.parametrize(
-    "text", [HEAD, FULL, SWEEP + '[0.01]\nname = "a"\nduration = 1\nsince = 0']
-)
+@pytest.mark.parametrize("text", [HEAD, FULL])
 def test_what_the_loader_takes_the_schema_takes(text, validator, tmp_path):
     path = tmp_path / "study.toml"
     path.write_text(text)
-    loaded(path)
+    solver_study(path, toml_read(path))
     assert [error.message for error in validator.iter_errors(tomllib.loads(text))] == []
 
 

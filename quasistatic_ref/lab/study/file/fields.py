@@ -3,8 +3,6 @@
 What goes beyond one field, such as that a solver is installed, the loader checks by hand.
 """
 
-from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.formats.declared import Field, Tables
@@ -23,25 +21,12 @@ LONGEST_LIMIT = 1e6
 """Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
 MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
 STUDY = "a study"
-SOLVERS = "a study of solvers"
-SWEEPS = "a study of sweeps"
 PROBLEMS = "[problems]"
 COUNTS = "[problems.families]"
 COUNT = "[problems.families.NAME]"
 SETTING = "[settings.NAME]"
 SOLVER = "[solvers.NAME]"
 RUN = "[[runs]]"
-SWEEP = "[[sweeps]]"
-AXIS = "[sweeps.axes.NAME]"
-TEXT = {"type": "string"}
-
-
-def _head(kind: str, **default: Any) -> dict[str, Field]:
-    return {
-        "format": Field("text", "what the file is", choices=(FORMAT,)),
-        "version": Field("integer", "of the format", choices=(VERSION,)),
-        "kind": Field("text", "what is studied", choices=(kind,), **default),
-    }
 
 
 def _family(says: str) -> Field:
@@ -67,8 +52,10 @@ class WholeTables(Tables):
 
 
 TABLES = WholeTables({
-    SOLVERS: {
-        **_head("solvers", default="solvers"),
+    STUDY: {
+        "format": Field("text", "what the file is", choices=(FORMAT,)),
+        "version": Field("integer", "of the format", choices=(VERSION,)),
+        "kind": Field("text", "what is studied", choices=("solvers",), default="solvers"),
         "time_limit": Field("number", "of one problem; a solver that takes longer is killed", "s",
                             2.0, above=0.0, most=LONGEST_LIMIT),
         "budget": Field("number", "of one solver, all its calls together", "s", 600.0, above=0.0,
@@ -147,56 +134,11 @@ TABLES = WholeTables({
                        f"keeps of the step before: {', '.join(MODES)}; else each problem is solved "
                        "alone", default=[], schema={"items": {"enum": list(MODES)}}),
     },
-    SWEEPS: {
-        **_head("sweep"),
-        "sweeps": Field("list of tables", "which scenarios, with which values", least=1, of=SWEEP),
-    },
-    SWEEP: {
-        "name": Field("text", "of the sweep; else the scenario's", default=None),
-        "scenario": Field("text", "a name, or a file in the study's folder"),
-        "link": Field("text", "whose motion is measured"),
-        "duration": Field("number", "of each run, whatever h is; else the scenario's steps", "s",
-                          None, above=0.0, most=LARGE),
-        "since": Field("number", "from when on rotation and travel count", "s", 0.0, least=0.0,
-                       most=LARGE),
-        "axes": Field("tables by name", "parameters; each combination of their values is a run",
-                      of=AXIS, schema={"minProperties": 1}),
-    },
-    AXIS: {
-        "fields": Field("list of words", "dotted fields of the scenario that are set to each value;"
-                        " else the axis's name", default=None, least=1),
-        "values": Field("list of numbers and words", "one after the other", least=1,
-                        schema={"type": "array", "items": {"anyOf": [
-                            TEXT, {"type": "number", "minimum": -LARGE, "maximum": LARGE}]}}),
-    },
 })  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""
 
 
 def study_schema() -> dict[str, Any]:
-    """The JSON Schema of a study file, of either kind.
-
-    One table has the fields of both kinds: an editor then marks the field that is wrong, and not
-    the whole file.
-    """
-    inner = {kind: fields for kind, fields in TABLES.items() if kind not in (SOLVERS, SWEEPS)}
-    solvers = TABLES[SOLVERS]
-    sweeps = TABLES[SWEEPS]
-    kind = replace(solvers["kind"], choices=(*_kinds(SOLVERS), *_kinds(SWEEPS)))
-    both = {**solvers, "sweeps": replace(sweeps["sweeps"], default=None), "kind": kind}
-    rules = {
-        STUDY: {"oneOf": [_only(SOLVERS, sweeps), {"required": ["kind", "sweeps"],
-                                                   **_only(SWEEPS, solvers)}]},
-        SOLVER: {"oneOf": [{"required": [interface]} for interface in INTERFACES]},
-    }  # fmt: skip
-    return json_schema("A study", Tables({STUDY: both, **inner}), rules, STUDY)
-
-
-def _kinds(top: str) -> tuple[str, ...]:
-    return TABLES[top]["kind"].choices or ()
-
-
-def _only(top: str, other: Mapping[str, Field]) -> dict[str, Any]:
-    """The rule of a file of one kind, which has no field that only the other kind has."""
-    strangers = [{"required": [name]} for name in other if name not in TABLES[top]]
-    return {"properties": {"kind": {"enum": list(_kinds(top))}}, "not": {"anyOf": strangers}}
+    """The JSON Schema of a study file."""
+    rules = {SOLVER: {"oneOf": [{"required": [interface]} for interface in INTERFACES]}}
+    return json_schema("A study", TABLES, rules, STUDY)

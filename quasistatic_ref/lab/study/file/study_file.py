@@ -18,7 +18,7 @@ from quasistatic_ref.lab.study.file.fields import (
     PROBLEMS,
     RUN,
     SETTING,
-    SOLVERS,
+    STUDY,
     TABLES,
     VERSION,
 )
@@ -27,7 +27,6 @@ from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.names import UNITS
 
-KINDS = ("solvers", "sweep")
 GB = 1e9
 """[bytes]"""
 QUICK = 20
@@ -137,16 +136,8 @@ def study_path(name: str | Path) -> Path:
     return known[str(name)]
 
 
-def study_kind(tables: dict[str, Any]) -> str:
-    """``"solvers"`` or ``"sweep"``."""
-    top = TableReader(tables)
-    if {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
-        top.check_format(FORMAT, VERSION)
-    return top.text("kind", "solvers", KINDS)
-
-
 def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Study:
-    """A study of solvers from its tables.
+    """A study from its tables.
 
     Parameters
     ----------
@@ -161,7 +152,9 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         Naming the file, the field and the value.
     """
     try:
-        top = TABLES.all_values(TableReader(tables), SOLVERS)
+        if {"format", "version"} <= tables.keys():  # another format's names are no mistakes
+            TableReader(tables).check_format(FORMAT, VERSION)
+        top = TABLES.all_values(TableReader(tables), STUDY)
         problems = _problems(top["problems"], path.parent, quick)
         settings = _settings(top["settings"])
         own = own_solvers(top["solvers"], settings)

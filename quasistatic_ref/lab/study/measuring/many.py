@@ -12,8 +12,15 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.study.file.sweeps import MOST_RUNS, Axis, Sweep, is_value, sweep_scenario
-from quasistatic_ref.lab.study.measuring.sweep import run_file, run_sweep
+from quasistatic_ref.lab.study.measuring.sweep import (
+    MOST_RUNS,
+    Axis,
+    Sweep,
+    is_value,
+    run_file,
+    run_sweep,
+    sweep_scenario,
+)
 from quasistatic_ref.lab.study.store.rows import Row
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import parsed
@@ -39,7 +46,8 @@ def simulate_many(
     scenario : str or Path
         A name, or a file.
     variations : mapping of str to iterable of float or str
-        Dotted field of the scenario -> its values [the field's unit].
+        Dotted field of the scenario -> its values [the field's unit]; of several fields with the
+        same values, their names with commas between.
     folder : str or Path
         For ``runs.csv``, one line a run; ``runs/*.npz``, one light trajectory a run; and
         ``study.sqlite``, from which the same call goes on after an interruption.
@@ -117,7 +125,7 @@ def _axis(name: str, values: Iterable[float | str]) -> Axis:
     own = [str(v) if isinstance(v, str) else v for v in own]  # no word of a file of ours
     if not own or not all(map(is_value, own)):
         raise InputError("must be a list of finite numbers or words", field=name, value=own)
-    return Axis(name, (name,), tuple(dict.fromkeys(own)))
+    return Axis(name, tuple(name.split(",")), tuple(dict.fromkeys(own)))
 
 
 def _followed(system: System) -> str:

@@ -4,33 +4,120 @@ Every combination of the values is one run, each step exact; a row is what the r
 """
 
 import hashlib
+import itertools
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.formats.files import json_text, writable_folder
 from quasistatic_ref.lab.parallel import results, workers
-from quasistatic_ref.lab.study.file.sweeps import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
 from quasistatic_ref.lab.study.store.store import Store
-from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.tolerances import LARGE
 
 RUNS = "runs"
 """Folder of trajectories in that of a store."""
 DONE = "done"
 ENDED_EARLY = "ended_early"
+MOST_RUNS = 100_000
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One parameter and its values.
+
+    Parameters
+    ----------
+    name : str
+        In the table.
+    fields : tuple of str
+        Dotted fields of the scenario that are set to each value, all of them.
+    values : tuple
+    """
+
+    name: str
+    fields: tuple[str, ...]
+    values: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A scenario, and the values that it is run with.
+
+    Parameters
+    ----------
+    name : str
+        Of the sweep; no other has it.
+    scenario : str
+        A name, or a file.
+    link : str
+        Whose motion is measured.
+    duration : float or None
+        Of each run [s]; None: the scenario's steps, whatever h is.
+    since : float
+        From when on rotation and rise are measured [s].
+    axes : tuple of Axis
+    fixed : tuple of str
+        Changes of the scenario that all runs have, ``dotted.key=value``.
+    """
+
+    name: str
+    scenario: str
+    link: str
+    duration: float | None
+    since: float
+    axes: tuple[Axis, ...]
+    fixed: tuple[str, ...] = ()
+
+    def points(self) -> list[dict[str, Any]]:
+        """Every combination of values, by the names of the axes."""
+        names = [axis.name for axis in self.axes]
+        return [
+            dict(zip(names, values, strict=True))
+            for values in itertools.product(*(axis.values for axis in self.axes))
+        ]
+
+    def settings(self, point: Mapping[str, Any]) -> list[str]:
+        """One combination as changes of the scenario.
+
+        Raises
+        ------
+        InputError
+            If the duration makes too many steps.
+        """
+        changes = list(self.fixed)
+        for axis in self.axes:
+            changes += [f"{field}={json_text(point[axis.name])}" for field in axis.fields]
+        if self.duration is not None:
+            h = load_scenario(self.scenario, changes).h
+            if not self.duration / h <= LARGE:
+                problem = f"makes more than {LARGE:g} steps of {h:g} s"
+                raise InputError(problem, field="duration", value=self.duration)
+            changes.append(f"steps={round(self.duration / h)}")
+        return [*changes, 'record="light"', "fast=true"]
+
+
+def sweep_scenario(sweep: Sweep, point: Mapping[str, Any]) -> Scenario:
+    """The scenario at one point of a sweep."""
+    return load_scenario(sweep.scenario, sweep.settings(point))
+
+
+def is_value(value: object) -> bool:
+    """Whether an axis may have it: a word, or a finite number."""
+    return isinstance(value, str) or (isinstance(value, int | float) and abs(value) < LARGE)
 
 
 def run_sweep(
