@@ -54,6 +54,9 @@ STUDY = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
     "quasistatic-ref study pack study",
+    "quasistatic-ref study merge study --out merged",
+    "quasistatic-ref study ask capped_wedge/0.1/0 qpsolvers:daqp",
+    "quasistatic-ref study problems list",
     "quasistatic-ref study problems export study/problems --to parquet --out qpbenchmark",
     "quasistatic-ref study problems check",
     "quasistatic-ref study problems export --to npz --families limits --every 20 --out problems",
@@ -113,7 +116,10 @@ COMMANDS = {
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
-ACTIONS = {"ask", "challenge", "check", "export", "own", "pack", "problems", "report", "run"}
+ACTIONS = {
+    "ask", "challenge", "check", "export", "list", "merge", "own", "pack", "problems", "report",
+    "run",
+}  # fmt: skip
 """Words that name a command below ``study`` or ``vectors``."""
 MARKED = ("fast", "jax", "node", "robots", "all")
 """Extras that tests need, by the marker ``extra``."""
