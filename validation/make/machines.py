@@ -4,7 +4,7 @@
 
 Each row is one run of all tests with what README's line installs. Rows that are not named stay as
 they are in FILE. An environment is made in a temporary folder for each Python and each choice of
-versions; pip and the network are needed. A row takes four to eleven minutes on two cores. Exit
+versions; pip and the network are needed. A row takes two to twenty minutes on two cores. Exit
 status 1 if a test fails.
 """
 
@@ -27,12 +27,14 @@ from validation.tools.scripts import ROOT, asked, environment, shown
 HEAD = """# README's tests, as other machines run them
 
 Written by `python -m validation.make.machines --out validation/results/machines.md`. Each row is
-one run of all tests with what README's line installs. It varies several things at once: where no
-test fails, none of them matters. *Kernel*: that of OpenBLAS (`OPENBLAS_CORETYPE`). *No vector
-code*: NumPy without its own (`NPY_DISABLE_CPU_FEATURES`). *Shuffled*: files, and tests within each,
-in a random order (the plugin pytest-random-order). *Lowest*: of each package that `pyproject.toml`
-names the lowest version, of others the newest. *No compiler*: `QUASISTATIC_REF_CC=none`. Python is
-3.11 where none is named. Skipped are the tests that need an extra, or a compiler.
+one run of all tests, or of the core's, with what README's line installs. It varies several things
+at once: where no test fails, none of them matters. *Core*: the tests in `analytic`, `certify`,
+`contact`, `equations`, `model`, `shapes`, `simulate`, `solve` and `step` of `tests/`, a sample.
+*Kernel*: that of OpenBLAS (`OPENBLAS_CORETYPE`). *No vector code*: NumPy without its own
+(`NPY_DISABLE_CPU_FEATURES`). *Shuffled*: files, and tests within each, in a random order (the
+plugin pytest-random-order). *Lowest*: of each package that `pyproject.toml` names the lowest
+version, of others the newest. *No compiler*: `QUASISTATIC_REF_CC=none`. Python is 3.11 where none
+is named. Skipped are the tests that need an extra, or a compiler.
 
 | run | Python | NumPy | passed | failed | skipped | minutes |
 |---|---|---|---|---|---|---|
@@ -51,7 +53,7 @@ class Machine(NamedTuple):
     settings : mapping
         Variables of the environment.
     options : tuple of str
-        Of pytest.
+        Of pytest, among them what is tested where it is not all.
     """
 
     python: str = sys.executable
@@ -65,6 +67,12 @@ def kernel(name: str) -> dict[str, str]:
     return {"OPENBLAS_CORETYPE": name}
 
 
+CORE = tuple(
+    f"tests/{name}"
+    for name in ("analytic", "certify", "contact", "equations", "model", "shapes", "simulate",
+                 "solve", "step")
+)  # fmt: skip
+"""A sample: what depends on floating-point numbers most."""
 VECTORS = " ".join(np.show_config(mode="dicts")["SIMD Extensions"]["found"])
 PLAIN = kernel("Prescott") | {"NPY_DISABLE_CPU_FEATURES": VECTORS}
 
@@ -76,15 +84,19 @@ def shuffled(seed: int) -> tuple[str, ...]:
 
 
 MACHINES = {
-    "kernel Haswell, shuffled with seed 1": Machine(
-        settings=kernel("Haswell"), options=shuffled(1)
-    ),
-    "Python 3.12, kernel SkylakeX, shuffled with seed 2": Machine(
-        "python3.12", settings=kernel("SkylakeX"), options=shuffled(2)
-    ),
-    "Python 3.13, kernel Prescott, no vector code": Machine("python3.13", settings=PLAIN),
     "lowest versions, kernel Zen": Machine(lowest=True, settings=kernel("Zen")),
-    "Python 3.14, no compiler": Machine("python3.14", settings={"QUASISTATIC_REF_CC": "none"}),
+    "core, kernel Haswell, shuffled with seed 1": Machine(
+        settings=kernel("Haswell"), options=(*shuffled(1), *CORE)
+    ),
+    "core, Python 3.12, kernel SkylakeX, shuffled with seed 2": Machine(
+        "python3.12", settings=kernel("SkylakeX"), options=(*shuffled(2), *CORE)
+    ),
+    "core, Python 3.13, kernel Prescott, no vector code": Machine(
+        "python3.13", settings=PLAIN, options=CORE
+    ),
+    "core, Python 3.14, no compiler": Machine(
+        "python3.14", settings={"QUASISTATIC_REF_CC": "none"}, options=CORE
+    ),
 }
 
 
