@@ -32,6 +32,7 @@ OPTIONAL = (
     "optional/readers",
     "optional/runs",
     "optional/show",
+    "optional/targets",
 )
 
 # The command line and the lab import anything before them, in this order.
@@ -80,7 +81,7 @@ WALLS = {
         "lab/study/calling",
     ),
     "qpsolvers": ("optional/qpsolvers",),
-    "pinocchio": ("model", "optional/derivatives/model", "optional/mjcf"),
+    "pinocchio": ("model", "optional/derivatives/model", "optional/mjcf", "optional/targets"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),

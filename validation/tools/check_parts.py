@@ -34,6 +34,7 @@ PARTS = {
     "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
+    "targets": ([], ""),
 }
 """The parts, and of each the options of ``run`` that need it, and the word in the refusal."""
 

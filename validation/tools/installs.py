@@ -36,6 +36,10 @@ ROBOTS = (
     "quasistatic-ref run allegro_turn --set steps=5 --json",
 )
 VIEW = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
+TARGETS = (
+    "python -c \"import quasistatic_ref as qr; qr.joint_targets(qr.load_scenario('arm_push'), "
+    "'arm/tip', [{'t': 1.0, 'xyz': (0, 0.05, 0), 'relative': True}])\"",
+)
 ENGINES = ("quasistatic-ref validate mujoco_rows",)
 FAST = (
     'python -c "import os, sys; '
@@ -91,6 +95,7 @@ COMMANDS = {
         "quasistatic-ref bench --quick",
     ),
     "robots": ROBOTS,
+    "targets": TARGETS,
     "view": VIEW,
     "fast": FAST,
     "engines": ENGINES,
@@ -112,7 +117,7 @@ COMMANDS = {
         "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
         "checkout:ruff check .",
     ),
-    "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS, *JAX),
+    "all": (*ROBOTS, *TARGETS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS, *JAX),
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 

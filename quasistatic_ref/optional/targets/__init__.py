@@ -1,0 +1,1 @@
+"""Targets in space, written as targets of joints, by inverse kinematics."""
