@@ -1,6 +1,7 @@
 """Waypoints of joints from poses of a link: kinematics puts the link back on its line."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -92,15 +93,16 @@ def test_a_pose_that_is_not_reached_is_named_with_what_is_left(link, pose, words
 
 def test_the_command_writes_what_the_scenario_of_the_package_holds(tmp_path, capsys):
     folder = scenario_path("arm_push").parent
-    for file in folder.iterdir():
-        (tmp_path / file.name).write_bytes(file.read_bytes())
-    line = re.search(r"^# quasistatic-ref (.*)$", (tmp_path / "poses.toml").read_text(), re.M)
-    words = [str(tmp_path / word) if word.endswith(".toml") else word for word in line[1].split()]
+    shutil.copytree(folder, tmp_path / "copy")
+    poses = (folder / "poses" / "line.toml").read_text()
+    line = re.search(r"^# quasistatic-ref (.*)$", poses, re.M)
+    copy = tmp_path / "copy"
+    words = [str(copy / word) if word.endswith(".toml") else word for word in line[1].split()]
     assert main(words) == 0
-    assert (tmp_path / "arm_push.toml").read_text() == (folder / "arm_push.toml").read_text()
+    assert (copy / "arm_push.toml").read_text() == (folder / "arm_push.toml").read_text()
     assert main(words[:-2]) == 0
     assert "[[bodies.arm.targets]]\nt = 0.0\nshoulder = -0.6\n" in capsys.readouterr().out
-    assert main([*words[:-1], str(tmp_path.parent / "elsewhere.toml")]) == 2
+    assert main([*words[:-1], str(tmp_path / "elsewhere.toml")]) == 2
     assert "must be in the scenario's folder" in capsys.readouterr().err
 
 
