@@ -52,7 +52,9 @@ PAPERS = 90
 """The paper's bound of its average step [us]."""
 WEIGHTS = ("1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12")
 """Of barriers [N m s]."""
-WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+WORDS = (
+    "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven",
+)  # fmt: skip
 
 
 # -- Files that phrases reach into ----------------------------------------------------------------
