@@ -94,7 +94,7 @@ WALLS = {
         "optional/derivatives/step",
         "optional/ellipsoid",
         "optional/extensions",
-        "optional/fast/guess",
+        "optional/fast/far.py",
         "optional/large",
         "lab/vectors",
     ),

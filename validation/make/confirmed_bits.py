@@ -16,7 +16,6 @@ from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import fields
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,15 +26,8 @@ from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.units import (
-    DenseStepInBothUnits,
-    Units,
-    float_inverse,
-    natural_step,
-)
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
 from quasistatic_ref.step.data import Indices, StepData
-from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
 from validation.tools.scripts import asked, shown
 
@@ -78,29 +70,32 @@ def wrong_sets(rng: np.random.Generator, working: list[int], m: int) -> Iterator
         yield rng.choice(m, size=min(m, 1 + len(working)), replace=False).tolist()
 
 
+def ascending(guess: list[int]) -> Indices:
+    """The rows of a guess, each once, shape (k,)."""
+    return np.array(sorted(set(guess)), dtype=np.int64)
+
+
 def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
     """Names of the fields in which two optima differ in any bit."""
     names = [f.name for f in fields(one)]
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
 
 
-def proof(step: StepData, rows: Indices) -> Proof:
-    """What C makes of a guess, where there is a compiler."""
+def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimum | None:
+    """What C proves on a guess, or also near it, where there is a compiler."""
     fast = compiled("certificate")
     if fast is None:
         return None
     both = DenseStepInBothUnits(step)
     prover = fast.undivided(both)
-    prover.optimum(both, *np.zeros((2, step.m)))
+    pressed = np.zeros(step.m)
+    pressed[rows if nearby else []] = 1.0
+    prover.optimum(both, pressed, np.zeros(step.m))
     (own,) = prover.proofs
-    return None if own is None else own.optimum(step, rows, both.units)
-
-
-def nearby_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
-    """What C proves on a guess or near it."""
-    rows = np.array(sorted(set(guess)), dtype=np.int64)
-    prove = partial(proof, step)
-    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))[0]
+    if own is None:
+        return None
+    found: ExactOptimum | None = own.nearby(both.units) if nearby else own.on(rows, both.units)
+    return found
 
 
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
@@ -114,10 +109,8 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
 
     def answer(guess: list[int]) -> ExactOptimum | None:
         """What C proves, compared with the exact method."""
-        one = proof(step, np.array(sorted(set(guess)), dtype=np.int64))
-        if not isinstance(one, ExactOptimum):
-            return None
-        if wrong := differing(one, form_optimum(form, guess)):
+        one = proof(step, ascending(guess))
+        if one is not None and (wrong := differing(one, form_optimum(form, guess))):
             faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
         return one
 
@@ -131,7 +124,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     for guess in wrong_sets(rng, right, form.m):
         found["wrong sets"] += 1
         found["refused" if answer(guess) is None else "also right"] += 1
-        if (near := nearby_answer(step, guess)) is not None:
+        if (near := proof(step, ascending(guess), nearby=True)) is not None:
             found["nearby"] += 1
             may = NEARBY if near.multipliers_unique else OTHERS
             if wrong := sorted(set(differing(near, truth)) - may):

@@ -61,7 +61,7 @@ def main() -> int:
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
-        outcomes = "".join(letter(one.found) for one in tried(Known(step, optimum, "")))
+        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "")))
         kind = seed % 4, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         if kinds[kind] == EACH or (optimum is not None and not set("or") & set(outcomes)):
             continue

@@ -10,8 +10,7 @@ from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_opti
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted, proved_nearby
-from quasistatic_ref.optional.fast.guess.far import BallHessian, Solved, far_slacks, with_far
+from quasistatic_ref.optional.fast.far import BallHessian, Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
@@ -20,7 +19,7 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
-from quasistatic_ref.optional.fast.rechecked import GROUP, REFUTED, WHOLE, check, is_due
+from quasistatic_ref.optional.fast.rechecked import GROUP, WHOLE, check, is_due
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import DenseStepInBothUnits, HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import read_only
@@ -81,7 +80,18 @@ class Kept:
         return self.hessian.norm
 
     def alone(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> Any:
-        """What C proves of a step that is one group, as of :meth:`proved`; None if it does not."""
+        """What C proves of a step that is one group; None where nothing does.
+
+        Parameters
+        ----------
+        both : DenseStepInBothUnits
+        lam, slack : ndarray, shape (m,)
+            Of an answer, both in natural units [-].
+
+        Returns
+        -------
+        GroupProof or None
+        """
         in_c = compiled("certificate")
         if in_c is None:
             return None
@@ -92,51 +102,6 @@ class Kept:
             self._alone = in_c.undivided(both)
         self._alone.optimum(both, lam, slack)
         return self._alone.proofs[0]
-
-    def proved(
-        self, both: DenseStepInBothUnits, lam: Array, slack: Array, in_c: Any
-    ) -> tuple[ExactOptimum | None, list[int]]:
-        """The optimum of a step, proved in C on the rows that an answer presses or near them.
-
-        Parameters
-        ----------
-        both : DenseStepInBothUnits
-        lam, slack : ndarray, shape (m,)
-            Of the answer, both in natural units [-].
-        in_c : GroupProof or None
-            What C has proved of the step already.
-
-        Returns
-        -------
-        ExactOptimum or None
-            None where C does not decide everything.
-        list of int
-            Where the exact method is then to start.
-        """
-        step = both.si_step
-        in_c = self.alone(both, lam, slack) if in_c is None else in_c
-        if in_c is None:
-            return None, warm_rows(both.natural_form.A, lam, slack)
-
-        def proof(guess: Indices) -> Proof:
-            found: Proof = in_c.optimum(step, guess, both.units)
-            kind = REFUTED if isinstance(found, Refuted) else GROUP
-            if found is not None and is_due(kind, step.n_v):
-                check(step, guess, found)
-            return found
-
-        guess = _guess(both, lam, slack)
-        found, last = proved_nearby(proof, guess, both.si_form, both.hessian.H_inverse)
-        if found is None and last is guess:
-            return None, warm_rows(both.natural_form.A, lam, slack)
-        return found, last.tolist()
-
-
-def _guess(both: DenseStepInBothUnits, lam: Array, slack: Array) -> Indices:
-    """The rows that an answer presses, ascending, made independent where it presses many."""
-    if np.count_nonzero(lam) > both.si_step.n_v:  # rows that depend on each other
-        return np.array(sorted(warm_rows(both.natural_form.A, lam, slack)), dtype=np.int64)
-    return np.flatnonzero(lam > np.maximum(slack, 0))  # as warm_rows has it
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,22 +127,35 @@ class KeptGroup:
         return slice(None) if self.constant is None else self.group.coordinates
 
     def optimum(self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
-        """The exact optimum of the group; parameters of the `whole` step as of :class:`Kept`'s.
+        """The exact optimum of the group, by C or by the exact method.
+
+        Parameters
+        ----------
+        whole : StepInBothUnits
+            The whole step.
+        lam, slack : ndarray, shape (m,)
+            Of an answer to it, both in natural units [-].
+        in_c : GroupProof or None
+            What C has proved of the group already.
 
         Raises
         ------
         StepInfeasible
         """
         decided: ExactOptimum | None = None if in_c is None else in_c.decided()
+        rows = self.group.rows
+        if decided is None:
+            own = self.in_both_units(whole)
+            in_c = self.kept.alone(own, lam[rows], slack[rows]) if in_c is None else in_c
+            decided = None if in_c is None else in_c.nearby(own.units)
         if decided is not None:
             if is_due(GROUP, len(self.group.coordinates)):
-                check(self.step(whole.si_step), in_c.guess, decided)
+                check(self.step(whole.si_step), decided)
             return decided
-        own = self.in_both_units(whole)
-        rows = self.group.rows
-        found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
-        if found is not None:
-            return found
+        if in_c is None:
+            start = warm_rows(own.natural_form.A, lam[rows], slack[rows])
+        else:
+            start = in_c.guess.tolist()
         return group_optimum(whole.si_step, self.group, own.si_step, start)
 
     def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
@@ -260,8 +238,7 @@ class Proofs:
             prover = self._prover(both)
             optimum = None if prover is None else prover.optimum(both, lam, slack)
             if optimum is not None and is_due(WHOLE, len(parts[0].group.coordinates)):
-                in_c = prover.proofs[0]
-                check(parts[0].step(step), in_c.guess, in_c.decided())
+                check(parts[0].step(step), prover.proofs[0].decided())
             if optimum is None:
                 tried = [None] * len(parts) if prover is None else prover.proofs
                 each = zip(parts, tried, strict=True)

@@ -9,15 +9,12 @@ from collections import Counter
 from typing import Any
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
-from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
-from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.data import StepData
 
 EVERY = 1000
 LARGEST = 64
@@ -28,7 +25,6 @@ DETERMINED = ("delta_q", "net", "slack", "multipliers_unique", "differentiable")
 
 WHOLE = "all groups of a step at once"
 GROUP = "a group of a step"
-REFUTED = "a guess that is refuted"
 _proofs: Counter[str] = Counter()
 """Of this process, by their kind."""
 
@@ -59,34 +55,22 @@ def is_due(kind: str, n: int) -> bool:
     return _proofs[kind] % EVERY == 1 and n <= LARGEST
 
 
-def check(step: StepData, guess: Indices, found: Proof) -> None:
+def check(step: StepData, found: ExactOptimum) -> None:
     """Check what compiled code has proved of a step that is one group.
 
     Parameters
     ----------
     step : StepData
-    guess : ndarray of int, shape (k,)
-        Its rows.
-    found : ExactOptimum, Refuted or None
-        With None nothing was proved.
+    found : ExactOptimum
 
     Raises
     ------
     WrongProof
     """
-    form = exact_form(step)
-    if isinstance(found, ExactOptimum):
-        right = form_optimum(form, found.working_set)
-        if isinstance(right, Farkas):
-            raise WrongProof(step, "that it has a solution")
-        names = [*DETERMINED, "lam"] if right.multipliers_unique else DETERMINED
-        for name in names:
-            if bits(getattr(found, name)) != bits(getattr(right, name)):
-                raise WrongProof(step, name)
-    elif isinstance(found, Refuted):
-        working = tuple(guess.tolist())
-        if len(independent_rows(form, working)) < len(working):
-            return
-        minimiser = Minimiser(form, form_in_balls(form), working)
-        if minimiser.positive() == working and min(minimiser.exact_slack_signs, default=0) >= 0:
-            raise WrongProof(step, "that a guess is wrong")
+    right = form_optimum(exact_form(step), found.working_set)
+    if isinstance(right, Farkas):
+        raise WrongProof(step, "that it has a solution")
+    names = [*DETERMINED, "lam"] if right.multipliers_unique else DETERMINED
+    for name in names:
+        if bits(getattr(found, name)) != bits(getattr(right, name)):
+            raise WrongProof(step, name)

@@ -46,7 +46,7 @@ step/cones.py
     PAGE JUDGE completion standard_form problem
 step/groups.py
     own
-optional/fast/guess/exchange.py certify/farkas.py
+certify/farkas.py
 model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own

@@ -11,7 +11,6 @@ from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
@@ -21,7 +20,7 @@ DECIDED = 0
 REFUTED = 7
 NOT_POSED = 8
 """Outcomes of a proof, as in proof.h: it holds; the guess is wrong; or there is none of these
-data."""
+data. With all others something stays open: nothing is known then."""
 
 LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
@@ -48,6 +47,7 @@ class GroupProof:
         step = own.si_step
         hessian = own.hessian
         self._prove = found.proof
+        self._prove_nearby = found.proof_nearby
         n = step.n_v
         m = step.m
         contact, row = places(step, range(m))
@@ -56,12 +56,13 @@ class GroupProof:
         s.put(
             {
                 "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
-                "code": NOT_POSED,
+                "answered": 0, "code": NOT_POSED,
                 "coordinates": group.coordinates, "contacts": group.contacts,
                 "rows_of_J": (4 * group.contacts[:, None] + np.arange(4)).ravel(),
                 "rows_of_step": group.rows, "natural": self._natural.address,
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
-                "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
+                "K_q": step.K_q, "M_u": step.M_u, "inverse": hessian.H_inverse,
+                "answer": np.zeros(m, np.int64), "guess": np.zeros(m, np.int64),
                 "cone": cone_matrix(step.cone), "integers": _combined(step.cone),
                 "contact": contact, "row": row,
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
@@ -89,33 +90,30 @@ class GroupProof:
         """The rows that the last proof took as the working set, shape (k,)."""
         return self.s["guess"][: self.s.number("working")]
 
-    def optimum(self, step: StepData, guess: Indices, units: Units) -> Proof:
+    def nearby(self, units: Units) -> ExactOptimum | None:
+        """The exact optimum, if the last answer leads to it; of units that C has not found."""
+        if self.code == NOT_POSED:
+            self.s["units"][:] = units.length, units.size
+            self._prove_nearby(self.s.address)
+        return self.decided()
+
+    def on(self, guess: Indices, units: Units) -> ExactOptimum | None:
         """The exact optimum, if a guess of its working set is right and fixed point shows it.
 
         Parameters
         ----------
-        step : StepData
-            Of the group, whose data are those of the last call of :class:`Prover`.
         guess : ndarray of int, shape (k,)
             Rows, in ascending order.
         units : Units
-            Natural units of the step.
-
-        Returns
-        -------
-        ExactOptimum, Refuted or None
-            None where something stays open: nothing is known then.
+            Natural units of the step, whose data are those of the last call of :class:`Prover`.
         """
         s = self.s
-        if len(guess) > step.n_v:
+        if len(guess) > s.number("n_v"):
             return None
-        if self.code == NOT_POSED or not np.array_equal(guess, self.guess):
-            s.put({"working": len(guess)})
-            s["guess"][: len(guess)] = guess
-            s["units"][:] = units.length, units.size
-            self._prove(s.address)
-        if self.code == REFUTED:
-            return Refuted(guess, s["lam"][guess], s["slack"].copy())
+        s.put({"working": len(guess)})
+        s["guess"][: len(guess)] = guess
+        s["units"][:] = units.length, units.size
+        self._prove(s.address)
         return self.decided()
 
     def decided(self) -> ExactOptimum | None:

@@ -14,8 +14,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.optional.fast.compiled.certificate import NOT_POSED, GroupProof, Prover
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
+from quasistatic_ref.optional.fast.compiled.certificate import (
+    DECIDED,
+    NOT_POSED,
+    REFUTED,
+    GroupProof,
+    Prover,
+)
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.files import step_from_record
@@ -92,7 +97,9 @@ class Tried(NamedTuple):
         Its words.
     changed : bool
         Whether the guess differs from the right one in rows of this group.
-    found : ExactOptimum, Refuted or None
+    code : int
+        The outcome, as in proof.h.
+    found : ExactOptimum or None
     units : ndarray, shape (2,), or None
         Natural length and size that the library found [m per (N m s)^0.5, (N m s)^0.5]; None where
         it did not pose the step.
@@ -104,7 +111,8 @@ class Tried(NamedTuple):
     number: int
     guess: str
     changed: bool
-    found: Proof
+    code: int
+    found: ExactOptimum | None
     units: Array | None
     of: DenseStepInBothUnits
 
@@ -122,20 +130,20 @@ def tried(known: Known) -> Iterator[Tried]:
         for number, (group, own) in enumerate(divided):
             proof = prover.proofs[number]
             changed = bool((lam != right)[group.rows].any())
-            found: Proof = None
+            found = None
             units = None
+            code = NOT_POSED
             if isinstance(proof, GroupProof) and proof.code != NOT_POSED:
                 guess: Indices = np.flatnonzero(lam[group.rows])
                 units = proof.s["units"].copy()
-                found = proof.optimum(own.si_step, guess, own.units)
-            yield Tried(group, number, words, changed, found, units, own)
+                found = proof.on(guess, own.units)
+                code = proof.code
+            yield Tried(group, number, words, changed, code, found, units, own)
 
 
-def letter(found: Proof) -> str:
+def letter(code: int) -> str:
     """How the outcome of a proof is stored."""
-    if isinstance(found, ExactOptimum):
-        return "o"
-    return "r" if isinstance(found, Refuted) else "-"
+    return {DECIDED: "o", REFUTED: "r"}.get(code, "-")
 
 
 def wrong(known: Known) -> str | None:
@@ -144,11 +152,11 @@ def wrong(known: Known) -> str | None:
         if one.units is not None and one.units.tolist() != [*one.of.units[1:]]:
             return f"its natural units are {one.units.tolist()} in place of {one.of.units[1:]}"
         stored = known.outcomes[i] if i < len(known.outcomes) else "-"
-        if stored != "-" and letter(one.found) != stored:
+        if stored != "-" and letter(one.code) != stored:
             return f"a guess {one.guess} is not decided"
-        if isinstance(one.found, Refuted) and not one.changed:
+        if one.code == REFUTED and not one.changed:
             return "the right guess is refuted"
-        if not isinstance(one.found, ExactOptimum):
+        if one.found is None:
             continue
         if one.changed:
             return f"a guess {one.guess} is proved"
@@ -161,7 +169,7 @@ def wrong(known: Known) -> str | None:
 def different(one: Tried, optimum: dict[str, Any]) -> str | None:
     """The first field of an optimum, proved on the right guess, that is not the stored one's."""
     found = one.found
-    assert isinstance(found, ExactOptimum)
+    assert found is not None
     rows = one.group.rows
     coordinates = one.group.coordinates
     for name, at in (

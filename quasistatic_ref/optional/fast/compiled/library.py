@@ -65,6 +65,7 @@ FUNCTIONS = {
     "natural_program": ctypes.c_int,
     "hessian": ctypes.c_int,
     "proof": ctypes.c_int,
+    "proof_nearby": ctypes.c_int,
     "groups_proved": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""

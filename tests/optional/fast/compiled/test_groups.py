@@ -12,7 +12,7 @@ from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
-from quasistatic_ref.optional.fast.compiled.certificate import DECIDED, NOT_POSED, REFUTED
+from quasistatic_ref.optional.fast.compiled.certificate import DECIDED
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.solve.solver import NaturalAnswer, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits
@@ -75,7 +75,7 @@ def test_groups_that_merge_and_split_have_the_bits_of_each_by_itself(monkeypatch
             codes.update(of_groups)
             at_once[all(code == DECIDED for code in of_groups)] += len(of_groups) > 1
     assert codes[DECIDED] > 100
-    assert min(codes[REFUTED], codes[NOT_POSED], at_once[False], at_once[True]) > 5
+    assert min(at_once[False], at_once[True]) > 5
 
 
 ROOT = np.sqrt(0.5)

@@ -1,7 +1,11 @@
 /* The groups of a step, each posed as a step of its own, in natural units of its own, and proved on
    the rows that an answer presses: step/groups, optional/fast/proofs. */
 
+#include <string.h>
+
 #include "proof.h"
+
+enum { GUESSES = 16 }; /* that follow one that is wrong; boxes in a row at rest take four to ten */
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
@@ -56,24 +60,36 @@ static int posed(const Step *s, Proof *p)
     return changed;
 }
 
-/* The rows that the answer presses, and whether they have changed; 0 where these are so many that
-   they depend on each other. */
-static int guessed(Proof *p, int *changed)
+/* The rows that the answer presses: whether they have changed. */
+static int answered(Proof *p)
 {
-    int64_t k = 0, pressing = 0;
+    int64_t k = 0;
+    int changed = 0;
     for (int64_t r = 0; r < p->rows; r++)
-        pressing += p->pressure[r] != 0.0;
-    for (int64_t r = 0; pressing <= p->n_v && r < p->rows; r++)
         if (p->pressure[r] > 0.0 && p->pressure[r] > p->gap[r]) {
-            *changed |= p->guess[k] != r;
-            p->guess[k++] = r;
+            changed |= p->answer[k] != r;
+            p->answer[k++] = r;
         }
-    *changed |= p->working != k;
-    p->working = k;
-    return pressing <= p->n_v;
+    changed |= p->answered != k;
+    p->answered = k;
+    return changed;
 }
 
-/* Whether all groups are DECIDED. A group of which nothing has changed, nor its guess, is as it was. */
+/* What the proof on these rows comes to, or on the guess that is found from them. */
+int proof_nearby(Proof *p)
+{
+    p->working = p->answered;
+    memcpy(p->guess, p->answer, (size_t)p->answered * sizeof(int64_t));
+    int code = p->working > p->n_v ? SINGULAR : proof(p);
+    if ((code == SINGULAR || code == OPEN_BOUND) && independent(p))
+        code = proof(p);
+    for (int tries = 0; code == REFUTED && tries < GUESSES && mended(p); tries++)
+        code = proof(p);
+    p->code = code;
+    return code;
+}
+
+/* Whether all groups are DECIDED. A group of which nothing has changed, nor its answer, is as it was. */
 int groups_proved(Step *s)
 {
     int all = 1;
@@ -84,11 +100,13 @@ int groups_proved(Step *s)
         s->code[i] = NOT_POSED;
         if (p) {
             int changed = posed(s, p);
-            if (!guessed(p, &changed))
+            changed |= answered(p);
+            if (!changed && p->code != NOT_POSED)
+                s->code[i] = p->code;
+            else if (natural_units(p->natural))
+                s->code[i] = proof_nearby(p);
+            else
                 p->code = NOT_POSED;
-            else if (changed || p->code == NOT_POSED)
-                p->code = natural_units(p->natural) ? proof(p) : NOT_POSED;
-            s->code[i] = p->code;
         }
         if (s->code[i] != DECIDED) {
             all = 0;

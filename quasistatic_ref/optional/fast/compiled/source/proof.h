@@ -25,7 +25,7 @@ struct Natural;
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    int64_t n_a, n_v, n_c, rows, working, code;
+    int64_t n_a, n_v, n_c, rows, working, answered, code;
     /* Where the group's coordinates, contacts and rows stand in the step. */
     const int64_t *coordinates, *contacts, *rows_of_J, *rows_of_step;
     /* h; the units S, and {length, size}: powers of two. What finds these, and the g, A and b that it
@@ -34,16 +34,17 @@ typedef struct {
     double *units;
     struct Natural *natural;
     double *g, *A, *b, *pressure, *gap;
-    const double *K_q, *M_u;
+    /* H^-1 in SI units, by which other guesses are found. */
+    const double *K_q, *M_u, *inverse;
     double *delta_q_bar_a, *tau;
     /* Of each contact: n, d1, d2 and spin, as four rows of four; 1, mu_v, mu_v and mu_omega. */
     double *phi, *frame, *J, *mu;
     /* The cone: four coefficients of each row; the same times one factor, as integers. */
     const double *cone;
     const int64_t *integers;
-    /* Of each row its contact and its number there; the guess. */
+    /* Of each row its contact and its number there; the rows that the answer presses; the guess. */
     const int64_t *contact, *row;
-    int64_t *guess;
+    int64_t *answer, *guess;
     /* h H: kept while H is the same. Room for Numbers. */
     void *hessian;
     double *hessian_values;
@@ -89,6 +90,9 @@ int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *other
 int zeros(Proof *s, Room *m);
 void refined(const Proof *s, Room *m, int bits);
 int proof(Proof *s);
+int independent(Proof *s);
+int mended(Proof *s);
+int proof_nearby(Proof *s);
 int natural_units(struct Natural *s);
 
 #endif

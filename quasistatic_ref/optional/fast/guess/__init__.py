@@ -1,1 +1,0 @@
-"""The proof of a guessed working set, in ball arithmetic."""
