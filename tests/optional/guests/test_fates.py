@@ -15,7 +15,7 @@ from quasistatic_ref.optional.guests import fates
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 
 SCENE = """<mujoco>
-<size nuser_body="1" nuser_jnt="1" nuser_geom="1" nuser_site="1" nuser_tendon="1"
+<size memory="1M" nuser_body="1" nuser_jnt="1" nuser_geom="1" nuser_site="1" nuser_tendon="1"
  nuser_actuator="1"/>
 <option density="2" viscosity=".1" wind="3 1 0" actuatorgroupdisable="1"/>
 <asset><hfield name="hills" nrow="3" ncol="3" size="1 1 .1 .1" elevation="0 0 0 0 1 0 0 0 0"/>
@@ -279,8 +279,8 @@ CLOTH = '<flexcomp type="grid" count="3 3 1" spacing=".1 .1 .1" name="cloth" pos
         (of_scene(actuator='<position name="up" joint="crank" kp="-9"/>'),
          r"actuator\[up\]\.biasprm: pushes away from its target"),
         (of_scene(worldbody=CLOTH), r"flex\[cloth\]: is not supported"),
-        (SCENE.replace("<size ", '<size memory="50K" '), "size.memory: does not hold all"),
-        (SCENE.replace("<size ", '<size memory="20K" '), "size.memory: .*out of memory"),
+        (SCENE.replace("1M", "50K"), "size.memory: does not hold all"),
+        (SCENE.replace("1M", "20K"), "size.memory: .*out of memory"),
     ],
 )  # fmt: skip
 def test_what_no_step_can_say_is_refused_by_name(text: str, match: str) -> None:

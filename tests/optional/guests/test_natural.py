@@ -23,8 +23,8 @@ def turned(seed: int, world: str, more: str = "", options: str = "") -> tuple[An
     text = " ".join(map(str, gravity.tolist()))
     quat = " ".join(map(str, q.tolist()))
     model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><option gravity="{text}" {options}/><worldbody><frame quat="{quat}">{world}'
-        f"</frame></worldbody>{more}</mujoco>"
+        f'<mujoco><size memory="1M"/><option gravity="{text}" {options}/>'
+        f'<worldbody><frame quat="{quat}">{world}</frame></worldbody>{more}</mujoco>'
     )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
