@@ -1,0 +1,91 @@
+"""What penetration does to forces, and what is said of it."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.guests.mujoco import mujoco_step
+from quasistatic_ref.solve.solve import solve_step
+
+H, GRAVITY, MASS, K = 0.01, 9.81, 2.0, 500.0
+SERVO = f'<actuator><position joint="z" kp="{K}"/></actuator>'
+WELD = '<equality><weld body1="ball"/></equality>'
+
+CONNECT = '<equality><connect body1="ball" anchor=".5 0 0"/></equality>'
+
+
+def ball(joint: str, depth: float, more: str = "", how: str = "") -> tuple[Any, Any]:
+    """A ball of 0.1 m that is so deep in a floor."""
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><size memory="1M"/><worldbody>
+        <geom name="floor" type="plane" size="1 1 1" {how}/>
+        <body name="ball" pos="0 0 {0.1 - depth}">{joint}
+        <geom name="ball" size=".1" mass="{MASS}" {how}/></body></worldbody>{more}</mujoco>"""
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+FREE = "<freejoint/>"
+SLIDE = '<joint name="z" type="slide" axis="0 0 1" damping="40"/>'
+
+
+@pytest.mark.parametrize("depth", [0.0, 1e-4, GRAVITY * H**2, 5e-3])
+@pytest.mark.parametrize("springs", [0.0, K])
+def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(
+    depth: float, springs: float
+) -> None:
+    """N = m g; to close it, a body moves by the depth: N = m g + m depth / h^2.
+
+    A servo, whose target is where it is, gives way by the depth: N = m g + k depth.
+    """
+    model, data = ball(SLIDE, depth, SERVO if springs else "")
+    closed, _ = mujoco_step(model, data, H)
+    as_is, _ = mujoco_step(model, data, H, depth="as is")
+    added = depth * (springs or MASS / H**2)
+    assert solve_step(closed).wrench[0, 2] == pytest.approx(MASS * GRAVITY, rel=1e-12)
+    assert solve_step(as_is).wrench[0, 2] == pytest.approx(MASS * GRAVITY + added, rel=1e-12)
+
+
+SOFT = 'solref="-500 -40" solimp=".9 .9 .001"'
+
+
+@pytest.mark.parametrize(
+    ("made", "reason"),
+    [
+        ((FREE, 0.005), "nothing: MuJoCo pushes them apart as soon as it runs"),
+        (('<joint type="slide" axis="1 0 0"/>', 0.005), "joints or equalities leave no way out"),
+        ((FREE, 0.005, "", SOFT), "the load"),
+        ((SLIDE, 0.005, SERVO, SOFT), "a servo, a spring or the load"),
+        ((FREE, 0.005, WELD, SOFT), "joints or equalities leave no way out"),
+        ((FREE, 0.005, CONNECT, SOFT), "an equality or the load"),
+    ],
+)  # fmt: skip
+def test_what_keeps_a_body_in_another_is_said(made: Any, reason: str) -> None:
+    model, data = ball(*made)
+    if SOFT in made:
+        for _ in range(1000):
+            mujoco.mj_step(model, data)
+        mujoco.mj_forward(model, data)
+    depth = -1e3 * data.contact.dist[0]
+    assert depth > 1
+    said = " ".join(mujoco_step(model, data, H)[1].left_out)
+    assert f"contact[0: floor/ball]: its bodies penetrate by {depth:.3g} mm" in said
+    assert said.partition("what keeps them there: ")[2].startswith(reason)
+
+
+def test_a_depth_of_less_than_a_millimetre_is_not_mentioned() -> None:
+    assert mujoco_step(*ball(FREE, 0.99e-3), H)[1].left_out == ()
+
+
+@pytest.mark.parametrize("condim", [1, 3])
+def test_the_quasi_dynamic_number_is_the_drag_over_the_friction(condim: int) -> None:
+    """In a step from rest, a push F moves a body of mass m at v = h F / m: the drag m v / h."""
+    model, data = ball(FREE, 0.0, how=f'condim="{condim}" friction=".3 0 0"')
+    data.qvel[:2] = 0.03, 0.04
+    expected = MASS * 0.05 / H / (0.3 * MASS * GRAVITY) if condim > 1 else 0.0
+    assert mujoco_step(model, data, H)[1].quasi_dynamic_number == pytest.approx(expected)
+    assert not np.any(mujoco_step(model, data, H)[0].tau_u[:2])
