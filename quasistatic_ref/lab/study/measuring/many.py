@@ -84,8 +84,7 @@ def simulate_many(
     system = sweep_scenario(sweep, sweep.points()[0]).system
     sweep = replace(sweep, link=link or _followed(system))
     system.link(sweep.link)
-    rows = run_sweep([sweep], folder, jobs=workers, scheduler=scheduler, progress=progress,
-                     keep_runs=True)  # fmt: skip
+    rows = run_sweep([sweep], folder, jobs=workers, scheduler=scheduler, progress=progress)
     text_written(Path(folder) / TABLE, _table(rows))
     return rows
 

@@ -7,7 +7,7 @@ import hashlib
 import itertools
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -127,9 +127,10 @@ def run_sweep(
     jobs: int | None = None,
     scheduler: str | None = None,
     progress: bool = True,
-    keep_runs: bool = False,
 ) -> list[Row]:
     """Run sweeps, or what is left of them. What cannot be run is refused before any is.
+
+    The trajectory of each run is kept, in :func:`run_file` of the folder.
 
     Parameters
     ----------
@@ -141,8 +142,6 @@ def run_sweep(
     scheduler : str, optional
         Address of a Dask scheduler.
     progress : bool
-    keep_runs : bool
-        Whether the trajectory of each run is kept, in :func:`run_file` of the folder.
 
     Returns
     -------
@@ -159,11 +158,11 @@ def run_sweep(
         for _ in executor.map(check_point, *zip(*every, strict=True)):
             pass  # an error of any of them is raised here
         folder = writable_folder(folder)
-        kept = writable_folder(folder / RUNS).parent if keep_runs else None
+        writable_folder(folder / RUNS)
         with Store(folder, sweep_record(sweeps)) as store:
             done = store.keys
             todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
-            _run(store, todo, executor, slots, progress, kept)
+            _run(store, todo, executor, slots, progress, folder)
             return sorted(store.rows, key=key_of)
 
 
@@ -200,11 +199,6 @@ def run_file(row: Row) -> str:
     return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row)[1].encode()).hexdigest()[:12]}.npz"
 
 
-def sweep_row(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, None]:
-    """One run without its trajectory, which may be large."""
-    return sweep_run(sweep, point)[0], None
-
-
 def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
     """One run, and what it came to; a run that ends early is a result too.
 
@@ -236,15 +230,12 @@ def _run(
     executor: Executor,
     slots: int,
     progress: bool,
-    kept: Path | None,
+    folder: Path,
 ) -> None:
     """Run what is left, and add its rows to the store."""
     with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
-        call: Callable[..., tuple[Row, Trajectory | None]]
-        call = sweep_row if kept is None else sweep_run
-        for row, trajectory in results(executor, slots, call, todo):
-            if kept is not None and trajectory is not None:
-                trajectory.save(kept / run_file(row))  # before the row, which names it
+        for row, trajectory in results(executor, slots, sweep_run, todo):
+            trajectory.save(folder / run_file(row))  # before the row, which names it
             store.add(row)
             bar.update()
 

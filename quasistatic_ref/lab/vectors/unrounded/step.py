@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import lcm
 
 import numpy as np
-from flint import arb, fmpq, fmpz_mat
+from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.rational import ExactForm
@@ -29,8 +29,6 @@ from quasistatic_ref.lab.vectors.unrounded.world import World
 
 WIDE = 1024
 """Bits of a ball on the way to delta_q: data of the grid have 400 and more."""
-NARROW = arb(2) ** -340
-"""Radius of a ball whose middle is on the grid what the number itself is [m, rad]."""
 
 
 @dataclass(frozen=True, eq=False)
