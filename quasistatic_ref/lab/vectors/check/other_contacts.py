@@ -95,11 +95,11 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     pairs = {pair["name"]: pair for pair in case["pairs"]}
     given = [{**of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
     entries, _, rows = with_rows(case, given)
-    program = {key: record["output"][key] for key in ("H", "g")} | rows.output
-    solved = layer("qp").expected(program)
-    output, _, _ = step_output(case, entries, program, solved)
+    qp_case = {key: record["output"][key] for key in ("H", "g")} | rows.output
+    solved = layer("qp").expected(qp_case)
+    output, _, _ = step_output(case, entries, qp_case, solved)
     if "forces" in record["output"]:
-        found, _ = compliant_forces(matrices(program), case, entries, output["lam"])
+        found, _ = compliant_forces(matrices(qp_case), case, entries, output["lam"])
         output["forces"] = found
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}

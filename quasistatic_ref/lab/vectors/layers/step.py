@@ -45,10 +45,10 @@ def expected(
     H_size = max([abs(x) for row in H for x in row], default=0.0)
     if terms:
         H_size, g_size = map(max, (H_size, g_size), terms(case_input))
-    program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
-    errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
-    solved = qp.expected(program, errors)
-    output, wrenches, after = step_output(case_input, contacts, program, solved)
+    qp_case = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
+    errors, distances = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
+    solved = qp.expected(qp_case, errors)
+    output, wrenches, after = step_output(case_input, contacts, qp_case, solved)
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
         "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
@@ -64,7 +64,7 @@ def expected(
     if wrenches is None or after is None:
         return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
     wrench_bound = _wrench_bound(case_input, solved, wrenches)
-    given = qp.matrices(program)
+    given = qp.matrices(qp_case)
     output["forces"], digits = compliant_forces(given, case_input, contacts, output["lam"])
     forces_off = forces_bound(given, case_input, contacts, output["delta_q"], errors)
     q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
@@ -92,10 +92,10 @@ def with_rows(case: Json, contacts: list[Json]) -> tuple[list[Json], Expected, E
 
 
 def step_output(
-    case: Json, contacts: list[Json], program: Json, solved: Expected
+    case: Json, contacts: list[Json], qp_case: Json, solved: Expected
 ) -> tuple[dict[str, Json], Expected | None, Expected | None]:
-    """The output of a step whose program is solved, and how: by the layers wrench and integrate."""
-    output = {**program, "contacts": [{key: c[key] for key in SHOWN} for c in contacts]}
+    """The output of a step whose case of layer `qp` is solved, by layers wrench and integrate."""
+    output = {**qp_case, "contacts": [{key: c[key] for key in SHOWN} for c in contacts]}
     if "farkas" in solved.output:
         return {**output, "farkas": solved.output["farkas"]}, None, None
     parts = by_contact(solved.output["lam"], case["cone"], contacts)
@@ -196,13 +196,13 @@ def objective(case_input: Json) -> tuple[Json, Json, float]:
 
 def _errors(
     case: Json,
-    program: Json,
+    qp_case: Json,
     found: list[Chosen],
     jacobian: Expected,
     rows: Expected,
     sizes: tuple[float, float],
 ) -> tuple[Errors, dict[str, Tolerance]]:
-    """What rounding in the layers before leaves in the program, and in the contacts."""
+    """What rounding in the layers before leaves in the case of layer `qp`, and in the contacts."""
     points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
     pose = ROUNDINGS * EPS
     size_of = {"n": 1.0}
@@ -222,8 +222,8 @@ def _errors(
     return Errors(
         H=Fraction(ROUNDINGS * EPS * sizes[0]),
         g=Fraction(ROUNDINGS * EPS * sizes[1]),
-        A=Fraction(A if program["A"] else 0.0),
-        b=Fraction(worst["phi"] if program["A"] else 0.0),
+        A=Fraction(A if qp_case["A"] else 0.0),
+        b=Fraction(worst["phi"] if qp_case["A"] else 0.0),
     ), distances
 
 
