@@ -5,6 +5,9 @@ thousands of them.
 """
 
 import random
+import shutil
+import subprocess
+import sys
 import time
 
 import pytest
@@ -13,6 +16,7 @@ from hypothesis import strategies as st
 
 from quasistatic_ref.errors import QuasistaticError
 from tests.errors.readers import FAMILIES
+from validation.make.hostile_files import STRACE, opened_elsewhere
 
 SECONDS = 10.0
 """Of the processor that a file may take [s]."""
@@ -31,6 +35,21 @@ def test_a_spoilt_file_is_accepted_or_refused_in_a_sentence(tmp_path, family):
             reader.read(path)
         spoilt_files_read(name, reader, path)
         path.write_bytes(reader.good[0])
+
+
+@pytest.mark.skipif(shutil.which("strace") is None, reason="strace says what is opened")
+def test_what_a_process_opens_outside_of_its_folder_is_seen(tmp_path):
+    """``validation.make.hostile_files`` reads what strace writes of Python, C and children."""
+    outside = tmp_path / "outside" / "c.xyz"
+    outside.parent.mkdir()
+    outside.write_text("0 0 0")
+    log = tmp_path / "log"
+    mark = "try: open('/proc/self/file {}')\nexcept OSError: pass\n"
+    by_child = f"import subprocess as s; s.run(['cat', '{outside}'], stdout=s.DEVNULL)\n"
+    for opens in (f"open('{outside}').close()\n", by_child):
+        script = mark.format(1) + opens + mark.format(2) + f"open('{log}').close()"
+        subprocess.run([*STRACE, "-o", str(log), sys.executable, "-S", "-c", script], check=True)
+        assert opened_elsewhere(log) == {1: str(outside)}
 
 
 def spoilt_files_read(name, reader, path):

@@ -103,6 +103,8 @@ RESULTS = (
     ),
     to_file("prover_mutants"),
     to_file("designed_steps"),
+    to_file("hostile_files"),
+    to_file("kills"),
     to_file("guests"),
     to_file("environments"),
     to_file("forces_by_hand"),

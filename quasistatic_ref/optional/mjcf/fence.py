@@ -54,6 +54,8 @@ class Fence:
     ----------
     read : int
         Bytes of XML that were read.
+    bodies : int
+        Elements of that name.
     places : list of (Element, Path, int)
         Each element with its file and line.
     costs : list of (float, Element, str)
@@ -70,6 +72,7 @@ class Fence:
     path: Path
     roots: Sequence[str | Path] = ()
     read: int = 0
+    bodies: int = 0
     places: list[tuple[Element, Path, int]] = field(default_factory=list)
     costs: list[tuple[float, Element, str]] = field(default_factory=list)
 
@@ -137,8 +140,11 @@ class Fence:
             element = builder.start(tag, attributes)
             open_.append(element)
             self.places.append((element, path, parser.CurrentLineNumber))
+            self.bodies += tag == "body"
             if len(open_) > DEEPEST:
                 raise ModelError(f"is nested deeper than {DEEPEST} elements", field=_named(element))
+            if self.bodies > MOST_LINKS:
+                raise ModelError(f"is one of more than {MOST_LINKS} bodies", field=_named(element))
 
         def end(tag: str) -> None:
             builder.end(tag)

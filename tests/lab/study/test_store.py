@@ -54,6 +54,19 @@ def test_another_study_in_the_folder_is_refused_by_the_field_that_differs(folder
         Store(folder, made_store.STUDY | {"time_limit": 2.0})
 
 
+def test_a_store_that_was_not_made_whole_is_made_again(tmp_path, monkeypatch):
+    def killed(*given):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(stores, "about_written", killed)
+        with pytest.raises(KeyboardInterrupt):
+            Store(tmp_path, made_store.STUDY, made_store.facts(2))
+    with Store(tmp_path, made_store.STUDY, made_store.facts(2)):
+        assert contents(tmp_path).rows == []
+    assert [path.name for path in tmp_path.iterdir()] == [STORE]
+
+
 def test_two_runs_cannot_write_one_store(folder):
     with Store(folder, made_store.STUDY, made_store.facts(2)):
         with pytest.raises(InputError, match="being written by another run"):

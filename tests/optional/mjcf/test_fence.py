@@ -62,6 +62,10 @@ REFUSED = {
         "<worldbody>" + "<body>" * 400 + "</body>" * 400 + "</worldbody>",
         "body: is nested deeper than 300 elements",
     ),
+    "many bodies": (
+        "<worldbody>" + '<body name="c"/>' * 1001 + "</worldbody>",
+        "body[c]: is one of more than 1000 bodies",
+    ),
     "a crash of MuJoCo's": (
         '<asset><model name="m" file="m.xml"/></asset><worldbody><frame>'
         '<attach model="m" body="b" prefix="p"/></frame></worldbody>',

@@ -101,16 +101,27 @@ class Store:
             there = contents(folder, every=True) if self.path.exists() else None
             claimed = wanted if there is None else continued(there.study, wanted, Path(folder))
             self.rows = [] if there is None else there.rows
+            if there is None:
+                self._made(claimed, problems)
             with self._written():
                 self._tables = sqlite3.connect(self.path)
                 self._tables.execute("PRAGMA foreign_keys = ON")
-                if there is None:
-                    self._tables.executescript(SCHEMA)
             with self._written(), self._tables:
                 about_written(self._tables, claimed, problems)
         except BaseException:
             os.close(self._folder)
             raise
+
+    def _made(self, study: Mapping[str, Any], problems: Sequence[Mapping[str, Any]]) -> None:
+        """Make the file under another name, until it is whole: a process may end in between."""
+        new = self.path.with_name(f".{STORE}")
+        for path in (new, new.with_name(f"{new.name}-journal")):
+            path.unlink(missing_ok=True)
+        with self._written(), closing(sqlite3.connect(new)) as tables:
+            tables.executescript(SCHEMA)
+            with tables:
+                about_written(tables, study, problems)
+        os.replace(new, self.path)
 
     @property
     def keys(self) -> set[tuple[Any, ...]]:
