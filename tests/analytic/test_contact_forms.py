@@ -106,8 +106,6 @@ def test_r37_contacts_of_convex_bodies_share_a_normal(rng, both):
             assert met is None
         elif met is not None:
             np.testing.assert_allclose(met, 0.0, atol=1e-7)
-        # No point is deeper than the pair is along its normal.
-        assert m @ p - (A @ m).max() >= (B @ m).min() - (A @ m).max()
 
 
 def test_bodies_that_are_apart_may_come_to_touch_along_another_normal():
