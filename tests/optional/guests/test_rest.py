@@ -283,14 +283,15 @@ def settle(model: Any, data: Any) -> None:
     before = 0.0
     for i in range(MOST):
         mujoco.mj_step(model, data)
-        if data.energy[1] < before * (1 - 1e-6):
-            data.qvel[:] = 0.0
+        if i % 100 < 60 and data.energy[1] < before * (1 - 1e-6):
+            data.qvel[:] = 0.0  # later, a creeping contact finds its speed
         before = data.energy[1]
-        if i % 50 == 49:
+        if i % 100 == 99:
             mujoco.mj_forward(model, data)
             smooth, load = without_velocity(model, data)
             if np.abs(smooth + data.qfrc_constraint).max() < SETTLED / 100 * load.max():
-                break
+                return
+    raise AssertionError(f"does not rest after {MOST} steps")
 
 
 def without_velocity(model: Any, data: Any) -> tuple[Any, Any]:
@@ -338,7 +339,7 @@ def moved(model: Any, data: Any, depth: str = "closed") -> Moved:
     )
 
 
-RUBS = ("condim 3", "condim 4", "condim 6")
+RUBS = ("condim 3", "condim 4")
 EACH = [(name, "pyramidal") for name in CASES] + [(name, "elliptic") for name in RUBS]
 
 
