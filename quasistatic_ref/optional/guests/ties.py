@@ -151,7 +151,7 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
     left_out = []
     for k in np.flatnonzero(~np.isin(rows, tied.eliminated)).tolist():
         own = natural[k]
-        for _ in ("once", "once more, for what rounding left"):
+        for _ in range(2):  # the second takes away what rounding left in the first
             own = own - own @ basis.T @ basis
         length = np.linalg.norm(own)
         if length > least[k]:

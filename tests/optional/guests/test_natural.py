@@ -42,7 +42,7 @@ FALL = H**2 * 2 * GRAVITY * 0.2 / I_YY
 """How far the arm turns in a step: h^2 m g l / I, the inertia of a box and m l^2 [rad]."""
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("joint", ['axis="0 1 0"', 'type="ball"'])
 def test_a_contact_at_the_pivot_bears_nothing(seed: int, joint: str) -> None:
     """Both capsules have an end at the pivot: the contact's point is there, its lever rounding."""
@@ -55,7 +55,7 @@ def test_a_contact_at_the_pivot_bears_nothing(seed: int, joint: str) -> None:
     assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in said
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_limit_that_no_joint_moves_bears_nothing(seed: int) -> None:
     """Both ends of the tendon are on the axis; it is 0.15 m long, and may have 0.1 m."""
     more = (
@@ -76,7 +76,7 @@ FOUR_BAR = LINK.format("left", 0, COUPLER) + LINK.format("right", 0.3, "")
 """A parallelogram with links of 0.2 m, masses of 1 kg at their ends, and a coupler of 3 kg."""
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("cone", ["pyramidal", "elliptic"])
 def test_a_planar_four_bar_falls_in_a_turned_base(seed: int, cone: str) -> None:
     """Of the three rows of ``connect``, the one across the plane is rounding.
@@ -96,7 +96,7 @@ def test_a_planar_four_bar_falls_in_a_turned_base(seed: int, cone: str) -> None:
     assert any(said.startswith("equality[1]: left out") for said in coordinates.left_out)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed: int) -> None:
     """A ball that is connected to the world where it touches a floor turns about that point.
 
