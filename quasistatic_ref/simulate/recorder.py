@@ -211,7 +211,7 @@ class Recorder(Shown):
             "format": FORMAT,
             "version": VERSION,
             "h": self.h,
-            "backend": str(self.backend),  # a word of --set is a class of its own
+            "backend": self.backend,
             "cone": self.cone,
             "extra": list(self.extra),
             "record": self.record,

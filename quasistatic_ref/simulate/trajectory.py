@@ -369,10 +369,13 @@ def trajectory_read(path: str | Path) -> Trajectory:
 def certified(trajectory: Trajectory) -> str:
     """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``.
 
-    In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``.
+    In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``; and in
+    how many of them the backend failed, if in any.
     """
     kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
     exact = kinds.count("exact")
     enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
-    return f"{exact} of {trajectory.steps} steps exact{rest}"
+    failed = int((trajectory["digits"] == 0).sum()) if kinds else 0
+    failures = f" (the backend failed in {failed} of them)" if failed else ""
+    return f"{exact} of {trajectory.steps} steps exact{rest}{failures}"

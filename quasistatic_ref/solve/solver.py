@@ -27,6 +27,7 @@ from quasistatic_ref.solve.backends import (
     Options,
     check_backend,
 )
+from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import Array, Mask, finite
@@ -110,6 +111,8 @@ class Solver(ABC):
         self.template = template
         self.name = name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
+        if name.removeprefix(QPSOLVERS) == "highs":
+            greeting_silenced()
         self._option_sets: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from quasistatic_ref.optional.doctor import (
+    backend_failures,
     contradictions,
     drag,
     few_points,
@@ -62,6 +63,7 @@ AFTER = (
     Kind("target beyond a limit", True, targets.beyond_limits),
     Kind("half a turn behind", True, targets.half_turns),
     Kind("free fall", True, unsupported.falling),
+    Kind("failing backend", True, backend_failures.backend_failures),
     Kind("several solutions", False, several.several),
     Kind("drag", False, drag.drag),
     Kind("border of k", False, left_out.border),

@@ -1,0 +1,37 @@
+"""Steps that the backend failed, or answered with fewer digits than were asked for."""
+
+from collections.abc import Iterator
+from math import log10
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.step.cones import cone
+
+
+def backend_failures(run: Run) -> Iterator[Said]:
+    """Steps whose exact optimum the backend missed.
+
+    An accuracy of 10^-2k gives k digits of delta_q: by strong convexity the error is the square
+    root of twice the gap.
+    """
+    simulator = run.simulator
+    digits = run["digits"]  # NaN where the backend was not asked, or the optimum is not known
+    asked = -log10(simulator.accuracy) / 2
+    if not cone(simulator.cone).polyhedral:
+        asked = 0.0  # an enclosure may be no nearer than the answer
+    failed = int((digits == 0).sum())
+    short = int(((digits > 0) & (digits < asked)).sum())
+    if simulator.backend == NONE or not failed + short:
+        return
+    first = int(np.flatnonzero((digits == 0) | (digits < asked))[0])
+    said = f"failed in {failed} of {run.steps} steps" if failed else ""
+    fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
+    yield Said(
+        f"choose another backend than {simulator.backend}, such as clarabel or daqp",
+        f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
+        f"{first}; the exact method solved them",
+        {"failed": failed, "short": short, "step": first},
+    )

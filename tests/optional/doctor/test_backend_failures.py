@@ -1,0 +1,56 @@
+"""A backend that fails is named in the summary and in a finding; the run is exact all the same."""
+
+import json
+
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+
+FAILS = (1, 4, 5)
+STEPS = 8
+SCENE = ["block_push", "--set", f"steps={STEPS}", "--set", "solver.backend=osqp"]
+
+
+@pytest.fixture
+def failing(monkeypatch):
+    """A backend that does not solve three of the steps."""
+    calls = []
+    answer = CvxpySolver.answer
+
+    def sometimes(self, both, accuracy):
+        calls.append(both)
+        if len(calls) - 1 in FAILS:
+            raise StepNotSolved(self.name, "lost", both.si_step, accuracy)
+        return answer(self, both, accuracy)
+
+    monkeypatch.setattr(CvxpySolver, "answer", sometimes)
+
+
+def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, capsys):
+    assert main(["run", *SCENE, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr()
+    assert f"{STEPS} of {STEPS} steps exact (the backend failed in 3 of them)" in said.out
+    sentence = (
+        "choose another backend than osqp, such as clarabel or daqp: osqp failed in 3 of 8 steps, "
+        "the first of them step 1; the exact method solved them"
+    )
+    assert sentence in said.err
+
+
+def test_strict_runs_end_with_status_1(failing, tmp_path, capsys):
+    assert main(["run", *SCENE, "--out", str(tmp_path), "--json", "--strict"]) == 1
+    record = json.loads(capsys.readouterr().out)
+    assert [one["name"] for one in record["findings"]] == ["failing backend"]
+    assert record["findings"][0]["numbers"] == {"failed": 3, "short": 0, "step": 1}
+
+
+def test_the_steps_have_the_bits_of_a_backend_that_never_fails(failing):
+    runs = [
+        qr.load_scenario("block_push", {"solver.backend": name}, steps=STEPS).run(progress=False)
+        for name in ("osqp", "none")
+    ]
+    assert runs[0]["q"].tobytes() == runs[1]["q"].tobytes()
+    assert runs[1].findings == ()
