@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import wraps
 from inspect import Signature, signature
 from typing import Any, ClassVar, TypeVar, cast
@@ -15,7 +16,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked, check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
@@ -27,16 +28,27 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import DEFAULT, check_backend
+from quasistatic_ref.solve.backends import (
+    DEFAULT,
+    NONE,
+    REQUIRED,
+    check_backend,
+    check_certify,
+)
 from quasistatic_ref.solve.solve import check_accuracy, solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
-from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
+FIXED = {
+    *("system", "pairs", "h", "K_q", "gravity", "fast"),
+    *("accuracy", "certify", "cone", "law", "limits", "backend"),
+}
+"""What a simulator is made of: its problem, and what C keeps of it, are of these."""
 Step = TypeVar("Step", bound=Callable[..., Any])
 
 
@@ -164,6 +176,7 @@ class Simulator(Shown):
         return super().__new__(kind)
 
     __signature__: ClassVar[Signature]
+    default_backend = DEFAULT
 
     @arguments_checked
     def __init__(
@@ -197,6 +210,7 @@ class Simulator(Shown):
         self.gravity_factor[: system.n_a] = checked_array(acts, "gravity_acts", (system.n_a,))
         self.fast = fast
         check_accuracy(accuracy)
+        check_certify(backend, certify)
         self.accuracy = accuracy
         self.certify = certify
         self.cone = cone
@@ -211,7 +225,14 @@ class Simulator(Shown):
         self.named_backend = backend
         self.backend = self.usable_backend()
         self.solver: Solver | None = None
+        self.spares: dict[str, Solver] = {}
         self.prepare()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in FIXED and name in vars(self):
+            problem = "is fixed when a simulator is made, as is what was formed of it; make another"
+            raise InputError(problem, field=f"simulator.{name}", value=value)
+        super().__setattr__(name, value)
 
     def usable_backend(self) -> str:
         """The backend that was named, or the default; BackendError if it does not serve."""
@@ -359,7 +380,42 @@ class Simulator(Shown):
         if self.law == COULOMB:
             found: StepSolution = coulomb().simulated_solution(step, solver, self.accuracy)
             return found
-        return solve_step(step, solver, accuracy=self.accuracy, certify=self.certify)
+        try:
+            return solve_step(step, solver, accuracy=self.accuracy, certify=self.certify)
+        except StepNotSolved as failure:
+            return self.otherwise_solved(step, failure)
+
+    def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:
+        """A step that the backend failed, by the next one that solves it, or exactly.
+
+        Its ``statistics.digits`` are 0, by which such steps are counted. A backend that was asked
+        for by name is replaced with ``"residual"`` only: ``"full"`` needs none, and ``"off"`` is a
+        question to that backend.
+
+        Raises
+        ------
+        StepNotSolved
+            The `failure`, if it is a proof, or is not to be mended.
+        """
+        replaced = self.certify == "residual" or self.backend == self.default_backend
+        if type(failure) is not StepNotSolved or not replaced:
+            raise failure
+        exact = [NONE] if cone(self.cone).polyhedral else []
+        for name in [*(other for other in REQUIRED if other != self.backend), *exact]:
+            certify = "full" if name == NONE else self.certify
+            try:
+                spare = self.spares.get(name)
+                if spare is None or not spare.fits(step):
+                    self.spares[name] = spare = solver_for(step, name, self.fast)
+                solution = solve_step(step, spare, accuracy=self.accuracy, certify=certify)
+            except BackendError:  # not for this cone
+                continue
+            except StepNotSolved as another:
+                if type(another) is not StepNotSolved:  # a proof
+                    raise
+                continue
+            return replace(solution, statistics=solution.statistics._replace(digits=0.0))
+        raise failure
 
 
 # Python would show what __new__ takes.

@@ -197,6 +197,8 @@ BACKENDS: dict[str, Backend] = {
                 steps=False),
     )
 }  # fmt: skip
+REQUIRED = tuple(sorted(b.name for b in BACKENDS.values() if b.required))
+"""Backends that the package installs."""
 UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
 """Backends that did not return from every step."""
 DEFAULT = "clarabel"

@@ -38,11 +38,19 @@ def simulator(**more):
 
 
 SIMULATOR = simulator()
+FAST = simulator(fast=True)
 RUN = qr.rollout(SIMULATOR, Q, Q_A, 2, progress=False)
 
 
 def step(q=Q, q_bar_a=Q_A, **more):
-    return SIMULATOR.step(q, q_bar_a, **more)
+    """At both speeds, which must say the same."""
+    said = []
+    for one in (SIMULATOR, FAST):
+        with pytest.raises(QuasistaticError) as refused:
+            one.step(q, q_bar_a, **more)
+        said.append(str(refused.value))
+    assert said[0] == said[1]
+    raise refused.value
 
 
 def run(**more):
@@ -119,6 +127,8 @@ MISTAKES = {
         (lambda: simulator(gravity_acts=[True]), r"gravity_acts: must have shape \(6,\)"),
         (lambda: simulator(backend="clarable"), "did you mean 'clarabel'"),
         (lambda: simulator(accuracy="high"), "accuracy: must be a number greater than 0"),
+        (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
+        (lambda: simulator(certify=True, fast=True), "certify: must be one of full, residual, off"),
         (lambda: simulator(certify=True), "certify: must be one of full, residual, off"),
         (lambda: simulator(cone="elliptic"), "did you mean 'ellipsoid'"),
         (lambda: simulator(limits=0.1), "limits: must be a Limits"),

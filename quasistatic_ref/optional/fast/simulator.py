@@ -9,7 +9,9 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.fast.backends import (
     default_backend,
@@ -39,9 +41,8 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.solve import solve_step, solved
-from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
@@ -95,7 +96,6 @@ class FastSimulator(Simulator):
         layout = self.layout
         entries = self.entries()
         self.default_backend = default_backend(self.cone, self.certify, entries)
-        self.spare: Solver | None = None
         least = sparse_from(self.backend, self.cone) if entries else 0
         large = part("large.block_columns") if 0 < least <= entries else None
         columns: Columns
@@ -128,15 +128,17 @@ class FastSimulator(Simulator):
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
 
+    @arguments_checked
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step, as in the base."""
         if not self.by_c:
             return super().step(q, q_bar_a, force)
         lap = Stopwatch()
-        q = np.asarray(q, dtype=np.float64)
+        q = with_shape(q, "q", (self.system.n_q,))
+        q_bar_a = with_shape(q_bar_a, "q_a", (self.system.n_q_a,))
         self.system.units.check(q)
-        self.system.actuated_units.check(np.asarray(q_bar_a, dtype=np.float64))
+        self.system.actuated_units.check(q_bar_a)
         self.poses.move(q)
         self.contacts.find(self.poses)
         lap("distances")
@@ -259,7 +261,7 @@ class FastSimulator(Simulator):
         try:
             return self.solution_from(step, form)
         except StepNotSolved as failure:
-            return self.by_clarabel(step, failure)
+            return self.otherwise_solved(step, failure)
 
     def solution_from(self, step: StepData, form: StandardForm) -> StepSolution:
         """The solution of the step whose matrices are there; StepNotSolved if there is none."""
@@ -290,30 +292,3 @@ class FastSimulator(Simulator):
         if program is None or not program.fits(solver, step):
             self.program = program = natural_program(self.numbers, solver, step)
         return None if program is None else program.written()
-
-    def solution(self, step: StepData) -> StepSolution:
-        """A step solved; where the default backend fails, by Clarabel."""
-        try:
-            return super().solution(step)
-        except StepNotSolved as failure:
-            return self.by_clarabel(step, failure)
-
-    def by_clarabel(self, step: StepData, failure: StepNotSolved) -> StepSolution:
-        """Clarabel's answer to a step on which the default backend has failed.
-
-        With ``"full"`` in a polyhedral cone the exact method needs no backend: none fails there.
-
-        Raises
-        ------
-        StepNotSolved
-            The `failure` itself, if another backend than the default failed, or both did.
-        """
-        of_default = type(failure) is StepNotSolved and failure.backend == self.default_backend
-        if not of_default or self.default_backend == DEFAULT:
-            raise failure
-        if self.spare is None or not self.spare.fits(step):
-            self.spare = solver_for(step, DEFAULT, fast=True)
-        try:
-            return solve_step(step, self.spare, accuracy=self.accuracy, certify=self.certify)
-        except StepNotSolved:
-            raise failure from None

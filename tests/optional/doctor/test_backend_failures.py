@@ -2,11 +2,13 @@
 
 import json
 
+import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
 FAILS = (1, 4, 5)
@@ -54,3 +56,37 @@ def test_the_steps_have_the_bits_of_a_backend_that_never_fails(failing):
     ]
     assert runs[0]["q"].tobytes() == runs[1]["q"].tobytes()
     assert runs[1].findings == ()
+
+
+def losing(answer, fails):
+    """The method of a solver, which fails where `fails` says so of its name."""
+
+    def lost(self, both, accuracy):
+        if fails(self.name):
+            raise StepNotSolved(self.name, "lost", both.si_step, accuracy)
+        return answer(self, both, accuracy)
+
+    return lost
+
+
+def kinds(kind):
+    """A class and all that inherit it."""
+    return [kind, *(one for below in kind.__subclasses__() for one in kinds(below))]
+
+
+@pytest.mark.parametrize("fast", [False, True])
+@pytest.mark.parametrize("saved_by", ["clarabel", "none"])
+def test_no_run_under_residual_ends_for_a_backend_that_fails(monkeypatch, fast, saved_by):
+    """Every backend but one fails; the exact method needs none."""
+    exact = qr.load_scenario("block_push", steps=3).run(progress=False)
+    settings = {"solver.backend": "piqp", "solver.certify": "residual"}
+    scenario = qr.load_scenario("block_push", settings, fast=fast, steps=3)
+    for kind in kinds(Solver):
+        own = vars(kind).get("answer")
+        if own is not None:
+            monkeypatch.setattr(kind, "answer", losing(own, lambda name: name != saved_by))
+    run = scenario.run(progress=False)
+    assert (run.digits == 0).all()
+    assert [one.name for one in run.findings] == ["failing backend"]
+    assert set(run.certificate) == {"exact" if saved_by == "none" else "residual"}
+    np.testing.assert_allclose(run.q, exact.q, atol=1e-9)
