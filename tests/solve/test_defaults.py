@@ -9,7 +9,6 @@ import pytest
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.adapters.piqp import Piqp
 from quasistatic_ref.optional.fast.backends import default_backend, sparse_from
@@ -104,7 +103,7 @@ def test_a_failure_of_a_backend_that_is_asked_on_its_own_word_is_that_backend_s(
     monkeypatch.setattr(Piqp, "reply", lambda *_: FAILED)
     settings = ["solver.certify=off", "solver.backend=piqp"]
     scenario = load_scenario("sphere_spin", settings, fast=True)
-    with pytest.raises(StepNotSolved, match="piqp did not solve the step [(]at a loss"):
+    with pytest.raises(StepNotSolved, match="piqp did not solve the step"):
         scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
 
 
