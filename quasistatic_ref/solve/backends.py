@@ -211,7 +211,7 @@ NONE = "none"
 def installed(interface: str) -> tuple[str, ...]:
     """The installed backends, reached by ``"cvxpy"``, ``"qpsolvers"`` or ``"native"``."""
     if interface == "native":
-        return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.name))
+        return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.to_install))
     if interface == "qpsolvers":
         through = part(THROUGH_QPSOLVERS)
         there = () if through is None else through.available_solvers()
