@@ -138,3 +138,29 @@ def test_a_lever_counts_from_1e_9_of_its_terms(share: float, bears: bool) -> Non
     forces = solve_step(step).wrench[:, 2]
     assert any("left out" in said for said in coordinates.left_out) is not bears
     assert forces.tolist() == (pytest.approx([m * GRAVITY * c / e], rel=1e-6) if bears else [])
+
+
+@pytest.mark.parametrize("held", ["<limit/>", '<equality><tendon tendon1="t"/></equality>'])
+@pytest.mark.parametrize(("share", "holds"), [(0.5, False), (2.0, True)])
+def test_a_difference_counts_from_1e_9_of_its_terms(held: str, share: float, holds: bool) -> None:
+    """With x = (1 + e) y, the length x - y of a tendon is e y, a difference of terms 1 + e and 1.
+
+    A row that counts stops the push F on y; else y moves by h^2 F / (m (1 + e)^2 + m).
+    """
+    e = share * FULL_RANK * 2
+    m, push = 2.0, 3.0
+    ball = f'<geom size=".1" mass="{m}" contype="0"/>'
+    cart = '<body><joint name="{}" type="slide" axis="1 0 0"/>' + ball + "</body>"
+    limit = 'range="-1 0"' if "limit" in held else ""
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody>{cart.format("y")}{cart.format("x")}</worldbody>
+        <tendon><fixed name="t" {limit}><joint joint="x" coef="1"/><joint joint="y" coef="-1"/>
+        </fixed></tendon><equality><joint joint1="x" joint2="y" polycoef="0 {1 + e!r} 0 0 0"/>
+        </equality>{held.replace("<limit/>", "")}</mujoco>"""
+    )
+    data = mujoco.MjData(model)
+    data.qfrc_applied[0] = push
+    step, coordinates = mujoco_step(model, data, H)
+    y = (coordinates.T @ solve_step(step).delta_q)[0]
+    assert y == pytest.approx(0.0 if holds else H**2 * push / (m * (1 + e) ** 2 + m), rel=1e-12)
+    assert any("left out" in said for said in coordinates.left_out) is not holds
