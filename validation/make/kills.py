@@ -1,9 +1,9 @@
 """Commands that are killed at random instants: ``python -m validation.make.kills``.
 
-``run``, ``study run``, ``vectors generate`` and ``demo``, small ones, are started and ended by
-SIGKILL, or by SIGINT in every fourth case, ``--count`` times each (500 unless it is said). After
-each the same command is given again, and then, if it is refused, the one that its message names
-(``--resume``), until it ends well. Then the folder must have the same results, to the last bit but
+``run``, ``run --sweep``, ``study run``, ``vectors generate`` and ``demo``, small ones, are started
+and ended by SIGKILL, or by SIGINT in every fourth case, ``--count`` times each (500 unless it is
+said). After each the same command is given again, and then, if it is refused, the one that its
+message names (``--resume``), until it ends well. Then the folder must have the same results, to the last bit but
 for times, as one of a run that was let alone, and nothing else. Of every tenth run a second one is
 started on the same folder. Counts are added to those of the page of before (``--out``); ``--only``
 one command. Exit status 1 if something was lost. Commands run in copies of this process, which has
@@ -26,15 +26,14 @@ from typing import NamedTuple
 
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
+import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.cli.main import main as command
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.formats.npz import npz_record
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.study.store.rows import MACHINE_DEPENDENT
 from quasistatic_ref.lab.study.store.store import STORE, contents
-from tests.errors import texts
 from validation.tools.scripts import asked, shown
 
 COLUMNS = ("killed", "interrupted", "ended before", "resumed", "second ones refused", "lost")
@@ -43,6 +42,19 @@ MOST = 5
 CASES = 2
 """Of each layer of the vectors."""
 RUN = ["run", "sphere_spin", "--set", "steps=40", "--save-every", "0"]
+SWEEP = [*RUN[:3], "steps=10", "--jobs", "1", "--sweep", "h=0.02,0.01"]
+SWEEP += ["--sweep", "contacts.floor.mu_omega=0,0.01"]
+STUDY = """format = "quasistatic-ref/study"
+version = 1
+kind = "solvers"
+time_limit = 20.0
+[problems]
+seed = 3
+scenarios = ["sphere_spin"]
+families = { scenarios = 2 }
+[[runs]]
+solvers = ["qpsolvers:clarabel"]
+"""
 DEMO = ["demo", "--fast", "--set", "h=0.1", "--set", "steps=30"]
 PAGE = """# Commands that are killed at random instants
 
@@ -100,10 +112,9 @@ def digest(folder: Path) -> dict[str, object]:
             continue
         name = path.relative_to(folder).as_posix()
         if path.suffix == ".npz":
-            header, arrays = npz_record(path, "a result")
-            of_time = [key for key in arrays if key.startswith("seconds")]
-            kept = {k: a.tobytes() for k, a in arrays.items() if k not in of_time}
-            found[name] = {"steps": header["steps"], **kept}
+            with np.load(path) as arrays:
+                of_program = [k for k in arrays if not k.startswith(("seconds", "header"))]
+                found[name] = {key: arrays[key].tobytes() for key in of_program}
         elif path.name == STORE:
             rows = contents(folder).rows
             found[name] = [
@@ -120,7 +131,8 @@ def words_of(name: str, folders: Folders) -> list[str]:
     """The command of a name."""
     commands = {
         "run": RUN,
-        "study run": ["study", "run", str(folders.inputs / "sweep.toml"), "--jobs", "1"],
+        "run --sweep": SWEEP,
+        "study run": ["study", "run", str(folders.inputs / "study.toml"), "--jobs", "1"],
         "vectors generate": ["vectors", "generate", "--vectors", str(folders.inputs / "vectors")],
         "demo": DEMO,
     }
@@ -128,8 +140,8 @@ def words_of(name: str, folders: Folders) -> list[str]:
 
 
 def inputs(folder: Path) -> None:
-    """A short sweep, and vectors of a few cases."""
-    (folder / "sweep.toml").write_text(texts.SWEEP)
+    """A short study, and vectors of a few cases."""
+    (folder / "study.toml").write_text(STUDY)
     few = folder / "vectors"
     shutil.copytree(vectors_folder(), few, ignore=shutil.ignore_patterns("expected", "manifest*"))
     for path in (few / "inputs").glob("*.json"):
@@ -207,7 +219,7 @@ def rows_before(out: Path | None) -> dict[str, Counter[str]]:
 def main() -> int:
     """Kill all; exit status 1 if something was lost."""
     tqdm.monitor_interval = 0  # which is a thread
-    names = ("run", "study run", "vectors generate", "demo")
+    names = ("run", "run --sweep", "study run", "vectors generate", "demo")
     options = asked(__doc__, count=500, only="", out=Path)
     rows = rows_before(options.out)
     with tempfile.TemporaryDirectory() as folder:

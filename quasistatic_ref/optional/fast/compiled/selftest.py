@@ -46,7 +46,15 @@ STEP = 0.01
 SIZES = (0, 0, 30, -60, 44, -200, 110, -840)
 """Powers of two of the factors of a sum."""
 SUMS = 160
-LOST = 40
+EXTREME = (
+    (2.0**100, 2.0**100, 2.0**52),
+    (2.0**100, 2.0**100, 2.0**23),
+    (2.0**53, 2.0**80, 1.0, -(2.0**80), 1.0, 1.0, 2.0**50, 1.0, 1.0),
+    (2.0**53, 2.0**80, 1.0, -(2.0**80), 1.0, 1.0, -(2.0**50), 1.0, 1.0),
+)
+"""Factors of sums: a product and a carry beyond the last digit, and numbers next to the middle of
+two float64 numbers, by less than the first two digits show."""
+LOST = 46
 """Of these sums, those with digits beyond the last or below the first."""
 
 
@@ -111,6 +119,9 @@ def factors() -> list[list[float]]:
             one = [2.0**53, unit, 1.0, -unit, 1.0, 1.0, *[0.0] * (3 * TERMS - 6)]
             if k % 16 == 13:
                 one[6:9] = (-1) ** (k // 16) * 2.0**-20, unit, 1.0
+        if k % 16 == 5:
+            few = EXTREME[k // 16 % len(EXTREME)]
+            one = [*few, *[0.0] * (3 * TERMS - len(few))]
         found.append(one)
     return found
 

@@ -35,16 +35,17 @@ void fixed_point(const double *factors, const double *cut, const double *edge, i
                  int64_t terms, double h, int64_t *digits, double *found)
 {
     for (int64_t s = 0; s < sums; s++, factors += 3 * terms, digits += 2 * DIGITS, found += 9) {
-        Sum sum = EMPTY;
+        struct { Sum sum; __int128 behind; } room = {EMPTY, 0}; /* a digit beyond the last shows */
+        Sum *sum = &room.sum;
         Number of[2];
         memset(of, 0x55, sizeof of); /* nothing may depend on digits that are not set */
         lost = 0;
         for (int64_t i = 0; i < terms; i++) {
             Number x = number(exact(factors[3 * i]));
             product(&x, exact(factors[3 * i + 1]), &x);
-            add_product(&sum, &x, exact(factors[3 * i + 2]), i % 2 ? -1 : 1);
+            add_product(sum, &x, exact(factors[3 * i + 2]), i % 2 ? -1 : 1);
         }
-        carried(&sum, of);
+        carried(sum, of);
         of[1] = number(digits_of(cut[s], GRID, 1));
         for (int k = 0; k < 2; k++)
             for (int j = 0; j < DIGITS; j++)
