@@ -3,11 +3,11 @@
 ``run``, ``run --sweep``, ``study run``, ``vectors generate`` and ``demo``, small ones, are started
 and ended by SIGKILL, or by SIGINT in every fourth case, ``--count`` times each (500 unless it is
 said). After each the same command is given again, and then, if it is refused, the one that its
-message names (``--resume``), until it ends well. Then the folder must have the same results, to the last bit but
-for times, as one of a run that was let alone, and nothing else. Of every tenth run a second one is
-started on the same folder. Counts are added to those of the page of before (``--out``); ``--only``
-one command. Exit status 1 if something was lost. Commands run in copies of this process, which has
-one thread and all modules, so that most instants lie in their work.
+message names (``--resume``), until it ends well. Then the folder must have the same results, to the
+last bit but for times, as one of a run that was let alone, and nothing else. Of every tenth run a
+second one is started on the same folder. Counts are added to those of the page of before
+(``--out``); ``--only`` one command. Exit status 1 if something was lost. Commands run in copies of
+this process, which has one thread and all modules, so that most instants lie in their work.
 """
 
 import json
