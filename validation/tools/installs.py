@@ -39,6 +39,8 @@ VIEW = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
 TARGETS = (
     "python -c \"import quasistatic_ref as qr; qr.joint_targets(qr.load_scenario('arm_push'), "
     "'arm/tip', [{'t': 1.0, 'xyz': (0, 0.05, 0), 'relative': True}])\"",
+    f"quasistatic-ref targets {MODELS}/arm_push/arm_push.toml --link arm/tip "
+    f"--poses {MODELS}/arm_push/poses/line.toml",
 )
 ENGINES = ("quasistatic-ref validate mujoco_rows",)
 FAST = (
