@@ -42,7 +42,8 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     target : callable, ndarray of shape (n_q_a,) or (steps, n_q_a), or mapping
         q_bar_a [m, rad, -] as a function of t [s], of (t, q) or of (t, q, last), constant, or step
         by step. A mapping, which a function may return, too, names actuated joints, and bodies
-        with a base, as :meth:`System.placed` does; the others keep their targets of the start.
+        with a base, as :meth:`~quasistatic_ref.model.system.System.placed` does; the others keep
+        their targets of the start.
     steps : int
 
     Raises
