@@ -37,7 +37,7 @@ def made_by_arguments(made: Made) -> Made:
 def _misfit(
     function: Callable[..., Any], arguments: Iterable[Any], named: dict[str, Any]
 ) -> InputError | None:
-    known = [name for name in signature(function).parameters if name != "self"]
+    known = [name for name in signature(function).parameters if name not in ("self", "cls")]
     for name, value in named.items():
         if name not in known:
             return InputError(

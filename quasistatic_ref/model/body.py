@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.formats.given import made_by_arguments
+from quasistatic_ref.formats.given import arguments_checked, made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
@@ -99,6 +99,7 @@ class Body(Plain):
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
 
     @classmethod
+    @arguments_checked
     def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:
         """A homogeneous solid: one link, ``NAME/solid``, with one collision shape.
 

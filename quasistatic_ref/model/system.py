@@ -39,7 +39,14 @@ from quasistatic_ref.model.mass import (
 from quasistatic_ref.model.named import Named
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
-from quasistatic_ref.step.arrays import Array, Indices, checked_array, read_only, whole
+from quasistatic_ref.step.arrays import (
+    Array,
+    Indices,
+    checked_array,
+    checked_numbers,
+    read_only,
+    whole,
+)
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.step.pivots import positive_pivots
 
@@ -435,7 +442,10 @@ class System(Shown):
 
 def _taken(x: ArrayLike, own: Indices, lengths: set[int], name: str) -> Array:
     """Entries of the last axis of an array, without that axis if there is one entry."""
-    x = np.asarray(x, dtype=np.float64)
+    if not isinstance(x, np.ndarray | list | tuple):
+        problem = "must be numbers, one configuration or all of a trajectory, run.q"
+        raise ModelError(problem, field="q", value=x)
+    x = checked_numbers(x, "q", ModelError)
     if x.ndim == 0 or x.shape[-1] not in lengths or own.max() >= x.shape[-1]:
         wanted = " or ".join(map(str, sorted(lengths)))
         problem = f"cannot hold {name}: the last axis must have {wanted} entries"

@@ -109,6 +109,9 @@ def contact_pairs(
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
         rows = value(table, CONTACT, "rows")
         mu_v = value(table, CONTACT, "mu_v")
+        if rows != 4 and "mu_omega" not in table:
+            problem = "is missing; rows = 4 goes without torsional friction"
+            raise table.error_about("mu_omega", problem)
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             problem = "has no effect with rows = 4; set rows = 6, or remove it"

@@ -175,6 +175,9 @@ class Scenario(Plain, Shown):
         InputError
             If anything else is given, such as a field of the scenario.
         """
+        if not isinstance(progress, bool):
+            problem = "must be true or false; steps are set when the scenario is loaded"
+            raise InputError(problem, field="progress", value=progress)
         for name in saving:
             if name not in SAVING:
                 problem = (

@@ -76,7 +76,10 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
         if mover[first] is not None and not connects:
             composite = _composite(file, links, poses)
             if not composite.mass > 0 and defects[0][1] is None:
-                problem = f"is missing, but {mover[first]} moves this link: it needs a mass"
+                problem = (
+                    f"is missing, but {mover[first]} moves this link: it needs a mass, or an "
+                    "actuator at that joint (actuated)"
+                )
                 raise ModelError(problem, field=f"link[{first}].inertial")
             defect = inertia_defect(composite.inertia)
             if defect is not None:
