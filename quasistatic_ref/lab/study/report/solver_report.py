@@ -1,6 +1,6 @@
 """The report on solvers: who solves what share to how many digits in what time, on one screen.
 
-All else stands behind that, section by section.
+All else stands behind that, section by section. The paragraphs are in ``words.md``.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,7 @@
-"""A study that goes on in its folder: what may have changed since it was begun, and what not."""
+"""A study that goes on in its folder: what may have changed since it was begun, and what not.
+
+Rows that are there are skipped in ``measuring/run.py``.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

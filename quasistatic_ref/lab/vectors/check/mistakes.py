@@ -1,5 +1,6 @@
 """Classic mistakes, recognised by what a program that makes them would have answered.
 
+``mistakes.toml`` has their names and formulas, and ``table.py`` reads it.
 Each known mistake is tried on the failing answers of a layer. It is named if it predicts at least
 half of them to within a multiple of their tolerance where the right answer is another, and more of
 them than right answers that it would have made wrong.

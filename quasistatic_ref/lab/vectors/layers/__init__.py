@@ -1,6 +1,7 @@
 """The layers of the model, each one module with `expected` and `own`, loaded when it is used.
 
-`expected` is the oracle, and `own` one of the programs that are held against it. The oracle is
+`expected` is the oracle, with the tolerance of each field, and `own` one of the programs that are
+held against it. The oracle is
 
 - in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``, and for poses, tangents,
   H, g and forces of a ``step``: the plain program (``lab/program``) over exact numbers. Against it,
