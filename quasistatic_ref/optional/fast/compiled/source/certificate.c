@@ -138,11 +138,12 @@ static void pressed(Proof *s, Room *m)
     }
 }
 
-/* delta_q and A'lam, rounded. Coordinates that are not surely other than zero are collected. */
+/* delta_q and A'lam, rounded. What is not surely other than zero is collected. */
 static void rounded(Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working;
     double rho = s->units[1];
+    m->balances = 0;
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
         s->delta_q[v] = s->net[v] = 0.0;
@@ -164,7 +165,9 @@ static void rounded(Proof *s, Room *m)
         else
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
-        if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v))
+        if (error > 0.0 && fabs(value(&net)) * DOWN <= error * UP)
+            m->balanced[m->balances++] = v;
+        else if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v))
             m->open = 1;
     }
 }
@@ -187,21 +190,31 @@ void refined(const Proof *s, Room *m, int bits)
         m->rest[i] = value(m->r + i) * UP;
 }
 
-static int proved(Proof *s, Room *m)
+/* The system of the working set, and its inverse in float64: DECIDED if there is one. */
+int regular(const Proof *s, Room *m)
 {
-    int code = OPEN_NUMBER;
-    int64_t n = s->n_v, N = n + s->working;
-    lost = 0;
-    load(s, m->g);
+    int64_t N = s->n_v + s->working;
     system_of(s, m);
-    for (int64_t i = 0; i < N; i++)
-        m->r[i] = i < n ? m->g[i] : m->b[i - n];
     memcpy(m->R, m->K, (size_t)(N * N) * sizeof(double));
     if (lost)
         return LOST;
     if (!inverse(m->R, N, m->pivot))
         return SINGULAR;
     defect(m->R, m->K, N, m->G, m->e);
+    return DECIDED;
+}
+
+static int proved(Proof *s, Room *m)
+{
+    int64_t n = s->n_v, N = n + s->working;
+    lost = 0;
+    load(s, m->g);
+    int code = regular(s, m);
+    if (code != DECIDED)
+        return code;
+    for (int64_t i = 0; i < N; i++)
+        m->r[i] = i < n ? m->g[i] : m->b[i - n];
+    code = OPEN_NUMBER;
     for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;
@@ -221,36 +234,43 @@ static int proved(Proof *s, Room *m)
     return lost ? LOST : code;
 }
 
-/* Whether the guess is proved to be a working set of the optimum: DECIDED, or why it is not. */
-int proof(Proof *s)
+/* Room for one proof, to be freed; NULL if there is none. */
+void *room_of(const Proof *s, Room *m)
 {
     size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
     size_t rows = (size_t)s->rows, numbers = 2 * n + k * n + k + 2 * N, doubles = 3 * N * N + 2 * N;
-    size_t integers = (k + 1) * width + N + rows;
+    size_t integers = (k + 1) * width + N + rows + n;
     size_t bytes = numbers * sizeof(Number) + N * sizeof(Float) + doubles * sizeof(double)
                  + integers * sizeof(int64_t) + n;
     char *at = calloc(bytes, 1);
-    s->code = NO_MEMORY;
     if (!at)
-        return NO_MEMORY;
+        return NULL;
+    m->g = (Number *)at;
+    m->net = m->g + n;
+    m->A = m->net + n;
+    m->b = m->A + k * n;
+    m->z = m->b + k;
+    m->r = m->z + N;
+    m->change = (Float *)(m->r + N);
+    m->K = (double *)(m->change + N);
+    m->R = m->K + N * N;
+    m->G = m->R + N * N;
+    m->rest = m->G + N * N;
+    m->e = m->rest + N;
+    m->table = (int64_t *)(m->e + N);
+    m->pivot = m->table + (k + 1) * width;
+    m->others = m->pivot + N;
+    m->balanced = m->others + rows;
+    m->rests = (char *)(m->balanced + n);
+    return at;
+}
+
+/* Whether the guess is proved to be a working set of the optimum: DECIDED, or why it is not. */
+int proof(Proof *s)
+{
     Room m;
-    m.g = (Number *)at;
-    m.net = m.g + n;
-    m.A = m.net + n;
-    m.b = m.A + k * n;
-    m.z = m.b + k;
-    m.r = m.z + N;
-    m.change = (Float *)(m.r + N);
-    m.K = (double *)(m.change + N);
-    m.R = m.K + N * N;
-    m.G = m.R + N * N;
-    m.rest = m.G + N * N;
-    m.e = m.rest + N;
-    m.table = (int64_t *)(m.e + N);
-    m.pivot = m.table + (k + 1) * width;
-    m.others = m.pivot + N;
-    m.rests = (char *)(m.others + rows);
-    s->code = proved(s, &m);
-    free(at);
+    void *room = room_of(s, &m);
+    s->code = room ? proved(s, &m) : NO_MEMORY;
+    free(room);
     return (int)s->code;
 }

@@ -63,7 +63,8 @@ typedef struct {
     Number *g, *A, *b, *z, *r, *net;
     Float *change;
     double *K, *R, *G, *rest, *e;
-    int64_t *table, *pivot, *others;
+    int64_t *table, *pivot, *others, *balanced;
+    int64_t balances; /* how many entries of A'lam may be zero by cancellation: `balanced` */
     char *rests;
     int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
 } Room;
@@ -86,6 +87,9 @@ int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out);
+int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight);
+void *room_of(const Proof *s, Room *m);
+int regular(const Proof *s, Room *m);
 int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others);
 int zeros(Proof *s, Room *m);
 void refined(const Proof *s, Room *m, int bits);

@@ -1,5 +1,5 @@
 /* Other guesses of a working set: independent rows of one that has too many, and where walks in
-   float64 lead from one that is wrong.
+   float64 lead from one that is wrong. And by walks, which rows without slack some motion opens.
 
    A backend does not see rows that are violated by less than its tolerance, nor multipliers of the
    size of rounding, of which bodies at rest on each other have many. The proof of a guess does: it
@@ -24,7 +24,7 @@ enum { WALKS = 1000 }; /* rows that are added from one proof to the next, at mos
 
 typedef struct {
     const Proof *s;
-    int64_t n, k;              /* coordinates; rows of the working set */
+    int64_t n, k, fixed;       /* coordinates; rows of the working set, and those that stay in it */
     int64_t *working;
     double *lam;
     double *slack, *noise;     /* of all rows; a slack may be wrong by about the noise */
@@ -167,15 +167,22 @@ static int64_t violated(const Walk *w)
     return most;
 }
 
+/* The change of a multiplier up to which it is none. */
+static double rounded_off(const Walk *w)
+{
+    double fastest = 0.0;
+    for (int64_t i = 0; i < w->k; i++)
+        fastest = fmax(fastest, fabs(w->falls[i]));
+    return NO_FALL * fastest;
+}
+
 /* Which multiplier is the first to vanish as some row presses, and when; -1 if none falls. */
 static int64_t first_to_vanish(const Walk *w, double *when)
 {
     int64_t first = -1;
-    double fastest = 0.0;
-    for (int64_t i = 0; i < w->k; i++)
-        fastest = fmax(fastest, fabs(w->falls[i]));
-    for (int64_t i = 0; i < w->k; i++)
-        if (w->falls[i] > NO_FALL * fastest && w->lam[i] / w->falls[i] < *when) {
+    double least = rounded_off(w);
+    for (int64_t i = w->fixed; i < w->k; i++)
+        if (w->falls[i] > least && w->lam[i] / w->falls[i] < *when) {
             *when = w->lam[i] / w->falls[i];
             first = i;
         }
@@ -241,51 +248,96 @@ static int chosen(Walk *w)
     return 1;
 }
 
-/* The guess at which walks from a refuted one end; 0 if they do not. */
-static int walked(Walk *w)
+/* The guess with its multipliers; 0 if its rows depend on each other in float64. */
+static int begun(Walk *w)
 {
     const Proof *s = w->s;
-    memcpy(w->slack, s->slack, (size_t)s->rows * sizeof(double));
     for (int64_t i = 0; i < s->working; i++) {
         double square = reached(w, s->guess[i]);
         if (!joined(w, s->guess[i], s->lam[s->guess[i]], taken_over(w, square)))
             return 0;
     }
-    without_what_pulls(w);
+    return 1;
+}
+
+/* Walks until no row is violated: -1; or a row that stays so; w->k of more walks than WALKS. */
+static int64_t ended(Walk *w)
+{
     for (int64_t p, count = 0; (p = violated(w)) >= 0; count++)
         if (count == WALKS || !added(w, p))
-            return 0;
-    return 1;
+            return p;
+    return -1;
+}
+
+/* The guess at which walks from a refuted one end; 0 if they do not. */
+static int walked(Walk *w)
+{
+    memcpy(w->slack, w->s->slack, (size_t)w->s->rows * sizeof(double));
+    if (!begun(w))
+        return 0;
+    without_what_pulls(w);
+    return ended(w) < 0;
+}
+
+/* Room for walks; NULL if there is none. */
+static void *room_for(Walk *w)
+{
+    size_t n = (size_t)w->n, rows = (size_t)w->s->rows;
+    double *at = calloc((n + 1) * n + 7 * n + 2 * rows, sizeof(double));
+    w->L = at;
+    w->lam = w->L + (n + 1) * n;
+    w->towards = w->lam + n;
+    w->falls = w->towards + n;
+    w->push = w->falls + n;
+    w->size = w->push + n;
+    w->along = w->size + n;
+    w->slack = w->along + n;
+    w->noise = w->slack + rows;
+    w->working = (int64_t *)(w->noise + rows);
+    return at;
 }
 
 /* Another guess, which such a function makes; 0 if it makes none. */
 static int replaced(Proof *s, int (*made)(Walk *))
 {
-    size_t n = (size_t)s->n_v, rows = (size_t)s->rows;
-    double *at = calloc((n + 1) * n + 7 * n + 2 * rows, sizeof(double));
-    if (!at)
-        return 0;
     Walk w = {.s = s, .n = s->n_v};
-    w.L = at;
-    w.lam = w.L + (n + 1) * n;
-    w.towards = w.lam + n;
-    w.falls = w.towards + n;
-    w.push = w.falls + n;
-    w.size = w.push + n;
-    w.along = w.size + n;
-    w.slack = w.along + n;
-    w.noise = w.slack + rows;
-    w.working = (int64_t *)(w.noise + rows);
-    int done = made(&w);
+    void *room = room_for(&w);
+    int done = room && made(&w);
     if (done) {
         memcpy(s->guess, w.working, (size_t)w.k * sizeof(int64_t));
         qsort(s->guess, (size_t)w.k, sizeof(int64_t), ascending);
         s->working = w.k;
     }
-    free(at);
+    free(room);
     return done;
 }
 
 int independent(Proof *s) { return replaced(s, chosen); }
 
 int mended(Proof *s) { return replaced(s, walked); }
+
+/* Whether some v with A_W v = 0 opens all of some rows: -1, v being the least such motion, and the
+   weights those of the rows in H v. Or one of the rows: with those that have a weight, its own being
+   1, it comes to a combination of W's rows. All by walks in float64. */
+int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight)
+{
+    Walk w = {.s = s, .n = s->n_v};
+    void *room = room_for(&w);
+    int64_t last = -1;
+    int regular = room && begun(&w);
+    w.fixed = w.k;
+    for (int64_t r = 0; regular && r < s->rows; r++)
+        w.slack[r] = INFINITY;
+    for (int64_t i = 0; regular && i < count; i++)
+        w.slack[rows[i]] = -sqrt(reached(&w, rows[i]));
+    if (regular)
+        last = ended(&w);
+    for (int64_t i = 0; i < count; i++) {
+        weight[i] = rows[i] == last;
+        for (int64_t j = w.fixed; regular && j < w.k; j++)
+            if (w.working[j] == rows[i] && (last < 0 || -w.falls[j] > rounded_off(&w)))
+                weight[i] = last < 0 ? w.lam[j] : -w.falls[j];
+    }
+    free(room);
+    return last;
+}

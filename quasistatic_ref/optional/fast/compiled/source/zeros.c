@@ -12,8 +12,6 @@
 #define P (((uint64_t)1 << BITS) - 5)
 #define FIFTH 0xCCCCCCCCCCCCCDu /* 5 FIFTH = 1 modulo 2^56 */
 
-enum { SUMS = 12 }; /* that are tried */
-
 typedef unsigned __int128 Wide;
 
 typedef struct {
@@ -21,7 +19,7 @@ typedef struct {
     const Room *m;
     int64_t N, others; /* unknowns; rows outside of the working set */
     uint64_t *LU, *d;  /* factors of K modulo p; one digit of each unknown, behind what is solved for */
-    int64_t *order, *weight, *sign; /* of the rows of K in LU; of the other rows */
+    int64_t *order; /* of the rows of K in LU */
     Float *digit;
     Number *r, *A, *b; /* residuals, those of the other rows too; the other rows and their b */
 } Lifting;
@@ -237,152 +235,199 @@ static int vanish(Lifting *l, const int64_t *still, int64_t count)
     return !lost;
 }
 
-/* v with hH v - A_W'y = s and A_W v = 0, s being in r: which of the other rows v opens (1), closes
-   (-1), or moves too little to be told (0); 0 if v is not found. */
-static int moved(const Lifting *l, Room *m)
+/* The solution of hH v - A_W'y = a and A_W v = 0 is asked for next. */
+static void pressed_by(const Lifting *l, const Number *a, Number *r)
 {
-    int64_t n = l->s->n_v, N = l->N;
-    memcpy(m->r, l->r, (size_t)N * sizeof(Number));
-    memset(m->z, 0, (size_t)N * sizeof(Number));
+    memset(r, 0, (size_t)l->N * sizeof(Number));
+    memcpy(r, a, (size_t)l->s->n_v * sizeof(Number));
+}
+
+/* Whether W spans a row: v is zero then. */
+static int spanned(Lifting *l, const Number *a)
+{
+    l->others = 0;
+    pressed_by(l, a, l->r);
+    return vanish(l, NULL, l->s->n_v);
+}
+
+/* v and y within m->e; 0 if that is not shown. */
+static int found(const Lifting *l, Room *m, const Number *a)
+{
+    pressed_by(l, a, m->r);
+    memset(m->z, 0, (size_t)l->N * sizeof(Number));
     refined(l->s, m, REFINED);
-    if (lost || !error_bounds(m->R, m->G, m->rest, N, m->e))
-        return 0;
-    for (int64_t i = 0; i < l->others; i++) {
+    return !lost && error_bounds(m->R, m->G, m->rest, l->N, m->e);
+}
+
+/* The weighted sum of some rows, n Numbers each; of the weights 30 bits are taken. */
+static void summed(const Number *rows, const double *weight, int64_t count, int64_t n, Number *out)
+{
+    double most = 0.0;
+    Sum sum = EMPTY;
+    for (int64_t i = 0; i < count; i++)
+        most = fmax(most, weight[i]);
+    for (int64_t v = 0; v < n; v++) {
+        for (int64_t i = 0; i < count; i++)
+            add_product(&sum, rows + i * n + v, exact(rint(0x1p30 * weight[i] / most)), 1);
+        carried(&sum, out + v);
+    }
+}
+
+/* Whether v, which is found, surely opens all of some rows. */
+static int opened(const Room *m, const Number *rows, int64_t count, int64_t n)
+{
+    int all = 1;
+    for (int64_t i = 0; i < count; i++) {
         double along = 0.0, error = 0.0;
         for (int64_t v = 0; v < n; v++) {
-            double a = value(l->A + i * n + v), x = value(m->z + v);
+            double a = value(rows + i * n + v), x = value(m->z + v);
             along += a * x;
             error += fabs(a) * (m->e[v] + fabs(x) * 0x1p-40);
         }
-        l->sign[i] = (along * DOWN > error * UP) - (-along * DOWN > error * UP);
+        all &= along * DOWN > error * UP;
     }
-    return 1;
-}
-
-/* The residuals of A_W v = 0 and the weighted sum of the other rows. */
-static void summed(Lifting *l, const int64_t *weight)
-{
-    int64_t n = l->s->n_v;
-    Sum sum = EMPTY;
-    memset(l->r, 0, (size_t)(l->N + l->others) * sizeof(Number));
-    for (int64_t v = 0; v < n; v++) {
-        for (int64_t i = 0; i < l->others; i++)
-            add_product(&sum, l->A + i * n + v, exact((double)weight[i]), 1);
-        carried(&sum, l->r + v);
-    }
-}
-
-/* Whether all coordinates of the solution vanish, whatever the other rows do. */
-static int spanned(Lifting *l)
-{
-    int64_t others = l->others;
-    l->others = 0;
-    int all = vanish(l, NULL, l->s->n_v);
-    l->others = others;
     return all;
 }
 
-/* Keep the other rows whose sign is this one. */
-static void only(Lifting *l, int64_t sign)
+/* Room for the lifting of a system, with so many other rows, to be freed; NULL if there is none. */
+static void *lifting(Lifting *l, const Proof *s, const Room *m, int64_t others)
 {
-    int64_t n = l->s->n_v, kept = 0;
-    for (int64_t i = 0; i < l->others; i++)
-        if (l->sign[i] == sign) {
-            memmove(l->A + kept * n, l->A + i * n, (size_t)n * sizeof(Number));
-            l->weight[kept++] = 1;
-        }
-    l->others = kept;
+    size_t n = (size_t)s->n_v, N = n + (size_t)s->working, count = (size_t)others;
+    size_t numbers = N + 2 * count + count * n;
+    char *at = malloc(numbers * sizeof(Number) + N * sizeof(Float) + (N * N + 2 * N) * sizeof(uint64_t));
+    l->s = s;
+    l->m = m;
+    l->N = (int64_t)N;
+    l->others = others;
+    l->r = (Number *)at;
+    l->b = l->r + N + count;
+    l->A = l->b + count;
+    l->digit = (Float *)(l->A + count * n);
+    l->LU = (uint64_t *)(l->digit + N);
+    l->d = l->LU + N * N;
+    l->order = (int64_t *)(l->d + N);
+    return at;
 }
 
-/* Whether the sum of the other rows is spanned; if it is not, without the rows that are. */
-static int all_active(Lifting *l)
+/* E: rows without slack of which it is open whether some motion opens them. */
+typedef struct {
+    int64_t count, *row;
+    Number *A;
+    double *weight;
+} Rows;
+
+static void left_out(Rows *E, int64_t i, int64_t n)
 {
-    int64_t *weight = l->weight, count = l->others;
-    for (int64_t i = 0; i < count; i++)
-        weight[i] = 1;
-    summed(l, weight);
-    if (spanned(l))
-        return 1;
-    memset(weight, 0, (size_t)count * sizeof(int64_t));
-    for (int64_t i = 0; i < count; i++) {
-        weight[i] = 1;
-        summed(l, weight);
-        l->sign[i] = spanned(l);
-        weight[i] = 0;
+    int64_t after = --E->count - i;
+    memmove(E->row + i, E->row + i + 1, (size_t)after * sizeof(int64_t));
+    memmove(E->weight + i, E->weight + i + 1, (size_t)after * sizeof(double));
+    memmove(E->A + i * n, E->A + (i + 1) * n, (size_t)(after * n) * sizeof(Number));
+}
+
+static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum);
+
+/* The same for W and the rows of E that have a weight, but one, the last: these with it, times
+   positive numbers, come to a combination of W's rows. */
+static int joined(Proof *s, Rows *E, int64_t last, Number *sum)
+{
+    Proof wider = *s;
+    Room m;
+    Lifting l;
+    int64_t n = s->n_v, k = s->working, code = OPEN_CLAIM;
+    int64_t *guess = malloc((size_t)(k + E->count) * sizeof(int64_t));
+    void *room = NULL, *digits = NULL;
+    wider.guess = guess;
+    if (guess) {
+        memcpy(guess, s->guess, (size_t)k * sizeof(int64_t));
+        for (int64_t i = E->count - 1; i >= 0; i--)
+            if (E->row[i] == last || E->weight[i] > 0.0) {
+                if (E->row[i] == last)
+                    memcpy(sum, E->A + i * n, (size_t)n * sizeof(Number));
+                else
+                    guess[wider.working++] = E->row[i];
+                left_out(E, i, n);
+            }
+        room = wider.working <= n ? room_of(&wider, &m) : NULL;
     }
-    only(l, 0);
-    return 0;
+    if (room && regular(&wider, &m) == DECIDED)
+        digits = lifting(&l, &wider, &m, 0);
+    if (digits && factored(&l) && spanned(&l, sum) && found(&l, &m, sum)) {
+        int positive = 1;
+        for (int64_t w = n + k; w < l.N; w++) /* `last` and A'y come to zero */
+            positive &= value(m.z + w) * DOWN > m.e[w];
+        s->claims[0] = s->claims[0] && !positive;
+        code = positive ? settled(&wider, &m, &l, E, sum) : OPEN_CLAIM;
+    }
+    free(digits);
+    free(room);
+    free(guess);
+    return (int)code;
 }
 
-/* What E, the other rows, all without slack, mean: docs/proofs.md. Rows that v does not open count
-   more in the next sum, by which v is found. */
-static int claimed(Proof *s, Room *m, Lifting *l)
+/* What E means: docs/proofs.md. */
+static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum)
 {
-    int64_t closed = 1, left = 1;
-    if (all_active(l))
+    int64_t n = s->n_v;
+    for (int64_t i = 0; i < E->count; i++)
+        E->weight[i] = 1.0;
+    summed(E->A, E->weight, E->count, n, sum);
+    if (spanned(l, sum)) {
+        s->claims[0] = s->claims[0] && !E->count;
         return DECIDED;
-    s->claims[0] = s->counts[0] == l->others;
-    for (int round = 0; round < SUMS && (closed || left); round++) {
-        summed(l, l->weight);
-        if (round && spanned(l)) {
-            s->claims[0] = 0;
-            return DECIDED;
-        }
-        summed(l, l->weight);
-        if (!moved(l, m))
-            return OPEN_CLAIM;
-        closed = left = 0;
-        for (int64_t i = 0; i < l->others; i++) {
-            closed += l->sign[i] < 0;
-            left += l->sign[i] == 0;
-            l->weight[i] += l->sign[i] <= 0;
-        }
     }
+    for (int64_t i = E->count - 1; i >= 0; i--)
+        if (spanned(l, E->A + i * n)) {
+            s->claims[0] = 0;
+            left_out(E, i, n);
+        }
+    int64_t last = closed(s, E->row, E->count, E->weight);
+    if (last >= 0)
+        return joined(s, E, last, sum);
+    summed(E->A, E->weight, E->count, n, sum);
     s->claims[1] = 0;
-    if (closed || !left)
-        return closed ? OPEN_CLAIM : DECIDED;
-    only(l, 0);
-    s->claims[0] = 0;
-    return vanish(l, NULL, 0) && all_active(l) ? DECIDED : OPEN_CLAIM;
+    return found(l, m, sum) && opened(m, E->A, E->count, n) ? DECIDED : OPEN_CLAIM;
 }
 
-/* The claims of the `others`, which do not follow from how the rows of contacts are combined. */
-static int decided(Proof *s, Room *m, Lifting *l, const int64_t *others)
+/* Whether all that may be zero is, and what the others mean, which are rows that do not follow from how
+   the rows of contacts are combined; A'lam is zero where (hH)x = hg. */
+static int decided(Proof *s, Room *m, Lifting *l, int64_t count)
 {
     int64_t n = s->n_v, N = l->N;
-    for (int64_t i = 0; i < l->others; i++)
-        row_of(s, others[i], l->A + i * n, l->b + i);
+    for (int64_t i = 0; i < l->others; i++) {
+        int64_t v = i < count ? 0 : m->balanced[i - count];
+        if (i < count)
+            row_of(s, m->others[i], l->A + i * n, l->b + i);
+        else {
+            memcpy(l->A + i * n, (const Number *)s->hessian + v * n, (size_t)n * sizeof(Number));
+            l->b[i] = m->g[v];
+        }
+    }
     for (int64_t i = 0; i < N + l->others; i++)
         l->r[i] = i < n ? m->g[i] : i < N ? m->b[i - n] : l->b[i - N];
     if (!factored(l) || !vanish(l, s->still, s->counts[1]))
         return OPEN_NUMBER;
-    return l->others ? claimed(s, m, l) : DECIDED;
+    if (!count)
+        return DECIDED;
+    Rows E = {count, m->others, l->A, calloc((size_t)count, sizeof(double))};
+    Number *sum = malloc((size_t)n * sizeof(Number));
+    s->claims[0] = s->counts[0] == count;
+    int code = E.weight && sum ? settled(s, m, l, &E, sum) : NO_MEMORY;
+    free(E.weight);
+    free(sum);
+    return code;
 }
 
 /* Whether all that may be zero is: DECIDED, with the claims. */
 int zeros(Proof *s, Room *m)
 {
-    size_t n = (size_t)s->n_v, N = n + (size_t)s->working;
-    Lifting l = {.s = s, .m = m, .N = (int64_t)N};
+    Lifting l;
     s->claims[0] = s->counts[0] == 0;
     s->claims[1] = 1;
-    l.others = unspanned(s, m->table, m->pivot, m->others);
-    if (!l.others && !s->counts[1])
+    int64_t count = unspanned(s, m->table, m->pivot, m->others);
+    if (!count && !s->counts[1] && !m->balances)
         return DECIDED;
-    size_t others = (size_t)l.others, numbers = N + 2 * others + others * n;
-    char *at = malloc(numbers * sizeof(Number) + N * sizeof(Float) + (N * N + 2 * N + 2 * others) * sizeof(uint64_t));
-    if (!at)
-        return NO_MEMORY;
-    l.r = (Number *)at;
-    l.b = l.r + N + others;
-    l.A = l.b + others;
-    l.digit = (Float *)(l.A + others * n);
-    l.LU = (uint64_t *)(l.digit + N);
-    l.d = l.LU + N * N;
-    l.order = (int64_t *)(l.d + N);
-    l.weight = l.order + N;
-    l.sign = l.weight + others;
-    int code = decided(s, m, &l, m->others);
-    free(at);
+    void *room = lifting(&l, s, m, count + m->balances);
+    int code = room ? decided(s, m, &l, count) : NO_MEMORY;
+    free(room);
     return code;
 }
