@@ -1,6 +1,7 @@
 """Steps that are degenerate by construction: C and the exact method agree in every bit and claim.
 
 Run ``python -m validation.make.degenerate_bits --out FILE`` (``--random`` is the number of steps).
+With ``--first`` N a run goes on from step N, and adds to what the file says of the steps before.
 Boxes stand on each other and on a floor, some between two walls, with equal gaps everywhere. Some
 contacts occur twice, some forces are zero, and pushes are along an axis. So most slacks and
 coordinates are exactly zero, or tie exactly. Of each step the exact method finds the optimum from
@@ -32,6 +33,8 @@ CORNERS = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)], dtype=np.float64)
 UP, RIGHT, LEFT = (X, Y, Z), (Y, Z, X), (Z, Y, -X)
 """Frames (d1, d2, n) of a floor, and of walls to the left and to the right of a box."""
 COLUMNS = ("optima", "infeasible", "proved", "left open", "unique", "differentiable", "one less")
+
+SAME = "What C proved has the bits and claims of the exact method."
 
 
 def degenerate_step(seed: int) -> StepData:
@@ -104,16 +107,28 @@ def outcomes(seeds: range) -> Iterator[tuple[Counter[str], list[str]]]:
         yield from pool.map(faults, seeds, chunksize=64)
 
 
+def before(page: str) -> tuple[dict[str, int], list[str]]:
+    """The numbers of a page, and what it says is wrong."""
+    lines = page.splitlines()
+    numbers = [line.rsplit(maxsplit=1) for line in lines[: len(COLUMNS)]]
+    return {name: int(number) for name, number in numbers}, [
+        line for line in lines[len(COLUMNS) :] if line != SAME
+    ]
+
+
 def main() -> int:
     """Compare, print and write the table; exit status 1 if anything differs."""
-    options = asked(__doc__, random=100_000, out=Path)
+    options = asked(__doc__, first=0, random=100_000, out=Path)
     found = Counter[str]()
     wrong = list[str]()
-    for counts, words in outcomes(range(options.random)):
+    if options.first:
+        counts, wrong = before(options.out.read_text())
+        found.update(counts)
+    for counts, words in outcomes(range(options.first, options.first + options.random)):
         found.update(counts)
         wrong += words
     lines = [f"{name:16}{found[name]:>8}" for name in COLUMNS]
-    lines += wrong or ["What C proved has the bits and claims of the exact method."]
+    lines += wrong or [SAME]
     shown("\n".join(lines), options.out)
     return int(bool(wrong))
 
