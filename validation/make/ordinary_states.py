@@ -2,9 +2,9 @@
 
 Run ``python -m validation.make.ordinary_states --out FILE`` (four minutes). There many numbers are
 exactly zero. Cubes on a floor, each with four contacts, with and without torsion; many separate
-cubes, pushed askew; stacks of five. ``--other`` FOLDER, another checkout, is measured in turn, scene
-by scene, each in a process of its own. A scene's steps with and without a certificate take turns,
-too. Processor time, so that other programs hardly matter.
+cubes, pushed askew; stacks of five. ``--other`` FOLDER, another checkout, is measured in turn,
+scene by scene, each in a process of its own. A scene's steps with and without a certificate take
+turns, too. Processor time, so that other programs hardly matter.
 """
 
 import json
