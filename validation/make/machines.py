@@ -80,8 +80,7 @@ PLAIN = kernel("Prescott") | {"NPY_DISABLE_CPU_FEATURES": VECTORS}
 
 def shuffled(seed: int) -> tuple[str, ...]:
     """The options of pytest for a random order of files, and of the tests within each."""
-    plugin = ("-p", "random_order.plugin", "--random-order")
-    return (*plugin, f"--random-order-seed={seed}")
+    return ("--random-order", f"--random-order-seed={seed}")
 
 
 MACHINES = {
