@@ -136,11 +136,11 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
     "PCD: columns of 10^9 numbers": ("cloud, pcd", PCD.format(10**9, 3, "ascii").encode()),
     "NPY: an array of 10^18 numbers": ("cloud, npy", npy_header("(1000000000000000000, 3)")),
     "NPY: an array of objects": ("cloud, npy", npy_header("(3,)", "|O") + b"cos\nsystem\n"),
-    "NPZ: 8 GiB of zeros": ("cloud, npz", lambda: packed_zeros("points.npy", 8 << 30)),
+    "NPZ: 1 GiB of zeros": ("cloud, npz", lambda: packed_zeros("points.npy", 1 << 30)),
     "NPZ: 60,000 arrays": (
         "trajectory", lambda: zip_bytes([(f"{i}.npy", npy_header("(0,)")) for i in range(60000)]),
     ),
-    "NPZ: a trajectory of 8 GiB": ("trajectory", lambda: packed_zeros("header.npy", 8 << 30)),
+    "NPZ: a trajectory of 1 GiB": ("trajectory", lambda: packed_zeros("header.npy", 1 << 30)),
     "JSON: a million brackets": ("step", b"[" * 10**6),
     "JSON: a number of a million digits": ("step", f'{STEP}"M_u": {"9" * 10**6}}}'.encode()),
     "JSON: 10 million coordinates": (

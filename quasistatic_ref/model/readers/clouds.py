@@ -18,6 +18,8 @@ from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
+MOST_LINES = 1_000_000
+"""Most lines of a text, which take 5 s."""
 Lines = Iterator[tuple[int, str]]
 """Lines of a text with their numbers."""
 Point = tuple[int, Sequence[str]]
@@ -75,6 +77,9 @@ def _checked(given: list[list[float]] | Array) -> Array:
 def _of_lines(path: Path, words_of: Callable[[Lines], Iterator[Point]]) -> list[list[float]]:
     """Points of a text: what the words of each are is a matter of its format."""
     lines = text_of(bytes_read(path, ModelError), path, ModelError).splitlines()
+    if len(lines) > MOST_LINES:
+        problem = f"holds more than {MOST_LINES} lines; write it in NumPy's format, .npy"
+        raise ModelError(problem, file=path, value=len(lines))
     return [_numbers(*point) for point in words_of(enumerate(lines, start=1))]
 
 

@@ -252,3 +252,10 @@ def test_a_defect_is_one_sentence_that_names_the_file(
     with pytest.raises(ModelError, match=words) as caught:
         point_cloud(path)
     assert str(caught.value).startswith(f"{path}: ")
+
+
+def test_a_text_of_too_many_lines_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "c.xyz"
+    path.write_bytes(b"\n" * 1_000_001)
+    with pytest.raises(ModelError, match=r"c.xyz: holds more than 1000000 lines; .* \.npy"):
+        point_cloud(path)
