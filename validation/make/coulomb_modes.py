@@ -1,6 +1,7 @@
 """Planar steps under Coulomb's law: ``python -m validation.make.coulomb_modes --out FILE``.
 
-Each of ``--steps`` random steps (ten minutes for 2500, ``--jobs`` at once) is taken by
+Each of ``--steps`` random steps (half an hour for 2500, ``--jobs`` at once; records are kept with
+``--log``, and a run that was stopped goes on from them) is taken by
 `coulomb_step`, and its solutions are counted by `coulomb_solutions`. An enumeration in fractions,
 which shares no code with the package, says what is right: how many solutions there are, each
 isolated one to the last bit, and whether the step that was taken is one of them. The page says how
@@ -19,7 +20,7 @@ from tqdm import tqdm
 
 from quasistatic_ref.errors import NoCoulombSolution, StepInfeasible
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import results, workers
+from quasistatic_ref.lab.parallel import Log, Record, results, workers
 from quasistatic_ref.optional.coulomb.fixed_point import (
     MOST,
     coulomb_step,
@@ -104,28 +105,32 @@ def iterated(step: StepData) -> bool:
     return False
 
 
-def told(i: int) -> tuple[int, str, bool, str]:
-    """A step by its number, its count, whether the iteration misses it, and what is wrong."""
+def told(i: int) -> Record:
+    """A step by its number: its count, whether the iteration misses it, and what is wrong."""
     step = planar_step(np.random.default_rng([0, i]), KINDS[i % len(KINDS)])
     count, wrong = judged(step)
-    return i, count, count != "none" and not iterated(step), wrong
+    missed = count != "none" and not iterated(step)
+    return {"step": i, "count": count, "missed": missed, "wrong": wrong}
 
 
 def main() -> int:
     """Write the page; exit status 1 if anything is wrong."""
-    options = asked(__doc__, steps=2500, jobs=2, out=Path)
+    options = asked(__doc__, steps=2500, jobs=2, log=Path, out=Path)
+    log = Log(options.log, lambda record: record["step"])
+    tasks = [(i,) for i in range(options.steps) if i not in log.found]
+    with workers(options.jobs) as executor:
+        for record in tqdm(results(executor, options.jobs, told, tasks), total=len(tasks)):
+            log.add(record)
     rows = {kind: Counter[str]() for kind in KINDS}
     found = []
-    tasks = [(i,) for i in range(options.steps)]
-    with workers(options.jobs) as executor:
-        every = results(executor, options.jobs, told, tasks)
-        for i, count, missed, wrong in tqdm(every, total=len(tasks)):
-            row = rows[KINDS[i % len(KINDS)]]
-            row[count] += 1
-            row["not found before"] += missed
-            row["wrong"] += bool(wrong)
-            if wrong:
-                found.append(f"- step {i}: {wrong}")
+    for i in range(options.steps):
+        one = log.found[i]
+        row = rows[KINDS[i % len(KINDS)]]
+        row[one["count"]] += 1
+        row["not found before"] += one["missed"]
+        row["wrong"] += bool(one["wrong"])
+        if one["wrong"]:
+            found.append(f"- step {i}: {one['wrong']}")
     rows["all"] = sum(rows.values(), Counter[str]())
     cells = [
         (kind, sum(n for word, n in row.items() if word in COLUMNS[:4]), *(row[c] for c in COLUMNS))

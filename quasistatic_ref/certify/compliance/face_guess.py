@@ -1,38 +1,57 @@
 r"""A guess, in float64, of the faces that forces lie on: where their exact method starts.
 
-Multipliers of the step with compliance c (:mod:`~quasistatic_ref.certify.compliance.forces`) solve
-its dual, a least-squares problem in numbers >= 0. With A delta_q - b = C z and H = L L^T it is
+In delta_q alone, the step with compliance c (:mod:`~quasistatic_ref.certify.compliance.forces`)
+minimises a convex function. Its gradient is linear where each contact keeps its face:
 
-.. math:: \min_{\lambda \ge 0} \; \|L^{-1} (g + A^T \lambda)\|^2
-          + \|\sqrt{c / h}\, C^T \lambda + \sqrt{h / c}\, z_0\|^2,
+.. math:: H x - g - \frac hc \sum_j B_j^T \Pi_F(-z_j), \qquad z_j = B_j x + (\phi_j, 0, 0, 0).
 
-where z_0 is z at delta_q = 0. The rows of a face are those with a multiplier. The user's own rows
-are rigid in the exact method. In the guess each of them gives way a little, by a length of its own.
+Newton's method finds the zero of the gradient on the faces at x, and goes towards it as far as the
+function falls, until the faces are those there. Its first faces are those on which the forces of
+the step without compliance lie. The user's own rows, which are rigid in the exact method, give way
+here, too, but less.
 """
 
-from typing import Final
+from functools import cache
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import Rows, cone_rows, rows_of
-from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.certify.compliance.faces import Rows, face, rows_of
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import friction_rows
+from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
 
-ROUNDING: Final = 2.0**-50
-"""Of a product with a column of length one, relative to the other factor."""
-MOST: Final = 3
-"""Entries that become positive, at most, for each that there is."""
-REFINED: Final = 3
-"""Solutions of the normal equations, each for what the one before left. They take a hundredth of
-the time of a singular value decomposition of M, and two more make them as accurate."""
-STIFF: Final = 2.0**5
-"""By which a user's row is multiplied. Its stiffness is the square of that times a contact's."""
+ROUNDING: Final = 2.0**-44
+"""By how much a condition of a face may be missed, relative to the lengths z."""
+STIFF: Final = 2.0**10
+"""Stiffness of a user's row over that of a contact."""
+SOFTER: Final = (1.0, *2.0 ** np.arange(30, -1, -6))
+"""Compliances over that of the step [-]: mostly the first is all that is needed."""
+STEPS: Final = 12
+"""Steps of Newton's method with a compliance, at most: mostly one to four."""
+SHORTEST: Final = 2.0**-20
+"""Share of the way to the next zero, at least."""
+FLAT: Final = 0.1
+"""Slope that counts as a fall, over the slope where the way begins."""
 
 
-def guessed_faces(step: StepData, compliance: float) -> list[Rows]:
+class Pieces(NamedTuple):
+    """Where the gradient is one linear function.
+
+    Parameters
+    ----------
+    faces : tuple of tuple of int
+        The face of each contact.
+    pressing : tuple of bool
+        Which of the user's own rows press.
+    """
+
+    faces: tuple[Rows, ...]
+    pressing: tuple[bool, ...]
+
+
+def guessed_faces(step: StepData, compliance: float, wrench: Array) -> list[Rows]:
     """The face of each contact, in a polyhedral cone.
 
     Where float64 does not suffice, the guess is that no contact bears a load.
@@ -42,89 +61,149 @@ def guessed_faces(step: StepData, compliance: float) -> list[Rows]:
     step : StepData
     compliance : float
         [m/N].
+    wrench : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) of the step without compliance [N, N m].
 
     Returns
     -------
     list of tuple of int, length n_c
     """
-    n_c = step.contacts.n_c
-    if not n_c:
-        return []
     try:
-        lam = _multipliers(step, compliance)
-    except ValueError:
-        return [()] * n_c
-    faces = []
-    for j, count in enumerate(step.counts.tolist()):
-        lam_j = lam[step.offsets[j] : step.offsets[j + 1]]
-        rows = warm_rows(rows_of(step.cone, count), lam_j, np.zeros(count))
-        faces.append(tuple(sorted(rows)))
-    return faces
+        return list(_Energy(step, compliance).least(wrench).faces)
+    except np.linalg.LinAlgError:
+        return [()] * step.contacts.n_c
 
 
-def _multipliers(step: StepData, compliance: float) -> Array:
-    """The multipliers of the step with compliance, shape (m,) [N s].
+class _Energy:
+    """What the step with compliance minimises, as a function of delta_q."""
 
-    Raises
-    ------
-    ValueError
-        If H is not positive definite in float64, or an entry of the problem is not finite.
-    """
-    own = step.extra
-    n_own = len(own.b)
-    of_contacts = cone_rows(step)
-    contact_rows, lengths = of_contacts.shape
-    C = np.zeros((step.m, lengths + n_own))
-    C[:contact_rows, :lengths] = of_contacts
-    C[contact_rows:, lengths:] = np.eye(n_own)
-    A = np.vstack([friction_rows(step.contacts, step.cone)[step.mask], STIFF * own.A])
-    gap = np.zeros((step.contacts.n_c, 4))
-    gap[:, 0] = step.contacts.phi
-    z_0 = np.concatenate([gap.ravel(), -STIFF * own.b])
-    L = np.linalg.cholesky(step.H)
-    root = np.sqrt(compliance / step.h)
-    M = np.vstack([np.linalg.solve(L, A.T), root * C.T])
-    d = np.concatenate([np.linalg.solve(L, linear_term(step)), z_0 / root])
-    return nonnegative_least_squares(M, -d)
+    def __init__(self, step: StepData, compliance: float) -> None:
+        contacts = step.contacts
+        self.step = step
+        self.mu = scaled_by(contacts)
+        J = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
+        self.B = self.mu[:, :, None] * J  # (n_c, 4, n_v)
+        self.gap = np.zeros((contacts.n_c, 4))
+        self.gap[:, 0] = contacts.phi
+        self.H = step.H
+        self.g = linear_term(step)
+        self.k = step.h / compliance
+
+    def least(self, wrench: Array) -> Pieces:
+        """Those at the minimum.
+
+        Parameters
+        ----------
+        wrench : ndarray, shape (n_c, 4)
+            As of `guessed_faces`.
+
+        Raises
+        ------
+        LinAlgError
+            If float64 does not suffice.
+        """
+        p = wrench[:, [2, 0, 1, 3]] / np.where(self.mu > 0, self.mu, np.inf)
+        at = self.pieces(-p, Pieces(((),) * len(p), (False,) * len(self.step.extra.b)))
+        stiffness = self.k
+        for softer in SOFTER:
+            self.k = stiffness / softer
+            at, found = self.settled(at)
+            if found and softer == 1:
+                break
+        return at
+
+    def settled(self, at: Pieces) -> tuple[Pieces, bool]:
+        """Where Newton's method ends from some pieces, and whether it is the minimum."""
+        x = self.zero(at)
+        at = self.pieces_at(x, at)
+        for _ in range(STEPS):
+            way = self.zero(at) - x
+            after = self.pieces_at(x + way, at)
+            if after == at:
+                return at, True
+            steepest = FLAT * abs(way @ self.gradient(x, at))
+            share = 1.0
+            while share > SHORTEST and way @ self.gradient(x + share * way, after) > steepest:
+                share /= 2
+                after = self.pieces_at(x + share * way, after)
+            x = x + share * way
+            at = after
+        return at, False
+
+    def gradient(self, x: Array, at: Pieces) -> Array:
+        """The linear function that the gradient is on some pieces, at x, shape (n_v,)."""
+        z = self.B @ x + self.gap
+        s = (self.onto(at) @ z[:, :, None]).ravel()
+        own = self.step.extra
+        short = np.where(at.pressing, own.A @ x - own.b, 0.0)
+        push = s @ self.B.reshape(self.gap.size, len(x)) - STIFF * short @ own.A
+        return self.H @ x - self.g - self.k * push
+
+    def zero(self, at: Pieces) -> Array:
+        """Where that is zero, shape (n_v,)."""
+        origin = np.zeros(self.step.n_v)
+        B = self.B.reshape(self.gap.size, len(origin))
+        s = (self.onto(at) @ self.B).reshape(B.shape)
+        own = self.step.extra.A[list(at.pressing)]
+        push = B.T @ s - STIFF * own.T @ own
+        found = np.linalg.solve(self.H - self.k * push, -self.gradient(origin, at))
+        return np.asarray(found)
+
+    def pieces_at(self, x: Array, near: Pieces) -> Pieces:
+        """Those at x; where rounding decides, those that are `near`."""
+        own = self.step.extra
+        pressing = tuple((own.A @ x < own.b).tolist())
+        return self.pieces(self.B @ x + self.gap, near)._replace(pressing=pressing)
+
+    def pieces(self, z: Array, near: Pieces) -> Pieces:
+        """Those of some lengths of the contacts, shape (n_c, 4)."""
+        faces = []
+        for z_j, count, rows in zip(z, self.step.counts.tolist(), near.faces, strict=True):
+            conditions = _floats(self.step.cone, count, rows)[:-4] @ z_j
+            if (conditions < -ROUNDING * np.abs(z_j).max()).any():
+                rows = nearest_rows(rows_of(self.step.cone, count), z_j)
+            faces.append(rows)
+        return near._replace(faces=tuple(faces))
+
+    def onto(self, at: Pieces) -> Array:
+        """What s is, times z, on the face of each contact, shape (n_c, 4, 4)."""
+        counts = self.step.counts.tolist()
+        found = [_floats(self.step.cone, n, f)[-4:] for n, f in zip(counts, at.faces, strict=True)]
+        return np.array(found).reshape(-1, 4, 4)
 
 
-def nonnegative_least_squares(M: Array, d: Array) -> Array:
-    """The x >= 0, shape (m,), that makes M x - d shortest, in float64.
+@cache
+def _floats(name: str, count: int, rows: Rows) -> Array:
+    """The numbers of a face in float64, shape (R + 4, 4)."""
+    exact = face(name, count, rows)
+    return np.array(exact.integers / exact.denominator, dtype=np.float64)
 
-    The method is that of Lawson and Hanson (1974) with another choice of the entry that is set to
-    zero: the least one that is not positive; theirs is the first that vanishes on the way from the
-    former x. SciPy has their method, but importing SciPy takes as long as a short run.
+
+def nearest_rows(C: Array, z: Array) -> Rows:
+    """The rows of the face on which the point nearest to -z lies: the method of Lawson and Hanson.
+
+    Of numbers lam >= 0 with the least length of C' lam + z, they are
+    the rows with lam > 0.
 
     Parameters
     ----------
-    M : ndarray, shape (k, m)
-        No column is zero [any unit].
-    d : ndarray, shape (k,)
-        [any unit].
-
-    Raises
-    ------
-    ValueError
-        If float64 does not suffice for the least squares of some columns.
+    C : ndarray, shape (m, 4)
+        The rows of a contact's cone.
+    z : ndarray, shape (4,)
     """
-    lengths = np.linalg.norm(M, axis=0)
-    M = M / lengths
-    products = M.T @ M
-    x = np.zeros(len(lengths))
-    positive = np.zeros(len(lengths), dtype=bool)
-    for _ in range(MOST * len(lengths)):
-        descent = np.where(positive, 0.0, M.T @ (d - M @ x))
+    lam = np.zeros(len(C))
+    positive = np.zeros(len(C), dtype=bool)
+    for _ in range(3 * len(C)):
+        descent = np.where(positive, 0.0, -C @ (C.T @ lam + z))
         steepest = int(np.argmax(descent))
-        if not descent[steepest] > ROUNDING * np.linalg.norm(d):
+        if descent[steepest] <= ROUNDING * np.abs(z).max():
             break
         positive[steepest] = True
         while True:
-            x = np.zeros(len(lengths))
-            inverse = np.linalg.inv(products[np.ix_(positive, positive)])
-            for _ in range(REFINED):
-                x[positive] += inverse @ (M[:, positive].T @ (d - M @ x))
-            falling = positive & (x <= 0)
+            lam = np.zeros(len(C))
+            lam[positive] = np.linalg.lstsq(C[positive].T, -z)[0]
+            falling = positive & (lam <= 0)
             if not falling.any():
                 break
-            positive[np.argmin(np.where(falling, x, np.inf))] = False
-    return np.asarray(x / lengths)
+            positive[np.argmin(np.where(falling, lam, np.inf))] = False
+    return tuple(np.flatnonzero(positive).tolist())

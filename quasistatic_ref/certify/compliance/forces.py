@@ -184,7 +184,7 @@ def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactFor
     if isinstance(friction_cone, CurvedCone):
         wrench, delta_q = friction_cone.forces(step, c, near)
     else:
-        faces = without_warnings(guessed_faces, step, c)
+        faces = without_warnings(guessed_faces, step, c, near[1])
         p, delta_q = eliminated_optimum(step, c, faces) or defined_optimum(step, c)
         wrench = p[:, WRENCH]
     n_c = step.contacts.n_c

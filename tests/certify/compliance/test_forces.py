@@ -6,10 +6,11 @@ from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.certify.compliance import eliminated, face_guess, forces, of_group
-from quasistatic_ref.certify.compliance.face_guess import nonnegative_least_squares
+from quasistatic_ref.certify.compliance.face_guess import guessed_faces, nearest_rows
 from quasistatic_ref.certify.compliance.faces import face, nearest_face, rows_of
 from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.compliance.of_group import group_compliance
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
@@ -19,6 +20,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import changed
@@ -136,17 +138,27 @@ def test_faces_are_guessed_in_floats(monkeypatch):
     assert len(left) <= 2
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
-def test_least_squares_in_numbers_that_are_not_negative_are_those_of_scipy(scale):
-    """Columns of very different lengths; nine unknowns of six equations are not unique."""
+@pytest.mark.parametrize("cone", [*POLYHEDRAL, "facets-12"])
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
+def test_nearest_points_in_floats_are_those_of_scipy(cone, scale):
     rng = np.random.default_rng(2)
-    for shape in ((6, 9), (9, 6), (3, 1), (30, 24)) * 10:
-        M = scale * rng.standard_normal(shape) * 10.0 ** rng.uniform(-3, 3, shape[1])
-        d = rng.standard_normal(shape[0])
-        found = nonnegative_least_squares(M, d)
-        assert found.min() >= 0
-        length = np.linalg.norm(M @ found - d)
-        np.testing.assert_allclose(length, nnls(M, d)[1], rtol=ROUNDING, atol=ROUNDING)
+    C = rows_of(cone, len(cone_matrix(cone)))
+    for z in scale * rng.standard_normal((100, 4)) * 10.0 ** rng.uniform(-3, 0, 4):
+        rows = list(nearest_rows(C, z))
+        lam = np.linalg.lstsq(C[rows].T, -z)[0]
+        assert lam.min(initial=0.0) >= 0
+        near = C.T @ nnls(C.T, -z)[0]
+        np.testing.assert_allclose(C[rows].T @ lam, near, rtol=0, atol=1e-12 * np.abs(z).max())
+
+
+def test_faces_of_a_pile_are_guessed_that_is_heavy_above():
+    """Ten boxes, 1000 times as heavy as each other: no face is wrong, from no forces either."""
+    step = loaded(10.0 ** np.linspace(0, 3, 10), 1e-3, spring=1e4, press=3.0).step
+    c = group_compliance(step)
+    program = eliminated.EliminatedStep(step, c)
+    for wrench in (solve_step(step, "daqp", fast=True).wrench, np.zeros((step.contacts.n_c, 4))):
+        found = program.candidate(guessed_faces(step, c, wrench))
+        assert program.wrong_faces(found) == []
 
 
 def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
@@ -160,7 +172,7 @@ def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
     for name in ("random 6", "random 9", "random 13"):
         quick = contact_forces(steps[name]).wrench
         with monkeypatch.context() as patch:
-            patch.setattr(face_guess, "nonnegative_least_squares", singular)
+            patch.setattr(face_guess._Energy, "zero", singular)
             assert contact_forces(steps[name]).wrench.tobytes() == quick.tobytes()
 
 
@@ -252,6 +264,88 @@ def test_noise_of_phi_changes_forces_by_no_more_than_its_length_over_the_complia
     change = noisy.wrench[:, 2] - clean.wrench[:, 2]
     np.testing.assert_allclose(change, -phi / c, rtol=1e-3)
     assert np.abs(change).max() <= 1e-15 * clean.sensitivity * clean.wrench[:, 2].sum()
+
+
+def scaled_forces(step, wrench):
+    """The p of forces: f_n, the others over their coefficients."""
+    mu = scaled_by(step.contacts)
+    return wrench[:, [2, 0, 1, 3]] / np.where(mu > 0, mu, np.inf)
+
+
+def length(step, x):
+    """||x||_H, by the definition."""
+    return np.sqrt(x @ step.H @ x)
+
+
+SLIGHT = 1 + 1e-6
+"""What rounding adds to a bound."""
+
+
+def test_r42_noise_and_the_norm_of_forces_at_random():
+    """||dx||_H^2 + h c ||dp||^2 <= h ||dp|| ||eps||, and ||p_c|| <= ||p|| of any optimal p.
+
+    Steps of all polyhedral cones, with doubled contacts, penetration and coefficients of 0.
+    """
+    rng = np.random.default_rng(42)
+    for _, step in checks.random_steps(40):
+        k = step.contacts
+        rigid = step_optimum(step)
+        wrench = contact_wrenches(k, rigid.lam[: step.offsets[-1]], step.h, step.cone)
+        p = scaled_forces(step, wrench)
+        near = rigid.delta_q, wrench
+        c = 10.0 ** rng.uniform(-9, -4)
+        noise = rng.normal(size=k.n_c) * 10.0 ** rng.uniform(-9, -3)
+        moved = step.replace(contacts=repeated(k, range(k.n_c), phi=k.phi + noise))
+        noise = moved.contacts.phi - k.phi
+        one, other = (contact_forces(of, c, near) for of in (step, moved))
+        p_c = scaled_forces(step, one.wrench)
+        dp = np.linalg.norm(scaled_forces(step, other.wrench) - p_c)
+        dx = length(step, other.delta_q - one.delta_q)
+        most = step.h * dp * np.linalg.norm(noise)
+        assert dx**2 + step.h * c * dp**2 <= SLIGHT * most
+        assert np.linalg.norm(p_c) <= SLIGHT * np.linalg.norm(p)
+
+
+def test_r42_the_limit_is_the_shortest_at_random():
+    """Of boxes on four corners, whose optimal p differ by what the corners' pattern bears."""
+    rng = np.random.default_rng(42)
+    pattern = np.array([1.0, -1.0, -1.0, 1.0])
+    for _ in range(10):
+        push, share = rng.uniform(-4.0, 4.0), rng.uniform(-0.2, 0.2)
+        found = scaled_forces(block(), contact_forces(block(push=push), 1e-13).wrench)
+        assert abs(pattern @ found[:, 0]) < 1e-6 * M * G
+        other = found + share * np.outer(pattern, [1.0, 0.0, 0.0, 0.0])
+        assert np.linalg.norm(other) > np.linalg.norm(found)
+
+
+def test_r43_the_loss_at_random():
+    """||x_c - x||_H^2 <= h c p_c'(p - p_c) <= h c ||p||^2 / 4, for any optimal p."""
+    rng = np.random.default_rng(43)
+    for _, step in checks.random_steps(40):
+        rigid = step_optimum(step)
+        own = rigid.lam[: step.offsets[-1]]
+        wrench = contact_wrenches(step.contacts, own, step.h, step.cone)
+        p = scaled_forces(step, wrench)
+        c = 10.0 ** rng.uniform(-6, -2)
+        found = contact_forces(step, c, (rigid.delta_q, wrench))
+        p_c = scaled_forces(step, found.wrench)
+        lost = length(step, found.delta_q - rigid.delta_q) ** 2
+        first = step.h * c * np.sum(p_c * (p - p_c))
+        rounded = 1e-13 * step.h * c * np.sum(p * p) + 1e-30
+        assert lost <= SLIGHT * first + rounded
+        assert first <= SLIGHT * step.h * c * np.sum(p * p) / 4 + rounded
+
+
+def test_r43_what_the_floor_of_a_pile_loses_at_random():
+    """Of the weight of N alike c S / n (N + 1) (2 N + 1) / 6, to first order."""
+    rng = np.random.default_rng(43)
+    for N in (1, 2, 5, 8):
+        m, h = 10.0 ** rng.uniform(-2, 4), 10.0 ** rng.uniform(-3, -1)
+        small = 1e-7
+        scene = loaded([m] * N, h)
+        f_n = contact_forces(scene.step, small * h**2 / m).wrench[:4, 2].sum()
+        lost = 1 - f_n / (N * m * G)
+        assert lost == pytest.approx(small / 4 * (N + 1) * (2 * N + 1) / 6, rel=1e-4)
 
 
 def test_a_group_has_one_compliance_and_groups_their_own():
