@@ -188,8 +188,9 @@ def nearest_rows(C: Array, z: Array) -> Rows:
     Parameters
     ----------
     C : ndarray, shape (m, 4)
-        The rows of a contact's cone.
+        The rows of a contact's cone [-].
     z : ndarray, shape (4,)
+        Its lengths [m, or times any positive number].
     """
     lam = np.zeros(len(C))
     positive = np.zeros(len(C), dtype=bool)
