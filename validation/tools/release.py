@@ -87,6 +87,7 @@ RESULTS = (
     to_file("attacks"),
     to_file("verifier", command="validation.tools.check_verifier --all"),
     to_file("confirmed_bits", "txt"),
+    to_file("degenerate_bits", "txt"),
     to_file("same_bits", "json"),
     to_file("derivatives"),
     Result("clouds", "validation.make.clouds", ("validation/results/clouds.jsonl",)),
