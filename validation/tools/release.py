@@ -77,6 +77,7 @@ RESULTS = (
         (
             "large_steps",
             "grouped_proofs",
+            "ordinary_states",
             "proved_problems",
             "pair_distances",
             "solid_pairs",
