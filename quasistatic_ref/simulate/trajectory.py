@@ -376,6 +376,6 @@ def certified(trajectory: Trajectory) -> str:
     exact = kinds.count("exact")
     enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
-    failed = int((trajectory["digits"] == 0).sum()) if kinds else 0
+    failed = np.count_nonzero(trajectory["digits"] == 0) if kinds else 0
     failures = f" (the backend failed in {failed} of them)" if failed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}{failures}"

@@ -161,22 +161,29 @@ def eliminated(rows, count):
     """What inequalities a u + b >= 0 say without their first `count` unknowns.
 
     After k unknowns, what is combined of more than k + 1 of them follows from the others (Kohler
-    1967).
+    1967). Equal rows that are combined of different ones count each: the rule may leave out what
+    follows from the one, and needs the other.
     """
-    combined = {tuple(scaled(row)): frozenset([i]) for i, row in enumerate(rows)}
+    combined = {}
+    for i, row in enumerate(rows):
+        keep_smallest(combined, tuple(scaled(row)), frozenset([i]))
     for k in range(1, count + 1):
-        plus = [one for one in combined.items() if one[0][0] > 0]
-        minus = [one for one in combined.items() if one[0][0] < 0]
-        left = {row[1:]: of for row, of in combined.items() if row[0] == 0}
+        each = [(row, of) for row, ways in combined.items() for of in ways]
+        plus = [one for one in each if one[0][0] > 0]
+        minus = [one for one in each if one[0][0] < 0]
+        combined = {row[1:]: ways for row, ways in combined.items() if row[0] == 0}
         for (p, of_p), (m, of_m) in product(plus, minus):
-            of = of_p | of_m
-            if len(of) > k + 1:
-                continue
-            row = scaled([a / p[0] - b / m[0] for a, b in zip(p[1:], m[1:], strict=True)])
-            if tuple(row) not in left or len(of) < len(left[tuple(row)]):
-                left[tuple(row)] = of
-        combined = left
+            if len(of_p | of_m) <= k + 1:
+                row = scaled([a / p[0] - b / m[0] for a, b in zip(p[1:], m[1:], strict=True)])
+                keep_smallest(combined, tuple(row), of_p | of_m)
     return list(combined)
+
+
+def keep_smallest(combined, row, of):
+    """Add a way to combine a row, unless it is there from fewer of the same ones."""
+    ways = combined.setdefault(row, [])
+    if not any(way <= of for way in ways):
+        ways[:] = [way for way in ways if not of <= way] + [of]
 
 
 def scaled(row):
