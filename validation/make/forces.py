@@ -121,7 +121,7 @@ ROUNDED = 1e-15
 def loads(seed: int) -> Record:
     """Of each check on a pile at random 1 if it fails and 0 if it holds."""
     rng = np.random.default_rng([seed, 59])
-    count = 1 if seed % 3 == 0 else int(rng.integers(2, 21 if seed % 60 == 1 else 8))
+    count = 1 if seed % 3 == 0 else int(rng.integers(2, 21 if seed % 20 == 1 else 8))
     ratios = 10.0 ** np.array(
         [rng.uniform(0, 3, count), np.linspace(0, 3, count), np.linspace(3, 0, count)][seed % 3 - 1]
     )
