@@ -179,8 +179,10 @@ def killed(name: str, folders: Folders, longest: float, rng: random.Random, two:
 
 
 def of_command(name: str, count: int, seed: int, folder: Path) -> Iterator[Counter[str]]:
-    """What is added to the row of a command by each of its folders."""
+    """What is added to the row of a command by each of its folders, which lie in one of its own."""
     inputs_of = folder / "inputs"
+    folder = folder / name
+    folder.mkdir()
     with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):
         command([*words_of(name, Folders(folder / "imported", inputs_of)), "--quiet"])
     threads = len(os.listdir("/proc/self/task"))
