@@ -105,7 +105,7 @@ def iterated(step: StepData) -> bool:
     return False
 
 
-def told(i: int) -> Record:
+def step_record(i: int) -> Record:
     """A step by its number: its count, whether the iteration misses it, and what is wrong."""
     step = planar_step(np.random.default_rng([0, i]), KINDS[i % len(KINDS)])
     count, wrong = judged(step)
@@ -119,7 +119,7 @@ def main() -> int:
     log = Log(options.log, lambda record: record["step"])
     tasks = [(i,) for i in range(options.steps) if i not in log.found]
     with workers(options.jobs) as executor:
-        for record in tqdm(results(executor, options.jobs, told, tasks), total=len(tasks)):
+        for record in tqdm(results(executor, options.jobs, step_record, tasks), total=len(tasks)):
             log.add(record)
     rows = {kind: Counter[str]() for kind in KINDS}
     found = []

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.still import Still
@@ -66,6 +67,11 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
         Such as ``("JOINT",)``.
     heavy : ndarray, shape (nv,)
         Diagonal of H of all joints, for natural units [N s/m, N m s/rad].
+
+    Raises
+    ------
+    ModelError
+        If none remains.
     """
     model = state.model
     units = coordinate_units(heavy)
@@ -92,6 +98,8 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
         gone.append(dof)
         eliminated.append(row)
     dofs = np.setdiff1d(np.arange(model.nv), gone)
+    if not len(dofs):
+        raise ModelError("leave no joint that can move", field="equality")
     return Tied(dofs, T[:, dofs], tuple(eliminated))
 
 
@@ -137,6 +145,11 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
     as_is : bool
         Whether their residuals are closed in the step.
 
+    Raises
+    ------
+    ModelError
+        With `as_is`, naming an equality whose residual no step closes together with the others'.
+
     Notes
     -----
     A row is left out if no more than FULL_RANK of it is independent of those before it: it is then
@@ -147,8 +160,9 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
     natural = scale.rows(J)
     least = FULL_RANK * scale.sizes(J)
     basis = np.zeros((0, len(scale.units)))
-    kept = []
+    kept: list[int] = []
     left_out = []
+    residuals = state.data.efc_pos[rows] * as_is
     for k in np.flatnonzero(~np.isin(rows, tied.eliminated)).tolist():
         own = natural[k]
         for _ in range(2):  # the second takes away what rounding left in the first
@@ -157,10 +171,15 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
         if length > least[k]:
             basis = np.vstack([basis, own / length])
             kept.append(k)
-        else:
-            left_out.append(f"{state.words('equality', state.data.efc_id[rows[k]])}: {HELD}")
+            continue
+        name = state.words("equality", state.data.efc_id[rows[k]])
+        of_others = np.linalg.lstsq(natural[kept].T, natural[k])[0]
+        if abs(residuals[k] - of_others @ residuals[kept]) > FULL_RANK * state.reach.max():
+            problem = 'contradicts other equalities, which depth = "closed" takes as they stand'
+            raise ModelError(problem, field=name, value=float(residuals[k]))
+        left_out.append(f"{name}: {HELD}")
     names = [state.words("equality", i) for i in state.data.efc_id[rows[kept]]]
-    b = -state.data.efc_pos[rows[kept]] * as_is
+    b = -residuals[kept]
     both = _rows([(names, A[kept], b), (names, -A[kept], -b)], A.shape[1])
     return Held(both, basis, tuple(dict.fromkeys(left_out)))
 

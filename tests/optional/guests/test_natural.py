@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import FULL_RANK
@@ -164,3 +165,45 @@ def test_a_difference_counts_from_1e_9_of_its_terms(held: str, share: float, hol
     y = (coordinates.T @ solve_step(step).delta_q)[0]
     assert y == pytest.approx(0.0 if holds else H**2 * push / (m * (1 + e) ** 2 + m), rel=1e-12)
     assert any("left out" in said for said in coordinates.left_out) is not holds
+
+
+@pytest.mark.parametrize("apart", [0.0, 1e-7, 0.2])
+def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_them(
+    apart: float,
+) -> None:
+    """Two equalities hold one slide at x and at x - apart, over 1e-9 of reach: both cannot be."""
+    x = 0.1
+    ball = '<joint name="s" type="slide" axis="1 0 0"/><geom size=".1"/>'
+    free = '<body><freejoint/><geom size=".1" contype="0"/></body>'
+    held = "".join(
+        f'<joint name="{name}" joint1="s" polycoef="{at!r} 0 0 0 0"/>'
+        for name, at in (("one", x), ("two", x - apart))
+    )
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><body>{ball}</body>{free}</worldbody>"
+        f"<equality>{held}</equality></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco_step(model, data, H)  # as they stand both hold
+    if apart:
+        with pytest.raises(ModelError, match=r"equality\[two\]: contradicts other equalities"):
+            mujoco_step(model, data, H, "as is")
+    else:
+        step, coordinates = mujoco_step(model, data, H, "as is")
+        moved = coordinates.T @ solve_step(step).delta_q
+        assert moved[0] == pytest.approx(x, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("joint", "words"),
+    [
+        ("", "model: has no joint that can move"),
+        ("hinge", "equality: leave no joint that can move"),
+    ],
+)
+def test_a_model_in_which_nothing_can_move_is_refused(joint: str, words: str) -> None:
+    body = f'<body><joint name="j" type="{joint}"/><geom size=".1"/></body>' if joint else ""
+    tie = '<equality><joint joint1="j"/></equality>' if joint else ""
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}</worldbody>{tie}</mujoco>")
+    with pytest.raises(ModelError, match=words):
+        mujoco_step(model, mujoco.MjData(model), H)

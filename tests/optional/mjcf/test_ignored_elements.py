@@ -58,7 +58,7 @@ INSIDE = {
 }
 FLEX = '<flexcomp name="n" type="grid" count="3 3 1" dim="2" mass="1" radius="0.01"/>'
 TRILINEAR = '<flexcomp name="n" type="grid" count="3 3 3" dim="3" mass="1" dof="trilinear"/>'
-BESIDE = {
+NEXT_TO_WORLDBODY = {
     "body.flexcomp": f"<worldbody>{FLEX}</worldbody>",
     "option": '<option timestep="0.1"/>',
     "size": '<size nuserdata="3"/>',
@@ -119,24 +119,24 @@ BESIDE = {
 def whole_elements() -> dict[str, str]:
     """Files, each with one element of which nothing is read."""
     found = {name: BASE.replace("@", text).replace("#", "") for name, text in INSIDE.items()}
-    beside = dict(BESIDE)
+    elements = dict(NEXT_TO_WORLDBODY)
     for element, names in schema().items():
         section, tag = (*element, "", "")[:2]
         if len(element) != 2:
             continue
         refers = " ".join(f'{name}="{REFERENCES[name]}"' for name in names if name in REFERENCES)
         if section == "sensor":
-            beside[f"sensor.{tag}"] = (
+            elements[f"sensor.{tag}"] = (
                 f'<sensor><{tag} name="n" {SENSORS.get(tag, refers)}/></sensor>'
             )
         if section == "actuator":
             text = ACTUATORS.get(tag, 'joint="j"')
-            beside[f"actuator.{tag}"] = f'<actuator><{tag} name="n" {text}/></actuator>'
+            elements[f"actuator.{tag}"] = f'<actuator><{tag} name="n" {text}/></actuator>'
         if section == "default" and tag not in ("mesh", "joint", "geom"):
             text = OF_DEFAULT.get(tag, 'group="2"')
-            beside[f"default.{tag}"] = f"<default><{tag} {text}/></default>"
+            elements[f"default.{tag}"] = f"<default><{tag} {text}/></default>"
     plain = BASE.replace("@", "")
-    found |= {name: plain.replace("#", text) for name, text in beside.items()}
+    found |= {name: plain.replace("#", text) for name, text in elements.items()}
     for name in ("sensor.ballquat", "sensor.ballangvel", "actuator.orientation"):
         ball = '<body><joint name="n" type="ball"/><geom size="0.1"/></body></worldbody>'
         found[name] = found[name].replace("</worldbody>", ball).replace('"k"/>', '"n"/>')
