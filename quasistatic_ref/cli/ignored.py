@@ -12,8 +12,10 @@ ALWAYS = (
     "xacro: macros are not expanded, and a file that holds any is refused",
     "names of robots and materials: a body is called what its scenario calls it",
 )
+LIMITS = "joint limits: position, effort and velocity"
+NOT_STOPPED = "joint limits: effort and velocity"
 WORDS = {
-    "limit": "joint limits: position, effort and velocity",
+    "limit": LIMITS,
     "joint.dynamics.damping": "joint damping",
     "joint.dynamics.friction": "joint friction",
     "link.collision.friction": "friction of contacts: the scenario has it",
@@ -30,7 +32,9 @@ WORDS = {
 }
 
 
-def ignored_lines(system: System, rubbed: Collection[str] = ()) -> list[str]:
+def ignored_lines(
+    system: System, rubbed: Collection[str] = (), stopped: Collection[str] = ()
+) -> list[str]:
     """What the model ignores: one line each.
 
     Elements of one kind are counted, not listed. Links with visual but no collision geometry are
@@ -41,6 +45,8 @@ def ignored_lines(system: System, rubbed: Collection[str] = ()) -> list[str]:
     system : System
     rubbed : collection of str
         Names of bodies whose joints have the friction that their files say.
+    stopped : collection of str
+        Names of bodies whose joints stop at the limits that their files say.
     """
     moving = [joint.name for joint in system.joints] + [joint.name for joint in system.mimics]
     lines = list(ALWAYS)
@@ -51,6 +57,8 @@ def ignored_lines(system: System, rubbed: Collection[str] = ()) -> list[str]:
             used = {f"joint[{name.removeprefix(f'{body}/')}].dynamics.friction" for name in moving}
             ignored = [entry for entry in ignored if entry not in used]
         counts = Counter(_words(entry) for entry in ignored)
+        if body in stopped and LIMITS in counts:
+            counts[NOT_STOPPED] = counts.pop(LIMITS)
         lines += [f"{body}: {words} ({n})" for words, n in counts.items()]
         unseen = _visual_only(system, body, ignored)
         if unseen:

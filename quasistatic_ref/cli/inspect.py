@@ -52,8 +52,13 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def system_record(system: System, rubbed: Collection[str] = ()) -> dict[str, Any]:
-    """What a system holds, as plain data; `rubbed` bodies have the friction of their files."""
+def system_record(
+    system: System, rubbed: Collection[str] = (), stopped: Collection[str] = ()
+) -> dict[str, Any]:
+    """What a system holds, as plain data; `rubbed` bodies have the friction of their files.
+
+    `stopped` ones have the position limits of their files.
+    """
     return {
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
@@ -76,7 +81,7 @@ def system_record(system: System, rubbed: Collection[str] = ()) -> dict[str, Any
             for i, link in enumerate(system.links)
             if i > 0
         ],
-        "ignored": ignored_lines(system, rubbed),
+        "ignored": ignored_lines(system, rubbed, stopped),
         "notes": list(system.notes),
     }
 
@@ -89,7 +94,8 @@ def body_name(path: Path) -> str:
 def scenario_record(scenario: Scenario) -> dict[str, Any]:
     """What a scenario holds, as plain data."""
     rubbed = [name for name, body in scenario.bodies.items() if body.joint_friction == URDF]
-    record = system_record(scenario.system, rubbed)
+    stopped = [name for name, body in scenario.bodies.items() if body.joint_limits == URDF]
+    record = system_record(scenario.system, rubbed, stopped)
     for i, coordinate in enumerate(record["coordinates"]):
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]

@@ -80,6 +80,8 @@ class BodyEntry(Plain):
         As parsed: a table of joints, or ``"urdf"``.
     support : TableReader or None
         The table of that name.
+    joint_limits : str or None
+        ``"urdf"`` where the joints stop at the limits of the file.
     """
 
     body: Body
@@ -91,11 +93,12 @@ class BodyEntry(Plain):
     wrenches: Wrenches | None
     joint_friction: Any
     support: TableReader | None = field(compare=False)
+    joint_limits: str | None
 
     @property
-    def rubs(self) -> bool:
-        """Whether it has friction other than that of contacts."""
-        return self.joint_friction is not None or self.support is not None
+    def extends(self) -> bool:
+        """Whether it adds to the step: friction other than that of contacts, or joint limits."""
+        return any(x is not None for x in (self.joint_friction, self.support, self.joint_limits))
 
     def actuated(self, system: System) -> list[Joint]:
         """The actuated joints of this body, in the order of q."""
@@ -162,6 +165,7 @@ def body_entry(
         wrenches=_wrenches(name, table),
         joint_friction=value(table, BODY, "joint_friction"),
         support=table.table("support") if "support" in table else None,
+        joint_limits=value(table, BODY, "joint_limits"),
     )
     if entry.wrenches is not None and base == "fixed":
         raise table.error_about(

@@ -49,7 +49,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.extension import NO_RISES, Extension, Rises
+from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
 from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -85,8 +85,8 @@ class Scenario(Plain, Shown):
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     limits : Limits
         Beyond which no step is taken.
-    rises : Rises
-        The private rises that model friction in joints and of supports.
+    of_bodies : callable, optional
+        What tables of bodies add to each step: friction of joints and of supports, joint limits.
 
     Examples
     --------
@@ -113,17 +113,16 @@ class Scenario(Plain, Shown):
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     fast: bool = False
-    rises: Rises = NO_RISES
+    of_bodies: OfBodies | None = None
     law: str = CONVEX
 
     def __post_init__(self) -> None:
         freeze_copies(self, "gravity", "K_q", "gravity_acts")
 
-    def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
+    def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""
-        if len(self.rises):
-            rises = needed_part("extensions.scenario_rises", "joint_friction and support")
-            extension = rises.Rising(self.rises, extension)
+        if self.of_bodies is not None:
+            extension = self.of_bodies.beside(extension)
         return Simulator(
             self.system,
             self.pairs,
@@ -284,15 +283,15 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))
     K_q = total(stiffness(system, entry) for entry in entries.values())
-    rises = NO_RISES
-    if any(entry.rubs for entry in entries.values()):
-        rubbing = needed_part("extensions.scenario_rises", "joint_friction and support")
-        pairs, rises = rubbing.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
+    of_bodies = None
+    if any(entry.extends for entry in entries.values()):
+        part = needed_part("extensions.of_scenario", "joint_friction, support and joint_limits")
+        pairs, of_bodies = part.of_scenario(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
     entries_of_J = 0
     backends = fast_part("backends") if fast else None
     if backends is not None:  # its default depends on the size of the scene
         n_c = sum(pair.n_c for pair in pairs)
-        entries_of_J = backends.entries_of_J(system, n_c, law == CONVEX and not len(rises))
+        entries_of_J = backends.entries_of_J(system, n_c, law == CONVEX and of_bodies is None)
     backend = _backend(solver, certify, named, entries_of_J, backends)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
@@ -326,7 +325,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         limits=limits,
         bodies=entries,
         fast=fast,
-        rises=rises,
+        of_bodies=of_bodies,
         law=law,
     )
 

@@ -146,6 +146,10 @@ TABLES = Tables({
                 {"type": "object", "additionalProperties": {"anyOf": [NUMBER, LIST]}},
             ]},
         ),
+        "joint_limits": Field(
+            "text", 'with "urdf" its joints stop at the position limits of the file',
+            default=None, choices=(URDF,),
+        ),
         "support": Field(
             "table", "friction of a planar base on its floor", default=None, of=SUPPORT,
         ),

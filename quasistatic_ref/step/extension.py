@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.arrays import Array, Indices, checked_array, freeze_copies
+from quasistatic_ref.step.data import Extra
 
 if TYPE_CHECKING:
     import cvxpy as cp
@@ -112,6 +113,8 @@ class Extension:
         Whether the costs take the place of the impedance (1): K_q and tau_k are then zero.
     rises : Rises
         No symbol holds their displacements.
+    rows : Extra, optional
+        Linear inequalities of delta_q as numbers, which need no CVXPY.
 
     Examples
     --------
@@ -124,3 +127,18 @@ class Extension:
     terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]] = none
     without_stiffness: bool = False
     rises: Rises = NO_RISES
+    rows: Extra | None = None
+
+
+ExtensionOfQ = Callable[[Array], Extension]
+"""An extension at each q, shape (n_q,)."""
+
+
+class OfBodies(Protocol):
+    """What the tables of a scenario's bodies add to each step."""
+
+    def __call__(self, q: Array) -> Extension:
+        """The extension at q, shape (n_q,)."""
+
+    def beside(self, own: ExtensionOfQ | None) -> ExtensionOfQ:
+        """The same together with an extension of a user's own."""

@@ -76,6 +76,13 @@ class Start:
         extension = self.simulator.extension
         return NO_RISES.contacts if extension is None else extension(self.q_start).rises.contacts
 
+    @cached_property
+    def bounded(self) -> Indices:
+        """Entries of delta_q that rows of an extension bound, such as stops of joints."""
+        extension = self.simulator.extension
+        rows = None if extension is None else extension(self.q_start).rows
+        return np.zeros(0, dtype=np.int64) if rows is None else np.flatnonzero(rows.A.any(axis=0))
+
     @property
     def sides(self) -> list[PlacedShape]:
         """What touches: both shapes of each pair."""

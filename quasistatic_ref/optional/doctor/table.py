@@ -61,6 +61,7 @@ AFTER = (
     Kind("leap", True, leaps.leaps),
     Kind("unit of a target", True, units.far_targets),
     Kind("target beyond a limit", True, targets.beyond_limits),
+    Kind("joint beyond a limit", True, targets.joints_beyond),
     Kind("half a turn behind", True, targets.half_turns),
     Kind("free fall", True, unsupported.falling),
     Kind("failing backend", True, backend_failures.backend_failures),

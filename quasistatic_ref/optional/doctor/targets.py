@@ -1,9 +1,10 @@
-"""Targets beyond the limits of a URDF, and joints that lag theirs by half a turn."""
+"""Targets and joints beyond the limits of a URDF, and joints that lag by half a turn."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.step.data import Array
@@ -12,22 +13,55 @@ from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
 def beyond_limits(run: Run) -> Iterator[Said]:
     """Targets beyond a limit that the URDF names, of each joint the farthest."""
-    for joint in run.system.joints:
-        if not joint.actuated or joint.limits is None:
+    for joint, unit in _limited(run):
+        if not joint.actuated:
             continue
-        target = run["q_bar_a"][:, joint.q][:, 0]
-        unit = joint.coordinates[0].unit
-        lower, upper = joint.limits
-        k = int(np.maximum(lower - target, target - upper).argmax())
-        limit = lower if target[k] < lower else upper
-        far = unit == "m" and abs(target[k]) > IN_METRES  # its unit is doubted already
-        if max(lower - target[k], target[k] - upper) > BEYOND and not far:
+        target, limit, k = _farthest(joint, run["q_bar_a"])
+        far = unit == "m" and abs(target) > IN_METRES  # its unit is doubted already
+        if abs(target - limit) > BEYOND and not far:
             yield Said(
-                f"change the target of {joint.name}, {target[k]:.3g} {unit} at step {k}, or the "
+                f"change the target of {joint.name}, {target:.3g} {unit} at step {k}, or the "
                 f"limit in its URDF, {limit:.3g} {unit}",
                 "the model ignores limits, the robot does not",
-                {f"target_{unit}": float(target[k]), f"limit_{unit}": limit, "step": k},
+                {f"target_{unit}": target, f"limit_{unit}": limit, "step": k},
             )
+
+
+def joints_beyond(run: Run) -> Iterator[Said]:
+    """Joints that are pushed beyond a limit that the URDF names, of each the farthest."""
+    for joint, unit in _limited(run):
+        position, limit, k = _farthest(joint, run["q"])
+        if joint.actuated:
+            target, end, _ = _farthest(joint, run["q_bar_a"])
+            if abs(target - end) > BEYOND:
+                continue  # its target is said
+        if abs(position - limit) > BEYOND:
+            body = joint.name.partition("/")[0]
+            yield Said(
+                f'say bodies.{body}.joint_limits = "urdf", for stops at the limits',
+                f"{joint.name} is at {position:.3g} {unit} at step {k}, beyond its limit, "
+                f"{limit:.3g} {unit}, which the model ignores",
+                {f"position_{unit}": position, f"limit_{unit}": limit, "step": k},
+            )
+
+
+def _limited(run: Run) -> Iterator[tuple[Joint, str]]:
+    """Joints with limits at which nothing stops them, and their units."""
+    for joint in run.system.joints:
+        if joint.limits is not None and joint.v.start not in run.bounded:
+            yield joint, joint.coordinates[0].unit
+
+
+def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:
+    """Where a joint is farthest beyond a limit of its own, that limit, and the step.
+
+    Where it is beyond none, its position twice.
+    """
+    at = q[:, joint.q][:, 0]
+    assert joint.limits is not None
+    within = np.clip(at, *joint.limits)
+    k = int(abs(at - within).argmax())
+    return float(at[k]), float(within[k]), k
 
 
 def half_turns(run: Run) -> Iterator[Said]:

@@ -83,6 +83,8 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
 
 def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
     """A step with what of an extension is data, and whether that is all of it."""
+    if extension.rows is not None:
+        step = with_rows(step, extension.rows)
     step = with_rises(step, extension.rises)
     own = extension_rows(step, extension)
     return (step, False) if own is None else (with_rows(step, own), True)

@@ -33,7 +33,6 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.extension import NO_RISES
 
 WORLD: Final = 0
 """Number of the world among the links."""
@@ -85,10 +84,10 @@ def scenario_written(
     entries: Mapping[str, BodyEntry] = {}
     if isinstance(scene, Scenario):
         entries = scene.bodies
-        # Tables of bodies say the rises and the pairs of supports.
+        # Tables of bodies say friction, joint limits and the pairs of supports.
         supports = {f"support of {name}" for name in entries}
         pairs = tuple(pair for pair in scene.pairs if pair.name not in supports)
-        simulator = replace(scene, pairs=pairs, rises=NO_RISES).simulator()
+        simulator = replace(scene, pairs=pairs, of_bodies=None).simulator()
         steps = scene.steps if steps is None else steps
     else:
         simulator = scene
@@ -260,13 +259,15 @@ class _SceneFiles:
 
 
 def _said_of_motion(entry: BodyEntry) -> dict[str, Any]:
-    """What a body's table says of targets, wrenches and friction, which no simulator knows."""
+    """What a body's table says and no simulator knows: targets, wrenches, friction, limits."""
     said: dict[str, Any] = {"targets": entry.targets} if entry.targets else {}
     if entry.wrenches is not None:
         rows = zip(entry.wrenches.times.tolist(), entry.wrenches.values.tolist(), strict=True)
         said["wrenches"] = [{"t": t, "force": w[:3], "torque": w[3:]} for t, w in rows]
     if entry.joint_friction is not None:
         said["joint_friction"] = entry.joint_friction
+    if entry.joint_limits is not None:
+        said["joint_limits"] = entry.joint_limits
     if entry.support is not None:
         said["support"] = entry.support.given
     return said
@@ -304,7 +305,7 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     """
     loaded = load_scenario(path)
     pairs = [pair for pair in loaded.pairs if "(" in pair.name]  # those of supports have none
-    other = replace(loaded, pairs=tuple(pairs), rises=NO_RISES).simulator()
+    other = replace(loaded, pairs=tuple(pairs), of_bodies=None).simulator()
     for own, loaded in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
             shape = getattr(own, side)

@@ -102,8 +102,8 @@ def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
 def test_the_files_own_friction_is_taken_when_asked_for(tmp_path):
     said = scene(tmp_path, DRAWN)
     asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'))
-    assert asked.rises.loads.tolist() == said.rises.loads.tolist() == [3.0]
-    assert not len(scene(tmp_path, DRAWN.replace("joint_friction", "positions")).rises)
+    assert asked.of_bodies.rises.loads.tolist() == said.of_bodies.rises.loads.tolist() == [3.0]
+    assert scene(tmp_path, DRAWN.replace("joint_friction", "positions")).of_bodies is None
 
 
 @pytest.mark.parametrize("force", [3.5, 4.999, -4.999, 6.0])
@@ -121,7 +121,7 @@ def test_a_joint_that_follows_adds_its_friction_by_its_multiplier(tmp_path, forc
         joint("under", "cabinet", "lower", "prismatic", "1 0 0", follows),
     )
     asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'), drawer=two)
-    assert asked.rises.loads.tolist() == [5.0]
+    assert asked.of_bodies.rises.loads.tolist() == [5.0]
     M = 2.0 + 2.0**2 * 2.0
     expected = np.sign(force) * H**2 * max(abs(force) - 5.0, 0.0) / (M + 1e-6 * M)
     np.testing.assert_allclose(step(asked, force).delta_q[0], expected, rtol=ROUNDING, atol=0.0)

@@ -229,7 +229,7 @@ def test_a_scenario_takes_mjcf_where_it_takes_a_urdf(arm):
     assert load_scenario(scene).system.n_a == 3  # its un-actuated slides and hinges have no mass
     everything = {"bodies.arm.actuated": "all", "bodies.arm.K_q": np.diag([500.0] * 5).tolist()}
     scenario = load_scenario(scene, everything)
-    assert scenario.rises.loads.tolist() == [0.3]
+    assert scenario.of_bodies.rises.loads.tolist() == [0.3]
     assert set(scenario.run(progress=False)["certificate"].tolist()) == {"exact"}
     for change, says in (
         ({"bodies.arm.urdf": "arm.urdf"}, r"bodies.arm.mjcf: cannot be combined with urdf"),

@@ -1,6 +1,6 @@
-"""The fields ``joint_friction`` and ``support`` of a scenario's bodies, as private rises, (R40)."""
+"""What tables of bodies add to each step: ``joint_friction``, ``support`` and ``joint_limits``."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,38 +10,45 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
+from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.extension import Extension, Rises
+from quasistatic_ref.step.extension import Extension, ExtensionOfQ, Rises
 
 
 @dataclass(frozen=True, eq=False)
-class Rising(Plain):
-    """An extension with private rises, at each q: those of a scenario and those of its own.
+class OfScenario(Plain):
+    """The extension of a scenario, at each q, with one of the user's own beside it.
 
     Parameters
     ----------
     rises : Rises
-        Of the scenario.
-    extension : callable, optional
-        A function of q, without rises.
+        Friction of joints and of supports, (R40).
+    limits : JointLimits
+    own : callable, optional
+        A function of q, without rises and rows.
     """
 
     rises: Rises
-    extension: Callable[[Array], Extension] | None = None
+    limits: JointLimits
+    own: ExtensionOfQ | None = None
+
+    def beside(self, own: ExtensionOfQ | None) -> "OfScenario":
+        """The same together with an extension of a user's own."""
+        return replace(self, own=own)
 
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""
-        own = Extension() if self.extension is None else self.extension(q)
-        return replace(own, rises=self.rises)
+        own = Extension() if self.own is None else self.own(q)
+        return replace(own, rises=self.rises, rows=self.limits.rows(q))
 
 
-def scenario_rises(
+def of_scenario(
     system: System, pairs: tuple[ContactPair, ...], entries: Mapping[str, BodyEntry], **more: Any
-) -> tuple[tuple[ContactPair, ...], Rises]:
-    """The pairs with those of supports, and the private rises of all friction.
+) -> tuple[tuple[ContactPair, ...], OfScenario]:
+    """The pairs with those of supports, and what else the tables of bodies add to each step.
 
     Parameters
     ----------
@@ -56,11 +63,14 @@ def scenario_rises(
     InputError
         Naming the field.
     """
+    limits = urdf_limits(system, [name for name, e in entries.items() if e.joint_limits])
+    limits.check_start(system.q_start)
     friction: dict[str, float] = {}
     for entry in entries.values():
         friction |= joint_friction(system, entry)
     support = {name: _support(e, e.support) for name, e in entries.items() if e.support is not None}
-    return private_rises(system, pairs, friction=friction, support=support, **more)
+    pairs, rises = private_rises(system, pairs, friction=friction, support=support, **more)
+    return pairs, OfScenario(rises, limits)
 
 
 def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:

@@ -1,0 +1,115 @@
+"""Stops at joint limits: rows of a step, certified as any others, whose multipliers are forces."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.step.arrays import freeze_copies
+from quasistatic_ref.step.data import Array, Extra, Indices
+
+LIMITED = ("revolute", "prismatic")
+"""Types of joints whose ``<limit>`` bounds a position, in URDF."""
+
+
+@dataclass(frozen=True, eq=False)
+class JointLimits(Plain):
+    """Least and greatest positions of joints, lower <= q_i <= upper.
+
+    Parameters
+    ----------
+    names : tuple of str, length c
+        Of the joints.
+    places : ndarray of int, shape (c,)
+        Their entries of q.
+    coordinates : ndarray of int, shape (c,)
+        Their entries of delta_q.
+    lower, upper : ndarray, shape (c,)
+        [m, rad]
+    n_v : int
+    """
+
+    names: tuple[str, ...]
+    places: Indices
+    coordinates: Indices
+    lower: Array
+    upper: Array
+    n_v: int
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "places", "coordinates", "lower", "upper")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def rows(self, q: Array) -> Extra:
+        """The stops at q, shape (n_q,): delta_q_i >= lower - q_i, and -delta_q_i >= q_i - upper.
+
+        The multiplier of a row over h is the force of its stop [N, N m].
+        """
+        c = len(self)
+        A = np.zeros((2, c, self.n_v))
+        A[0, np.arange(c), self.coordinates] = 1.0
+        A[1, np.arange(c), self.coordinates] = -1.0
+        at = q[self.places]
+        names = [f"{name} at its {end} limit" for end in ("lower", "upper") for name in self.names]
+        b = np.concatenate([self.lower - at, at - self.upper])
+        return Extra(tuple(names), A.reshape(2 * c, self.n_v), b)
+
+    def check_start(self, q: Array) -> None:
+        """Check that no joint is beyond its limits at q, shape (n_q,); InputError naming it."""
+        at = q[self.places]
+        for i in np.flatnonzero((at < self.lower) | (at > self.upper)):
+            problem = (
+                f"starts beyond its limits, {self.lower[i]:.6g} to {self.upper[i]:.6g}; change the "
+                "start, or leave out joint_limits"
+            )
+            raise InputError(problem, field=self.names[i], value=float(at[i]))
+
+
+def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
+    """What ``<limit>`` says of the joints of some bodies.
+
+    A joint that mimics another limits that one: multiplier * q + offset stays within its limits.
+    Limits that are absent, or both 0, are none.
+
+    Raises
+    ------
+    InputError
+        If a joint has no position within its limits and those of the joints that mimic it.
+    """
+    joints = {joint.name: joint for joint in system.joints}
+    moves = {name: (name, 1.0, 0.0) for name in joints}
+    moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
+    found: dict[str, tuple[float, float]] = {}
+    for body, text in zip(system.bodies, system.texts, strict=True):
+        for joint in xml_root(text).iter("joint") if body.name in bodies else ():
+            limit = joint.find("limit")
+            name = f"{body.name}/{joint.get('name')}"
+            if limit is None or joint.get("type") not in LIMITED or name not in moves:
+                continue
+            says = Tag(limit, f"{body.name}: joint[{joint.get('name')}].limit")
+            own = [says.number("lower", default=0.0), says.number("upper", default=0.0)]
+            of, multiplier, offset = moves[name]
+            if own == [0.0, 0.0] or multiplier == 0:
+                continue
+            low, high = sorted((end - offset) / multiplier for end in own)
+            before = found.get(of, (-np.inf, np.inf))
+            found[of] = max(low, before[0]), min(high, before[1])
+    for name, (low, high) in found.items():
+        if low > high:
+            problem = "has no position within its limits and those of the joints that mimic it"
+            raise InputError(problem, field=name, value=[low, high])
+    limited = [joints[name] for name in found]
+    return JointLimits(
+        names=tuple(found),
+        places=np.array([joint.q.start for joint in limited], dtype=np.int64),
+        coordinates=np.array([joint.v.start for joint in limited], dtype=np.int64),
+        lower=np.array([low for low, _ in found.values()]),
+        upper=np.array([high for _, high in found.values()]),
+        n_v=system.n_v,
+    )
