@@ -34,6 +34,7 @@ _HOMES = {
     "simulate.trajectory": "Trajectory trajectory_read",
     "scenario.scenario": "Scenario load_scenario",
     "optional.runs.scene_file": "scenario_written",
+    "optional.scans.body": "scanned_body",
     "optional.targets.joint_targets": "joint_targets",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",

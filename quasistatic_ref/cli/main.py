@@ -24,6 +24,7 @@ COMMANDS = {
     "solve": "solve one step file",
     "verify": "re-check an answer and its certificate without any solver",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
+    "body": "make a body of a scenario from a scan, a point cloud or a mesh",
     "targets": "write targets of joints that move a link along straight lines between poses",
     "extract": "write one step of a trajectory as a step file",
     "vectors": "reference vectors: check another implementation against them, layer by layer",

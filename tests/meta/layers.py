@@ -31,6 +31,7 @@ OPTIONAL = (
     "optional/qpsolvers",
     "optional/readers",
     "optional/runs",
+    "optional/scans",
     "optional/show",
     "optional/targets",
 )

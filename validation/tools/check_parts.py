@@ -33,6 +33,7 @@ PARTS = {
     "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
     "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),
+    "scans": ([], ""),
     "show": (["--view"], "view"),
     "targets": ([], ""),
 }

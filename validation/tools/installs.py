@@ -83,6 +83,7 @@ COMMANDS = {
         "quasistatic-ref solve step.json -o solution.json",
         "quasistatic-ref verify step.json solution.json",
         "quasistatic-ref inspect bunny_grasp",
+        f"quasistatic-ref body {MODELS}/bunny_grasp/bunny.obj --mass 0.2 --out bunny",
         "quasistatic-ref backends",
         "quasistatic-ref completion bash",
         "quasistatic-ref schema",

@@ -1,12 +1,16 @@
 """Masses, inertias and sizes that contradict each other."""
 
 from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.doctor.start import Said, Start, body, sizes
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
 DENSITIES = 10.0, 25_000.0
@@ -16,6 +20,10 @@ GYRATION = 1e-3, 10.0
 at most 1, but for what has no collision shape; of a homogeneous ball 0.4."""
 WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
 """To the faces, edges and corners of a cube [-]."""
+HULL = "hull of its points"
+OUTSIDE = 0.25
+"""How far a centre of mass may be outside of the hull of a cloud, over the cloud's extent [-]: a
+cloud may be a part of a surface."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
@@ -52,6 +60,23 @@ def inertia(start: Start) -> Iterator[Said]:
             )
 
 
+def centre(start: Start) -> Iterator[Said]:
+    """Free links whose centre of mass is far outside of the points that they are known by."""
+    for link, name, shapes in _free_links(start):
+        if any(placed.link != link or placed.name != HULL for placed in shapes):
+            continue
+        at = start.system.centres[link]
+        away = min(float(placed.shape.signed_distance(at[None])[0][0]) for placed in shapes)
+        extent = max(sizes(shapes))
+        if away > OUTSIDE * extent:
+            yield Said(
+                f"check the centre of mass of {name}, or the origin of its cloud",
+                f"it is {1e3 * away:.3g} mm outside of its points, which are {1e3 * extent:.3g} mm "
+                "long; both are in the frame of the link",
+                {"outside_mm": 1e3 * away},
+            )
+
+
 def sizes_apart(start: Start) -> Iterator[Said]:
     """A body or shape that is a thousand times as long as another."""
     found: dict[str, float] = {}
@@ -75,15 +100,25 @@ def sizes_apart(start: Start) -> Iterator[Said]:
 def _free_links(start: Start) -> Iterator[tuple[int, str, list[PlacedShape]]]:
     """Links that a joint without actuator moves, with mass and shapes: number, name and shapes.
 
-    A cloud is no shape here: it may be a part of a surface.
+    What is known by a cloud alone has the cloud's hull, if that has a volume.
     """
     system = start.system
     free = np.flatnonzero(system.column_map.owner >= system.n_a)
     moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
     for link, name in enumerate(system.links):
         shapes = [placed for placed in system.shapes if placed.link == link]
+        shapes = shapes or [*_hulls(start, link)]
         if moved[link] and shapes and system.masses[link] > 0:
             yield link, name, shapes
+
+
+def _hulls(start: Start, link: int) -> Iterator[PlacedShape]:
+    """Convex hulls of the clouds of a link."""
+    clouds = {id(p.shape): p for p in start.sides if p.link == link}
+    for placed in clouds.values():
+        if isinstance(placed.shape, PointCloud):
+            with suppress(ModelError):  # all of them in a plane
+                yield replace(placed, name=HULL, shape=convex_hull(placed.shape.points))
 
 
 def _points(placed: PlacedShape) -> Array:

@@ -14,6 +14,7 @@ from quasistatic_ref.optional.doctor import (
     penetration,
     proofs,
     several,
+    strays,
     sunk,
     targets,
     unborne,
@@ -47,8 +48,10 @@ class Kind(NamedTuple):
 OF_SCENE = (
     Kind("unit of a shape", True, units.long_shapes),
     Kind("unit of mu_omega", True, units.large_mu_omega),
+    Kind("stray points", True, strays.strays),
     Kind("sizes apart", True, contradictions.sizes_apart),
     Kind("density", True, contradictions.density),
+    Kind("centre of mass", True, contradictions.centre),
     Kind("inertia", True, contradictions.inertia),
     Kind("unsupported body", True, unsupported.unsupported),
     Kind("initial penetration", True, penetration.penetration),

@@ -1,0 +1,42 @@
+"""``body SCAN --mass KG``: a body of a scenario from a point cloud or a mesh."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from quasistatic_ref.parts import needed_part
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.add_argument(
+        "scan", type=Path, help="a cloud (CSV, XYZ, PLY, PCD, NPY, NPZ) or a mesh (STL, OBJ, DAE)"
+    )
+    weight = parser.add_mutually_exclusive_group(required=True)
+    weight.add_argument("--mass", type=float, metavar="KG", help="of the body [kg]")
+    weight.add_argument("--density", type=float, metavar="RHO", help="in its place [kg/m^3]")
+    parser.add_argument("--unit", metavar="UNIT", help="of the file: m, cm, mm or in")
+    parser.add_argument("--points", type=int, metavar="N", help="most points that are kept (1000)")
+    parser.add_argument("--name", help="of the body; by default that of the file")
+    parser.add_argument(
+        "--out", type=Path, default=Path(), metavar="FOLDER",
+        help="where NAME.csv and NAME.urdf are written; by default the current folder",
+    )  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the files, say on standard error what was done, and print the scenario's tables."""
+    made = needed_part("scans.body", "body").scanned_body(
+        options.scan,
+        mass=options.mass,
+        density=options.density,
+        unit=options.unit,
+        name=options.name,
+        **({} if options.points is None else {"points": options.points}),
+    )
+    for file in made.save(options.out):
+        print(f"wrote {file}", file=sys.stderr)
+    for note in made.notes:
+        print(f"{made.name}: {note}", file=sys.stderr)
+    print(made.table(), end="")
+    return 0

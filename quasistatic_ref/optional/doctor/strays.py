@@ -1,0 +1,33 @@
+"""Points of a cloud that are no part of its surface."""
+
+from collections.abc import Iterator
+
+from quasistatic_ref.optional.doctor.start import Said, Start, body
+from quasistatic_ref.parts import part
+from quasistatic_ref.shapes.placed_shape import PointCloud
+
+FEWEST, MOST = 50, 200_000
+"""Points of a cloud that is looked at: fewer have no surface, more take a second."""
+SHOWN = 3
+
+
+def strays(start: Start) -> Iterator[Said]:
+    """Clouds with points that no gap of a few spacings joins to the others."""
+    scans = part("scans.cloud")
+    if scans is None:
+        return
+    clouds = {id(p.shape): (p.shape, body(start.system, p.link)) for p in start.sides}
+    for shape, name in clouds.values():
+        if not (isinstance(shape, PointCloud) and FEWEST <= len(shape.points) <= MOST):
+            continue
+        found = shape.points[scans.stray(shape.points)]
+        if len(found):
+            places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
+            more = ["..."] if len(found) > SHOWN else []
+            yield Said(
+                f"leave {len(found)} stray points out of the cloud of {name}, or make it by "
+                "quasistatic-ref body",
+                f"they lie at {', '.join(places + more)} mm, apart from the {len(shape.points)} "
+                "points of its surface",
+                {"strays": len(found)},
+            )

@@ -1,0 +1,259 @@
+"""A scan as a body of a scenario: its points, mass, centre of mass and inertia."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh, triangles_of
+from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
+from quasistatic_ref.optional.scans.lying import points_to_lie_on
+from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_mesh, solid_of_points
+from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
+
+UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
+"""[m]"""
+EXTENTS = 0.005, 3.0
+"""Lengths of what is handled [m]; for others the unit is asked for."""
+POINTS = 1000
+"""Points that a body has unless it is said; the paper's bunny has 992."""
+FEWEST = 50
+"""Fewest points of which a solid is made."""
+WIDE = 0.25
+"""Gap over extent [-] from which it is doubted that the points enclose the solid."""
+ON_MESH = 10_000
+"""Points that are drawn on a mesh, uniform over its area, before they are thinned."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScannedBody(Plain):
+    """A body that was made of a scan.
+
+    Parameters
+    ----------
+    name : str
+    points : ndarray, shape (N, 3)
+        Of its cloud, in the frame of the scan [m].
+    mass : float
+        [kg]
+    centre : ndarray, shape (3,)
+        Of mass [m].
+    inertia : ndarray, shape (3, 3)
+        About the centre of mass [kg m^2].
+    k : int
+        Suggested number of contacts of a pair.
+    notes : tuple of str
+        What was done and what is doubtful, in sentences with their numbers.
+    """
+
+    name: str
+    points: Array
+    mass: float
+    centre: Array
+    inertia: Array
+    k: int
+    notes: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "points", "centre", "inertia")
+
+    @property
+    def urdf(self) -> str:
+        """Its URDF: one link, without a shape."""
+        x, y, z = self.centre.tolist()
+        (xx, xy, xz), (_, yy, yz), (*_, zz) = self.inertia.tolist()
+        return (
+            f'<robot name="{self.name}"><link name="{self.name}"><inertial>'
+            f'<origin xyz="{x!r} {y!r} {z!r}"/><mass value="{self.mass!r}"/>'
+            f'<inertia ixx="{xx!r}" iyy="{yy!r}" izz="{zz!r}" ixy="{xy!r}" ixz="{xz!r}" '
+            f'iyz="{yz!r}"/></inertial></link></robot>\n'
+        )
+
+    @property
+    def height(self) -> float:
+        """Of the scan's origin where its lowest point is on a floor at z = 0 [m]."""
+        return -float(self.points[:, 2].min())
+
+    def table(self) -> str:
+        """Tables of a scenario for it, which stands on a floor as it was scanned."""
+        return (
+            f"[bodies.{self.name}]\n"
+            f'urdf = "{self.name}.urdf"\n'
+            f'base = "floating"\n'
+            f"pose = {{ xyz = [0, 0, {self.height + 0.0:.6g}] }}\n"
+            f'cloud = "{self.name}.csv"\n'
+            "\n"
+            "[shapes.floor]\n"
+            "halfspace = { normal = [0, 0, 1], offset = 0 }\n"
+            "\n"
+            f"[contacts.{self.name}_on_floor]\n"
+            'alpha = "floor"\n'
+            f'beta = "{self.name}"\n'
+            "mu_v = 0.5 # a guess\n"
+            "rows = 4\n"
+            f"k = {self.k}\n"
+        )
+
+    def save(self, folder: str | Path) -> tuple[Path, Path]:
+        """Write ``NAME.csv`` and ``NAME.urdf`` into a folder; the files."""
+        lines = [",".join(f"{x:.9g}" for x in point) for point in self.points.tolist()]
+        cloud = text_written(Path(folder) / f"{self.name}.csv", "\n".join(["x,y,z", *lines, ""]))
+        return cloud, text_written(Path(folder) / f"{self.name}.urdf", self.urdf)
+
+
+def scanned_body(
+    scan: str | Path,
+    *,
+    mass: float | None = None,
+    density: float | None = None,
+    unit: str | None = None,
+    points: int = POINTS,
+    name: str | None = None,
+) -> ScannedBody:
+    """A body from a scan: a point cloud, or a mesh.
+
+    Points that no gap of a few spacings joins to the others are left out. The solid is the inside
+    of a closed mesh, or what the points enclose
+    (:func:`~quasistatic_ref.optional.scans.solid.solid_of_points`), of one density.
+
+    Parameters
+    ----------
+    scan : str or Path
+        A cloud (CSV, XYZ, PLY, PCD, NPY, NPZ) or a mesh (STL, OBJ, DAE); an OBJ without faces is a
+        cloud.
+    mass : float, optional
+        [kg].
+    density : float, optional
+        In place of the mass [kg/m^3].
+    unit : str, optional
+        ``"m"``, ``"cm"``, ``"mm"`` or ``"in"``; metres, if the extent is that of what is handled.
+    points : int
+        Most points of the body.
+    name : str, optional
+        Of the body; by default of the file.
+
+    Returns
+    -------
+    ScannedBody
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, the unit is doubtful, or the points enclose nothing.
+    """
+    path = Path(scan)
+    name = path.stem.replace(" ", "_") if name is None else name
+    Body(name, "<robot/>")  # checks the name
+    given, greatest = (("mass", mass), ("density", density)), 1e6
+    chosen = [(word, value) for word, value in given if value is not None]
+    if len(chosen) != 1 or not 0 < chosen[0][1] < greatest:
+        problem = "say one of them, greater than 0: --mass in kg, or --density in kg/m^3"
+        raise InputError(problem, field="mass, density", value=[mass, density])
+    if points < FEWEST:
+        raise InputError(f"must be at least {FEWEST}", field="points", value=points)
+    with about_file(path):
+        notes: list[str] = []
+        cloud, solid = _surface_and_solid(path, unit, notes)
+        if solid is None:
+            problem = "its points enclose no solid; give a closed mesh, or more points"
+            raise InputError(problem, field="points", value=len(cloud))
+    kept = thinned(cloud, points)
+    if len(kept) < len(cloud):
+        apart = 1e3 * spacing(cloud[kept])
+        notes.append(f"{len(kept)} of {len(cloud)} points are kept, {apart:.2g} mm apart")
+    mass = solid.volume * density if mass is None and density is not None else mass
+    assert mass is not None
+    notes.append(
+        f"a volume of {1e6 * solid.volume:.4g} cm^3: {mass:.4g} kg are "
+        f"{mass / solid.volume:.4g} kg/m^3"
+    )
+    k, ways = points_to_lie_on(cloud[kept], solid.centre)
+    notes.append(
+        f"k = {k}: it can lie in {ways} ways, and in each of them its centre of mass is over the "
+        f"{k} lowest points"
+    )
+    return ScannedBody(
+        name, cloud[kept], mass, solid.centre, mass * solid.gyration, k, tuple(notes)
+    )
+
+
+def _surface_and_solid(
+    path: Path, unit: str | None, notes: list[str]
+) -> tuple[Array, Solid | None]:
+    """Points on the surface, shape (N, 3) [m], and the solid; what was done is added to notes."""
+    vertices = np.zeros((0, 3))
+    triangles = np.zeros((0, 3), dtype=np.int64)
+    if path.suffix.lower() in MESHES:
+        mesh = loaded_mesh(path, np.ones(3)) if _has_faces(path) else None
+        if mesh is not None:
+            vertices, triangles = np.array(mesh.vertices()), triangles_of(mesh)
+    if len(triangles):
+        vertices = vertices * _metres(vertices, unit)
+        solid = solid_of_mesh(vertices, triangles)
+        on_surface = _points_on(vertices, triangles)
+        if solid is not None:
+            notes.append(f"a closed mesh of {len(triangles)} triangles")
+            return on_surface, solid
+        notes.append("the mesh is not closed: its surface is taken as points")
+        return on_surface, _enclosed(on_surface, notes)
+    found = point_cloud(path).points
+    points = found * _metres(found, unit)
+    if len(points) < FEWEST:
+        raise InputError(f"must be at least {FEWEST}", field="points", value=len(points))
+    strays = stray(points)
+    if strays.any():
+        places = 1e3 * points[strays][:3]
+        where = "; ".join(", ".join(f"{x:.4g}" for x in place) for place in places.tolist())
+        more = "" if strays.sum() <= 3 else ", ..."
+        notes.append(f"{strays.sum()} stray points are left out, at ({where}{more}) mm")
+    points = points[~strays]
+    return points, _enclosed(points, notes)
+
+
+def _enclosed(points: Array, notes: list[str]) -> Solid | None:
+    some = points[:: -(-len(points) // MOST)]
+    solid = solid_of_points(some)
+    if solid is not None:
+        wide = solid.gap > WIDE * float(np.ptp(points, axis=0).max())
+        doubt = "; is it hollow, or has it holes? A closed mesh would say" if wide else ""
+        notes.append(
+            f"the solid is what a ball of radius {1e3 * solid.gap:.3g} mm cannot enter{doubt}"
+        )
+    return solid
+
+
+def _has_faces(path: Path) -> bool:
+    """Whether a mesh file has triangles: an OBJ may hold points alone."""
+    return path.suffix.lower() != ".obj" or b"\nf " in path.read_bytes()
+
+
+def _metres(points: Array, unit: str | None) -> float:
+    """The unit of coordinates [m]; an InputError where it must be said."""
+    if unit is not None:
+        if unit not in UNITS:
+            problem = f"is not a unit{suggestion(unit, UNITS)}"
+            raise InputError(problem, field="unit", value=unit)
+        return UNITS[unit]
+    extent = float(np.ptp(points, axis=0).max())
+    if not EXTENTS[0] <= extent <= EXTENTS[1]:
+        problem = f"is {extent:.4g} m long if it is in metres; say its unit: --unit mm, or m"
+        raise InputError(problem, field="unit")
+    return 1.0
+
+
+def _points_on(vertices: Array, triangles: Indices) -> Array:
+    """Points on a mesh: its corners, and others uniform over its area, shape (N, 3) [m]."""
+    rng = np.random.default_rng(0)
+    a, b, c = np.moveaxis(vertices[triangles], 1, 0)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    of = rng.choice(len(areas), ON_MESH, p=areas / areas.sum())
+    u, v = rng.random((2, ON_MESH, 1))
+    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
+    inside = a[of] + u * (b - a)[of] + v * (c - a)[of]
+    return np.unique(np.concatenate([vertices, inside]), axis=0)

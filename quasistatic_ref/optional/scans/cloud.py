@@ -1,0 +1,76 @@
+"""Points of a scan: strays left out, noise smoothed, thinned."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull, cKDTree
+
+from quasistatic_ref.step.arrays import Array, Indices
+
+LINKED = 6.0
+"""Points of one surface are linked by gaps of at most so many median distances to the nearest."""
+LINKS = 8
+"""Nearest points that a point may be linked with: a few stray points close together stay stray."""
+SURFACE = 10, 0.002
+"""Linked points are a part of the surface from so many on, and from this share of all on [-]."""
+PLANE = 16
+"""Points through which a plane is laid, to smooth noise."""
+
+EDGE = 4.0
+"""Variance off that plane, over the median of all points, above which a point is at an edge."""
+
+
+def spacing(points: Array) -> float:
+    """Median distance of a point to the nearest other, of points of shape (N, 3) [m]."""
+    distances, _ = cKDTree(points).query(points, k=2)
+    return float(np.median(distances[:, 1]))
+
+
+def stray(points: Array) -> NDArray[np.bool_]:
+    """Which points, shape (N, 3) [m], belong to no surface of the others, shape (N,)."""
+    n = len(points)
+    tree = cKDTree(points)
+    reach = LINKED * spacing(points)
+    _, near = tree.query(points, k=min(LINKS, n), distance_upper_bound=reach)
+    of, place = np.nonzero(near < n)  # n where there is no further one
+    links = coo_matrix((np.ones(len(of)), (of, near[of, place])), shape=(n, n))
+    _, group = connected_components(links, directed=False)
+    return np.asarray(np.bincount(group)[group] < max(SURFACE[0], SURFACE[1] * n))
+
+
+def smoothed(points: Array) -> Array:
+    """Each point, shape (N, 3) [m], moved onto the plane of its nearest ones; not at edges."""
+    _, near = cKDTree(points).query(points, k=min(PLANE, len(points)))
+    around = points[near]
+    middle = around.mean(axis=1)
+    off = around - middle[:, None]
+    spread, axes = np.linalg.eigh(np.einsum("nki,nkj->nij", off, off))
+    normal = axes[:, :, 0]
+    thick = spread[:, 0]
+    edge = thick > EDGE * np.median(thick)
+    height = np.where(edge, 0.0, np.vecdot(points - middle, normal))
+    return np.asarray(points - height[:, None] * normal)
+
+
+def thinned(points: Array, count: int) -> Indices:
+    """Numbers of `count` of the points, shape (N, 3) [m]: corners of the hull, then the farthest.
+
+    Corners of the convex hull are what the body can lie on. Each further point is, of all, the
+    farthest from those before it, so that the whole surface is covered evenly.
+    """
+    if len(points) <= count:
+        return np.arange(len(points))
+    corners = ConvexHull(points).vertices
+    chosen = _farthest(points[corners], [], min(count // 2, len(corners)))
+    return np.sort(_farthest(points, corners[chosen].tolist(), count))
+
+
+def _farthest(points: Array, chosen: list[int], count: int) -> Indices:
+    """Numbers of points, from those chosen on, each the farthest from all before it."""
+    chosen = list(chosen or [0])
+    distance, _ = cKDTree(points[chosen]).query(points)
+    while len(chosen) < count:
+        chosen.append(int(distance.argmax()))
+        distance = np.minimum(distance, np.linalg.norm(points - points[chosen[-1]], axis=1))
+    return np.array(chosen)

@@ -1,0 +1,48 @@
+"""How many points a body needs to lie on, in each way in which it can lie."""
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.step.arrays import Array
+
+FEWEST = 4
+"""Fewest contacts that are suggested: corners of a face."""
+DECIMALS = 8
+"""Points of a face are equally low to so many decimals of a metre."""
+
+
+def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int]:
+    """The least k with which a cloud stands still in each way it can lie, and how many ways.
+
+    It can lie on a face of its hull if the centre of mass is over that face. The k lowest points,
+    of equally low ones the first, must then be around the centre as well.
+
+    Parameters
+    ----------
+    points : ndarray, shape (N, 3)
+        Not all in a plane [m].
+    centre : ndarray, shape (3,)
+        Of mass [m].
+    """
+    planes = np.unique(ConvexHull(points).equations.round(DECIMALS), axis=0)
+    d1, d2 = tangents(planes[:, :3])
+    needed = []
+    for normal, along, across in zip(planes[:, :3], d1, d2, strict=True):
+        below = (points @ normal).round(DECIMALS)
+        flat = (points - centre) @ np.stack([along, across], axis=1)
+        if not _around(flat[below == below.max()]):
+            continue
+        flat = flat[np.argsort(-below, kind="stable")]
+        least, most = 3, len(points)
+        while least < most:
+            middle = (least + most) // 2
+            least, most = (least, middle) if _around(flat[:middle]) else (middle + 1, most)
+        needed.append(most)
+    return max([FEWEST, *needed]), len(needed)
+
+
+def _around(flat: Array) -> bool:
+    """Whether points of a plane, shape (N, 2), lie around the origin."""
+    angles = np.sort(np.arctan2(flat[:, 1], flat[:, 0]))
+    return len(flat) > 2 and bool(np.diff(angles, append=angles[0] + 2 * np.pi).max() < np.pi)

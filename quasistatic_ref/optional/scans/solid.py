@@ -1,0 +1,152 @@
+"""Volume, centre and inertia of a homogeneous solid: of a closed mesh, or enclosed by points."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import ConvexHull, Delaunay, QhullError
+
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.optional.scans.cloud import smoothed, spacing
+from quasistatic_ref.step.arrays import Array, Indices
+
+FACES = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
+"""Corners of the face of a tetrahedron that lies across from each of its corners."""
+PROBE = 3.0
+"""Radius of the first probe, in spacings of the points [-]."""
+WIDER = 2.0
+"""Radius of each further probe over the one before [-]."""
+HELD = 0.9
+"""Share of the points that have to be on one connected solid [-]."""
+LEAK = 2.0
+"""Volume over that of the probe before, from which that one had got inside [-]."""
+SHAKEN = 1e-3
+"""How far points are shaken, in their spacing [-]: Qhull takes ten times as long if thousands lie
+in one plane."""
+MOST = 20_000
+"""Most points whose tetrahedra are formed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solid(Plain):
+    """A homogeneous solid.
+
+    Parameters
+    ----------
+    volume : float
+        [m^3]
+    centre : ndarray, shape (3,)
+        Of mass [m].
+    gyration : ndarray, shape (3, 3)
+        Inertia about the centre of mass for each kilogram [m^2].
+    gap : float
+        Radius of the probe that went around the points [m]; 0 of a mesh.
+    """
+
+    volume: float
+    centre: Array
+    gyration: Array
+    gap: float = 0.0
+
+    @classmethod
+    def of_tetrahedra(cls, corners: Array, gap: float = 0.0) -> Self:
+        """A solid of tetrahedra, shape (T, 4, 3) [m]; those with negative volume are taken away.
+
+        The integral of x x' over one of them, of volume V and with corners x_i, is
+        V/20 (s s' + sum of x_i x_i'), with s the sum of the x_i.
+        """
+        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+        sums = corners.sum(axis=1)
+        volume = volumes.sum()
+        centre = volumes @ sums / 4 / volume
+        second = np.einsum("t,ti,tj->ij", volumes, sums, sums)
+        second += np.einsum("t,tki,tkj->ij", volumes, corners, corners)
+        spread = second / 20 / volume - np.outer(centre, centre)
+        return cls(float(volume), centre, np.trace(spread) * np.eye(3) - spread, gap)
+
+
+def solid_of_mesh(vertices: Array, triangles: Indices) -> Solid | None:
+    """The inside of a mesh of V vertices, (V, 3) [m], and triangles, (T, 3); None if it is open.
+
+    A mesh is closed if each edge of a triangle is that of another one, in the other direction.
+    """
+    _, same = np.unique(vertices, axis=0, return_inverse=True)  # STL repeats corners
+    corners = same.ravel()[triangles]
+    edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    there, back = (np.unique(way, axis=0, return_counts=True) for way in (edges, edges[:, ::-1]))
+    if not (np.array_equal(there[0], back[0]) and np.array_equal(there[1], back[1])):
+        return None
+    middle = vertices.mean(axis=0)
+    tops = np.full((len(triangles), 1, 3), middle)
+    solid = Solid.of_tetrahedra(np.concatenate([tops, vertices[triangles]], axis=1))
+    return solid if solid.volume > 0 else None
+
+
+def solid_of_points(points: Array) -> Solid | None:
+    """The solid whose surface points were scanned, shape (N, 3) [m]; None if they enclose none.
+
+    A ball rolls around the points and through every gap that is wider than itself: in the
+    tetrahedra of Delaunay's triangulation, through each face whose circumscribed circle is larger.
+    What it never reaches is the solid. The smallest ball is taken that does not get inside: of
+    one that does, only splinters along the surface are left, and the next one finds far more.
+    """
+    try:
+        ConvexHull(points)
+    except QhullError:  # all of them lie in a plane
+        return None
+    points = smoothed(points)
+    apart = spacing(points)
+    points = points + SHAKEN * apart * np.random.default_rng(0).normal(size=points.shape)
+    mesh = Delaunay(points)
+    corners = points[mesh.simplices]
+    ways = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
+    corners[ways] = corners[ways][:, [1, 0, 2, 3]]  # each volume positive
+    radii = _circumscribed(points[mesh.simplices[:, FACES]])
+    gap = PROBE * apart
+    extent = float(np.ptp(points, axis=0).max())
+    before: Solid | None = None
+    while gap < 2 * extent:
+        one = _largest(mesh.neighbors, _unreached(mesh.neighbors, radii > gap), corners)
+        solid = None
+        if len(np.unique(mesh.simplices[one])) >= HELD * len(points):
+            solid = Solid.of_tetrahedra(corners[one], gap)
+        if solid is not None and before is not None and solid.volume < LEAK * before.volume:
+            return before
+        before = solid
+        gap *= WIDER
+    return before
+
+
+def _unreached(neighbours: Indices, passable: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which tetrahedra no way through passable faces joins with the outside, shape (T,)."""
+    n = len(neighbours)
+    of, face = np.nonzero(passable)
+    to = neighbours[of, face]
+    to = np.where(to < 0, n, to)  # the outside is number n
+    ways = coo_matrix((np.ones(len(of)), (of, to)), shape=(n + 1, n + 1))
+    _, group = connected_components(ways, directed=False)
+    return np.asarray(group[:n] != group[n])
+
+
+def _largest(neighbours: Indices, inside: NDArray[np.bool_], corners: Array) -> Indices:
+    """Numbers of the tetrahedra of the largest connected part of those inside."""
+    n = len(neighbours)
+    of, face = np.nonzero(inside[:, None] & (neighbours >= 0) & inside[neighbours])
+    to = neighbours[of, face]
+    links = coo_matrix((np.ones(len(of)), (of, to)), shape=(n, n))
+    _, group = connected_components(links, directed=False)
+    volumes = abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) * inside
+    return np.flatnonzero(inside & (group == np.bincount(group, volumes).argmax()))
+
+
+def _circumscribed(faces: Array) -> Array:
+    """Radii of the circles through triangles, shape (T, 4, 3, 3) [m] -> (T, 4)."""
+    a, b, c = np.moveaxis(faces, -2, 0)
+    sides = [np.linalg.norm(side, axis=-1) for side in (b - c, c - a, a - b)]
+    twice_area = np.linalg.norm(np.cross(b - a, c - a), axis=-1)
+    product = sides[0] * sides[1] * sides[2]
+    flat = twice_area <= 0
+    return np.where(flat, np.inf, product / np.where(flat, 1.0, 2 * twice_area))

@@ -1,0 +1,168 @@
+"""Bodies from scans: mass properties against formulas, strays, units, and what is refused."""
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.scans.cloud import stray, thinned
+from quasistatic_ref.optional.scans.lying import points_to_lie_on
+from quasistatic_ref.optional.scans.solid import Solid
+from quasistatic_ref.scenario.scenario import scenario_path
+from tests.optional.scans.scanned import SCANS, SOLIDS, Exact, on_block
+from tests.tolerances import ROUNDING
+
+WITHIN, WITH_HOLES = 0.05, 0.10
+"""Errors of mass properties that are asked for, over the extent or the largest moment."""
+MASS = 0.35
+
+
+def body(folder, points, **more):
+    path = folder / "scan.npy"
+    np.save(path, points)
+    return qr.scanned_body(path, **{"mass": MASS, "name": "thing", **more})
+
+
+def off(made, exact: Exact) -> float:
+    """Largest error of centre and inertia, over the extent and the largest moment [-]."""
+    _, centre, gyration = exact
+    extent = np.ptp(made.points, axis=0).max()
+    moments = abs(made.inertia / MASS - gyration).max() / np.linalg.eigvalsh(gyration).max()
+    return float(max(np.linalg.norm(made.centre - centre) / extent, moments))
+
+
+@pytest.mark.parametrize("scan", SCANS)
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_a_scan_has_the_centre_and_inertia_of_its_solid(solid, scan, tmp_path):
+    rng = np.random.default_rng(0)
+    points, exact = SOLIDS[solid](rng, 3000)
+    made = body(tmp_path, SCANS[scan](rng, points))
+    assert off(made, exact) < (WITH_HOLES if scan == "holed" else WITHIN)
+    assert made.mass == MASS
+    assert len(made.points) == 1000
+    said = [note for note in made.notes if "5 stray points are left out" in note]
+    assert len(said) == (scan == "with strays")
+
+
+def test_a_scan_in_millimetres_is_asked_for_its_unit(tmp_path):
+    points, exact = SOLIDS["can"](np.random.default_rng(1), 3000)
+    with pytest.raises(InputError, match="is 115 m long if it is in metres; say its unit: --unit"):
+        body(tmp_path, 1e3 * points)
+    made = body(tmp_path, 1e3 * points, unit="mm")
+    assert off(made, exact) < WITHIN
+    with pytest.raises(InputError, match="unit: is not a unit; did you mean 'mm'"):
+        body(tmp_path, points, unit="mmm")
+
+
+def test_a_density_gives_the_mass(tmp_path):
+    points, (volume, *_) = SOLIDS["box"](np.random.default_rng(2), 3000)
+    made = body(tmp_path, points, mass=None, density=700.0)
+    assert made.mass == pytest.approx(700.0 * volume, rel=0.02)
+
+
+def test_a_closed_mesh_is_exact(tmp_path):
+    """The bunny of models/, whose URDF was summed by its own program from the same mesh."""
+    folder = scenario_path("bunny_grasp").parent
+    made = qr.scanned_body(folder / "bunny.obj", mass=0.2)
+    system = qr.System([qr.Body("bunny", folder / "bunny.urdf", base="floating")])
+    np.testing.assert_allclose(made.centre, system.centres[1], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(made.inertia, system.inertias[1], rtol=0, atol=1e-11)
+
+
+def test_the_papers_cloud_of_992_points_is_enough():
+    folder = scenario_path("bunny_grasp").parent
+    made = qr.scanned_body(folder / "bunny_992.csv", mass=0.2)
+    of_mesh = qr.scanned_body(folder / "bunny.obj", mass=0.2)
+    assert abs(made.centre - of_mesh.centre).max() < 0.0016
+    assert abs(made.inertia - of_mesh.inertia).max() < 0.05 * of_mesh.inertia.max()
+
+
+def test_the_inertia_of_a_tetrahedron(tmp_path):
+    """Corners 0, e1, e2, e3: V = 1/6, centre 1/4; about it x x' has 3/80 and -1/80 on average.
+
+    So each moment is 2 * 3/80, and each product of inertia +1/80.
+    """
+    solid = Solid.of_tetrahedra(np.array([np.vstack([np.zeros(3), np.eye(3)])]))
+    assert solid.volume == pytest.approx(1 / 6, rel=ROUNDING)
+    np.testing.assert_allclose(solid.centre, 0.25, rtol=ROUNDING, atol=0)
+    expected = np.full((3, 3), 1 / 80) + np.eye(3) * (6 / 80 - 1 / 80)
+    np.testing.assert_allclose(solid.gyration, expected, rtol=1e-12, atol=0)
+
+
+def test_a_wide_gap_is_doubted(tmp_path):
+    """A cup of 1,000 points has walls thinner than its points are apart: it seems to be full."""
+    points, _ = SOLIDS["mug"](np.random.default_rng(3), 1000)
+    made = body(tmp_path, points)
+    assert [note for note in made.notes if "is it hollow, or has it holes?" in note]
+
+
+def test_a_face_and_what_encloses_nothing_is_refused(tmp_path):
+    rng = np.random.default_rng(4)
+    flat = np.concatenate([rng.uniform(0, 0.1, (500, 2)), np.zeros((500, 1))], axis=1)
+    with pytest.raises(InputError, match="points: its points enclose no solid; give a closed mesh"):
+        body(tmp_path, flat)
+    with pytest.raises(InputError, match="points: must be at least 50"):
+        body(tmp_path, flat[:20])
+    with pytest.raises(InputError, match="say one of them"):
+        body(tmp_path, flat, mass=None)
+
+
+def test_two_close_strays_are_strays():
+    """They are 0.1 mm apart, and link to each other only."""
+    rng = np.random.default_rng(5)
+    points = on_block(rng, 4000, (0.1, 0.1, 0.1))
+    pair = np.array([[0.2, 0.0, 0.0], [0.2001, 0.0, 0.0]])
+    assert stray(np.concatenate([points, pair])).tolist() == [False] * 4000 + [True] * 2
+
+
+def test_thinned_points_keep_the_corners_and_cover_the_rest():
+    """The corners of a cube stay, and no point is farther from those kept than these are apart.
+
+    Else it would have been taken in place of one of them.
+    """
+    rng = np.random.default_rng(6)
+    cube = np.array(np.meshgrid(*[[-0.05, 0.05]] * 3)).reshape(3, 8).T
+    points = np.concatenate([on_block(rng, 4000, (0.1, 0.1, 0.1)), cube])
+    kept = thinned(points, 100)
+    assert len(kept) == 100 == len(set(kept.tolist()))
+    assert set(range(4000, 4008)) <= set(kept.tolist())
+    own = points[kept]
+    apart = np.linalg.norm(own[:, None] - own[None], axis=2) + np.eye(100)
+    away = np.linalg.norm(points[:, None] - own[None], axis=2).min(axis=1).max()
+    assert away <= apart.min() + 1e-12
+
+
+@pytest.mark.parametrize(("each", "expected"), [(1, 4), (3, 10)])
+def test_as_many_points_as_a_cube_lies_on(each, expected):
+    """Four corners of a face, in the order of the corners; three of them leave the middle out.
+
+    With `each` points at a corner, the first 3 `each` are those of three corners: one more is
+    needed. Faces whose first corners are opposite need fewer.
+    """
+    cube = np.array(np.meshgrid(*[[-0.05, 0.05]] * 3)).reshape(3, 8).T
+    k, ways = points_to_lie_on(np.repeat(cube, each, axis=0), np.zeros(3))
+    assert ways == 6
+    assert k == expected
+
+
+def test_the_command_writes_a_scene_that_runs(tmp_path, capsys):
+    """A can that stands where it was scanned stays there, and bears its weight."""
+    points, _ = SOLIDS["can"](np.random.default_rng(7), 3000)
+    np.save(tmp_path / "my can.npy", points)
+    assert (
+        main(["body", str(tmp_path / "my can.npy"), "--mass", "0.35", "--out", str(tmp_path)]) == 0
+    )
+    said = capsys.readouterr()
+    assert "my_can: k = " in said.err
+    head = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 5\n'
+    scene = tmp_path / "scene.toml"
+    scene.write_text(head + said.out)
+    run = qr.load_scenario(scene).run(progress=False)
+    assert set(run["certificate"].tolist()) == {"exact"}
+    assert not [one for one in run.findings if one.grave]
+    assert abs(run["q"][-1] - run["q"][0]).max() < 1e-3
+    np.testing.assert_allclose(run["wrench"][-1, :, 2].sum(), 0.35 * 9.81, rtol=1e-6, atol=0)
+    with pytest.raises(SystemExit):
+        main(["body", str(scene)])  # neither mass nor density
+    assert main(["body", str(tmp_path / "none.csv"), "--mass", "1"]) == 2
