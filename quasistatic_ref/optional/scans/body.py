@@ -146,6 +146,13 @@ def scanned_body(
     ------
     InputError
         If the file cannot be read, the unit is doubtful, or the points enclose nothing.
+
+    Examples
+    --------
+    >>> from quasistatic_ref.scenario.scenario import scenario_path
+    >>> bunny = qr.scanned_body(scenario_path("bunny_grasp").with_name("bunny_992.csv"), mass=0.2)
+    >>> bunny.points.shape, bunny.k
+    ((992, 3), 4)
     """
     path = Path(scan)
     name = path.stem.replace(" ", "_") if name is None else name
