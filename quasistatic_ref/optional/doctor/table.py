@@ -48,7 +48,7 @@ class Kind(NamedTuple):
 OF_SCENE = (
     Kind("unit of a shape", True, units.long_shapes),
     Kind("unit of mu_omega", True, units.large_mu_omega),
-    Kind("stray points", True, strays.strays),
+    Kind("stray points", False, strays.strays),
     Kind("sizes apart", True, contradictions.sizes_apart),
     Kind("density", True, contradictions.density),
     Kind("centre of mass", True, contradictions.centre),

@@ -12,8 +12,11 @@ LINKED = 6.0
 """Points of one surface are linked by gaps of at most so many median distances to the nearest."""
 LINKS = 8
 """Nearest points that a point may be linked with: a few stray points close together stay stray."""
-SURFACE = 10, 0.002
-"""Linked points are a part of the surface from so many on, and from this share of all on [-]."""
+SURFACE = 10
+"""So many linked points are a part of the surface."""
+AWAY = 0.05
+"""A stray point is so far from the surface, over its extent [-]: islands within the unseen parts of
+a scan are nearer."""
 PLANE = 16
 """Points through which a plane is laid, to smooth noise."""
 
@@ -36,7 +39,12 @@ def stray(points: Array) -> NDArray[np.bool_]:
     of, place = np.nonzero(near < n)  # n where there is no further one
     links = coo_matrix((np.ones(len(of)), (of, near[of, place])), shape=(n, n))
     _, group = connected_components(links, directed=False)
-    return np.asarray(np.bincount(group)[group] < max(SURFACE[0], SURFACE[1] * n))
+    few = np.bincount(group)[group] < SURFACE
+    if not few.any() or few.all():
+        return np.zeros(n, dtype=bool)
+    surface = points[~few]
+    away, _ = cKDTree(surface).query(points)
+    return np.asarray(few & (away > AWAY * np.ptp(surface, axis=0).max()))
 
 
 def smoothed(points: Array) -> Array:
