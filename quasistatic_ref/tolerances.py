@@ -361,3 +361,19 @@ constraint of its own; a lever that is shorter than this asks for 1e9 times the 
 
 DEEP: Final = 1e-3
 """Penetration that an answer mentions [m]: MuJoCo's contacts at rest are about 0.1 mm deep."""
+
+NEAR: Final = 1e-3
+"""Distance of a pair that an account calls near [m]: what cameras and calibration leave open."""
+
+TOUCHES: Final = 1e-9
+"""Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
+a spring of 1e5 N/m presses 1e-9 m with 0.1 mN."""
+
+SLIDES: Final = 1e-4
+"""Slip of a contact that an account says slides, at least [m/s]: 1 mm in ten seconds."""
+
+SLID: Final = 1e-4
+"""Slip that is an event [m]: what a body shifts while it comes to rest is no event."""
+
+BRIEF: Final = 3
+"""Steps [-] for which a change is no event: the nearest points of a pair come and go so often."""

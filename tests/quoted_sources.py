@@ -15,7 +15,6 @@ import numpy as np
 from scipy.integrate import quad
 
 from quasistatic_ref import tolerances
-from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.cli.time_step import time_step_record
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.cached_runs import grasp as run_of
@@ -30,6 +29,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
+from quasistatic_ref.optional.account.motions import link_motion
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario

@@ -23,6 +23,7 @@ COMMANDS = {
     "run": "simulate a scenario and write its trajectory",
     "solve": "solve one step file",
     "verify": "re-check an answer and its certificate without any solver",
+    "account": "say what happened in a run: contacts, bodies and joints, and events in words",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
     "targets": "write targets of joints that move a link along straight lines between poses",

@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.cli.measures import free_body_motions, worst_residual
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
@@ -19,9 +18,6 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
-
-PRINTED = 4
-"""Free bodies whose motion is printed; all of them are in the JSON object."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -125,13 +121,6 @@ def run(options: argparse.Namespace) -> int:
         "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],
         "largest_drag_share": trajectory.header["largest_drag_share"],
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
-        "free_bodies": {
-            body: {
-                "largest_rotation_deg": float(np.degrees(motion.largest_rotation)),
-                "largest_rise_mm": 1e3 * motion.largest_rise,
-            }
-            for body, motion in free_body_motions(scenario.system, trajectory).items()
-        },
         "milliseconds_per_step": milliseconds,
         "findings": [asdict(finding) for finding in trajectory.findings],
     }
@@ -141,7 +130,11 @@ def run(options: argparse.Namespace) -> int:
     status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
+    words = part("account.words")
+    account = None if words is None else trajectory.account(forces=False)
     if options.json:
+        if words is not None:
+            summary["account"] = words.tables(account)
         shared.print_json(summary)
         return status
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
@@ -160,13 +153,22 @@ def run(options: argparse.Namespace) -> int:
         )
     if part("doctor.observer") is not None:
         print(_artifacts(trajectory.header))
-    for line in _moved(summary["free_bodies"]):
-        print(line)
+    if words is not None:
+        for line in words.short(account):
+            print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     written = [str(file) for file in (path, options.table, view) if file is not None]
     print(f"wrote {' and '.join(written)}")
     return status
+
+
+def worst_residual(trajectory: Trajectory) -> float | None:
+    """Largest residual of all steps, in natural units [-]; None where none was computed."""
+    residuals = trajectory["worst_residual"]
+    if not residuals.size or np.isnan(residuals).any():
+        return None
+    return float(residuals.max())
 
 
 def _artifacts(header: Mapping[str, Any]) -> str:
@@ -179,12 +181,3 @@ def _artifacts(header: Mapping[str, Any]) -> str:
         f"largest drag {share}, largest quasi-dynamic number {number}, "
         f"largest boundary layer {layer:.3g} um"
     )
-
-
-def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
-    for body, motion in list(bodies.items())[:PRINTED]:
-        turned = motion["largest_rotation_deg"]
-        rose = motion["largest_rise_mm"]
-        yield f"{body}: largest rotation {turned:.3g} deg, largest rise {rose:.3g} mm"
-    if len(bodies) > PRINTED:
-        yield f"{len(bodies) - PRINTED} more free bodies: see --json"

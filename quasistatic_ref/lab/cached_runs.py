@@ -2,8 +2,8 @@
 
 from functools import cache
 
-from quasistatic_ref.cli.measures import LinkMotion
 from quasistatic_ref.lab.grasp import CASES, lifted
+from quasistatic_ref.optional.account.motions import LinkMotion
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 

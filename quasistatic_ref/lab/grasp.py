@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import LinkMotion, link_motion, worst_residual
+from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.optional.account.motions import LinkMotion, link_motion
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 

@@ -43,9 +43,11 @@ class Observer:
 
 
 def doctors(printed: bool = False) -> list[Observer]:
-    """The observer that reports findings at the end of a run, and perhaps prints them.
+    """The observers that note a run's scene, and find at its end, perhaps printing what they find.
 
-    Where ``optional/doctor`` is missing, the list is empty.
+    They are of ``optional/account`` and ``optional/doctor``, where these are there.
     """
+    account = part("account.observer")
     doctor = part("doctor.observer")
-    return [] if doctor is None else [doctor.Doctor(printed)]
+    noting = [] if account is None else [account.Noting()]
+    return noting if doctor is None else [*noting, doctor.Doctor(printed)]

@@ -24,7 +24,7 @@ PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar
 """What a full record adds, step by step."""
 NOT_KNOWN = ("worst_residual", "digits")
 """Arrays that hold NaN where nothing was certified; all others are finite."""
-FORCES = ("forces", "imbalance")
+FORCES = ("forces", "imbalance", "motion")
 """What a record of forces adds to a light one."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
@@ -96,6 +96,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     for i, table in enumerate(top.sequence("findings", [])):
         finding_read(table, f"findings[{i}]")
     top.boolean("alone", True)
+    top.take("scene", None)  # the account reads it
     top.close()
 
 

@@ -13,6 +13,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
+from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
@@ -93,6 +94,7 @@ class Recorder(Shown):
         self.start = self.system.checked(q)
         self.q = self.start
         self.steps = 0
+        self.tracks: Sequence[JointTrack] = ()
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.parts: list[StepArrays] = []
@@ -143,6 +145,9 @@ class Recorder(Shown):
         if self.record == "forces":
             row["forces"] = solution.forces
             row["imbalance"] = solution.imbalance
+            delta_q = solution.delta_q.copy()
+            delta_q[self.system.n_v :] = 0.0
+            row["motion"] = step.contacts.motion(delta_q)
         if self.simulator.law == COULOMB:
             row |= {name: getattr(solution, name) for name in ITERATED}
         self.alone &= solution.alone

@@ -9,6 +9,7 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
@@ -80,7 +81,8 @@ class StepResult(Plain, Shown):
             :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`.
         """
         contacts, scene = self._contacts()
-        return {name: f[0] for name, f in wrenches.pair_forces(contacts, scene).items()}
+        forces = wrenches.pair_forces(contacts, contact_layout(scene.pairs).names)
+        return wrenches.ByPair({name: force[0] for name, force in forces.items()})
 
     def forces_on(self, name: str) -> Array:
         """Sum of the forces on a body or a link, shape (6,) [N, N m].

@@ -119,6 +119,7 @@ def rollout(
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
     watching = checked_items(observers, Observer, "observers")
     recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *watching])
+    recorder.tracks = getattr(target, "tracks", ())
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)
     saved = None

@@ -51,7 +51,9 @@ class Trajectory(Plain, Shown):
         without which all three are None; ``alone``, false where the steps are not all that was
         solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
         ``"coulomb"``;
-        ``findings``, see :attr:`findings`; and ``failed``: the reason, or None for a complete run.
+        ``findings``, see :attr:`findings`; ``scene``, see
+        :class:`~quasistatic_ref.optional.account.observer.Noting`; and ``failed``: the reason, or
+        None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -63,7 +65,8 @@ class Trajectory(Plain, Shown):
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
         ``extra_b``. Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
         :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`; ``A`` and ``b`` are
-        then of phi + s. A record of forces has ``forces``, (n_c, 4) a step, and ``imbalance``.
+        then of phi + s. A record of forces has ``forces``, (n_c, 4) a step, ``imbalance``, and
+        ``motion``, (n_c, 4): J delta_q.
         ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
@@ -271,26 +274,43 @@ class Trajectory(Plain, Shown):
         scene = self._scene(scene)
         return wrenches.wrench_on(wrenches.of_trajectory(self, self.forces), scene, name)
 
-    def pair_forces(self, scene: HasScene | None = None) -> dict[str, Array]:
+    def pair_forces(self) -> dict[str, Array]:
         """Force of each pair on its beta's body, by the pair's name.
-
-        Parameters
-        ----------
-        scene : Scenario or Simulator, optional
-            As for :meth:`wrench_on`.
 
         Returns
         -------
         dict of str to ndarray, shape (steps, 3)
-            Sums of :attr:`forces` over the pair's contacts [N], world frame.
+            Sums of :attr:`forces` over the pair's contacts [N], world frame. A name of no pair is
+            answered by an InputError that lists the pairs.
 
         Raises
         ------
         InputError
-            If the scene is missing or another one, or as of :attr:`forces`.
+            As of :attr:`forces`.
         """
-        scene = self._scene(scene)
-        return wrenches.pair_forces(wrenches.of_trajectory(self, self.forces), scene)
+        contacts = wrenches.of_trajectory(self, self.forces)
+        return wrenches.pair_forces(contacts, self.pair_names)
+
+    @property
+    def pair_names(self) -> list[str]:
+        """The pair of each contact, shape (n_c,); numbers, of a file that has no names."""
+        unnamed = [f"contact/{i}/0" for i in range(len(self.arrays["rows"]))]
+        return [slot.rpartition("/")[0] for slot in self.header.get("slots", unnamed)]
+
+    def account(self, forces: bool = True) -> Any:
+        """What happened, as an :class:`~quasistatic_ref.optional.account.account.Account`.
+
+        Parameters
+        ----------
+        forces : bool
+            Whether to form :attr:`forces`, where they are not recorded.
+
+        Raises
+        ------
+        InputError
+            If there is no ``optional/account``, or the file has no names or no scene.
+        """
+        return needed_part("account.account", "account").account_of(self, forces)
 
     def _scene(self, given: HasScene | None) -> HasScene:
         scene = self.scene if given is None else given

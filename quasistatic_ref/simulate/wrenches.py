@@ -1,11 +1,13 @@
 """Contact forces, summed over bodies and over pairs, in the world frame."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.step.data import Array
 
@@ -105,27 +107,28 @@ def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
     return total
 
 
-def pair_forces(contacts: ContactsOverSteps, scene: HasScene) -> dict[str, Array]:
+class ByPair(dict[str, Array]):
+    """What is known of each pair, by its name; another name is answered by the names of all."""
+
+    def __missing__(self, name: str) -> Array:
+        raise InputError(f"is no pair; {known_names(self)}", field=str(name))
+
+
+def pair_forces(contacts: ContactsOverSteps, pairs: Sequence[str]) -> dict[str, Array]:
     """Force of each pair on its beta's body, by the pair's name.
 
     Parameters
     ----------
     contacts : ContactsOverSteps
-    scene : HasScene
-        Theirs.
+    pairs : sequence of str, length n_c
+        The pair of each contact.
 
     Returns
     -------
     dict of str to ndarray, shape (steps, 3)
         Sums of f_d1 d1 + f_d2 d2 + f_n n over the pair's contacts [N], world frame; two pairs of
         one name are one entry.
-
-    Raises
-    ------
-    InputError
-        If the contacts are not those of the scene.
     """
-    contacts.check(scene)
     force = contacts.force
-    names = np.array(contact_layout(scene.pairs).names)
-    return {pair.name: force[:, names == pair.name].sum(axis=1) for pair in scene.pairs}
+    names = np.array(pairs)
+    return ByPair({name: force[:, names == name].sum(axis=1) for name in dict.fromkeys(pairs)})

@@ -6,8 +6,8 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.optional.account.motions import rotation_angle
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import SLOW

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import worst_residual
+from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError

@@ -253,7 +253,7 @@ def test_a_run_goes_on_from_the_good_files_and_keeps_the_others_aside(
     path = tmp_path / "scene.npz"
     whole = tmp_path / "whole" / "scene.npz"
     scenario = load_scenario(scene)
-    ran(scenario, whole)
+    scenario.run(progress=False, save=whole)  # with the waypoints of the command's runs
     ran(scenario, path, killed_at=2)
     SPOILT[spoil](saved_folder(path) / "000000001.npz")
     left = {file.name: file.read_bytes() for file in saved_folder(path).iterdir()}

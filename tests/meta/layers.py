@@ -18,6 +18,7 @@ CORE = (
 
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
+    "optional/account",
     "optional/coulomb",
     "optional/curved",
     "optional/derivatives",

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.model.rotation import quaternion, rotation
+from quasistatic_ref.optional.account.motions import rotation_angle
 from tests.tolerances import ROUNDING
 
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.measures import worst_residual
+from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
@@ -97,6 +97,12 @@ def test_the_header_says_what_the_run_was(run):
         ],
         "slots": ["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"],
         "steps": 5,
+        "scene": {
+            "pairs": [["floor(floor, ball/ball#0)", "floor", "ball"],
+                      ["push(rail/plate#0, ball/ball#0)", "rail/plate", "ball"]],
+            "waypoints": {"rail/slide": [0.0, 0.1], "rail/turn": [0.0, 0.1]},
+            "stiffness": [500.0, 2.5],
+        },
         "failed": None,
         "contacts": [["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"]] * 5,
     }  # fmt: skip

@@ -20,6 +20,7 @@ from validation.tools.scripts import ROOT, asked
 
 SCENARIO = "bunny_grasp"
 PARTS = {
+    "account": ([], ""),
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),
     "derivatives": ([], ""),

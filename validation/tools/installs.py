@@ -79,6 +79,7 @@ COMMANDS = {
         "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
         "quasistatic-ref run sphere_spin --set steps=5 --out short --backend osqp --json",
         "quasistatic-ref run sphere_spin --set steps=5 --out short --cone ellipsoid",
+        "quasistatic-ref account results/stack.npz --html account.html --figure account.png",
         "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
         "quasistatic-ref solve step.json -o solution.json",
         "quasistatic-ref verify step.json solution.json",

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.lab.examples.friction.which_cone_is_real import measured
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
@@ -22,6 +21,7 @@ from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
+from quasistatic_ref.optional.account.motions import link_motion
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.scenario.scenario import load_scenario

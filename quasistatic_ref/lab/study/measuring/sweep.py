@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text, writable_folder
 from quasistatic_ref.lab.parallel import results, workers
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
 from quasistatic_ref.lab.study.store.store import Store
+from quasistatic_ref.optional.account.motions import link_motion
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory

@@ -1,6 +1,5 @@
-"""What a trajectory came to: how far a body turned, how high it rose."""
+"""How a link moved along a trajectory: how far it turned, how high it rose."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,22 +48,11 @@ class LinkMotion:
 
 def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion:
     """Poses of a link (or of a body's root link) along a trajectory."""
-    return _motions(system, trajectory, (link,))[link]
-
-
-def free_body_motions(system: System, trajectory: Trajectory) -> dict[str, LinkMotion]:
-    """Motion of each body that nothing drives: whose base is floating or planar and free."""
-    bases = [j for j in system.joints if j.kind in ("floating", "planar") and not j.actuated]
-    return _motions(system, trajectory, [joint.name.removesuffix("/base") for joint in bases])
-
-
-def _motions(system: System, trajectory: Trajectory, links: Sequence[str]) -> dict[str, LinkMotion]:
+    number = system.link(link)
     poses = [system.kinematics(q) for q in trajectory["q"]]
-    R = np.array([pose.R for pose in poses])
-    t = np.array([pose.t for pose in poses])
-    times = np.concatenate([[0.0], trajectory["t"]])
-    numbers = {link: system.link(link) for link in links}
-    return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in numbers.items()}
+    R = np.array([pose.R[number] for pose in poses])
+    t = np.array([pose.t[number] for pose in poses])
+    return LinkMotion(times=np.concatenate([[0.0], trajectory["t"]]), R=R, t=t)
 
 
 def rotation_angle(R: Array) -> Array:
@@ -84,11 +72,3 @@ def rotation_angle(R: Array) -> Array:
     )
     trace = np.trace(R, axis1=-2, axis2=-1)
     return np.asarray(np.arctan2(np.linalg.norm(axial, axis=-1), trace - 1))
-
-
-def worst_residual(trajectory: Trajectory) -> float | None:
-    """Largest residual of all steps, in natural units [-]; None where none was computed."""
-    residuals = trajectory["worst_residual"]
-    if not residuals.size or np.isnan(residuals).any():
-        return None
-    return float(residuals.max())

@@ -1,0 +1,406 @@
+"""The account of a run, from its file alone: what each pair, body and joint did, and when."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.certify.solution import UNKNOWN
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.optional.account.spans import Span, spans
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, TOUCHES
+
+FLOATING = ["x", "y", "z", "qx", "qy", "qz", "qw"]
+PLANAR = ["x", "y", "cos", "sin"]
+TURN = ["cos", "sin"]
+"""How names of entries of q end, of bases and of joints that turn for ever."""
+
+
+class Loads(NamedTuple):
+    """Sums over the contacts of a pair.
+
+    Parameters
+    ----------
+    normal : ndarray, shape (steps,)
+        Of f_n [N].
+    friction : ndarray, shape (steps,)
+        Of the lengths of (f_d1, f_d2) [N].
+    torque : ndarray, shape (steps,)
+        Of the sizes of tau_n [N m].
+    share : ndarray, shape (steps,)
+        Friction over mu_v times the normal force [-]; 0 where that is 0.
+    """
+
+    normal: Array
+    friction: Array
+    torque: Array
+    share: Array
+
+
+@dataclass(frozen=True, eq=False)
+class PairAccount(Plain):
+    """What two shapes did.
+
+    Parameters
+    ----------
+    name, alpha, beta : str
+        Its name, and what touches.
+    phi : ndarray, shape (steps,)
+        Least distance where a step starts [m].
+    touches : ndarray of bool, shape (steps,)
+        Whether a contact has a row without slack: phi + n'J delta_q is then the least that its slip
+        allows, which is unique. Without J, only what has a positive multiplier is known to touch.
+    slip : ndarray, shape (steps,), or None
+        Mean slip of the contacts that touch [m]; None where the record has no J.
+    loads : Loads or None
+        None where the forces are not known.
+    """
+
+    name: str
+    alpha: str
+    beta: str
+    phi: Array
+    touches: Mask
+    slip: Array | None
+    loads: Loads | None
+    h: float
+
+    @property
+    def table(self) -> str:
+        """The table of contacts that it is of."""
+        return self.name.partition("(")[0]
+
+    @cached_property
+    def near(self) -> list[Span]:
+        """When its shapes were near."""
+        return spans(self.phi <= NEAR)
+
+    @cached_property
+    def contact(self) -> list[Span]:
+        """When it touched."""
+        return spans(self.touches)
+
+    @cached_property
+    def sliding(self) -> list[Span]:
+        """When it slid."""
+        return [] if self.slip is None else spans(self.slip > SLIDES * self.h)
+
+    def slid(self, span: Span) -> float:
+        """How far it slid in a span [m]; 0 where slips are not known."""
+        return 0.0 if self.slip is None else float(self.slip[span.first : span.last + 1].sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates(Plain):
+    """A base or a joint, as the file names it.
+
+    Parameters
+    ----------
+    name : str
+    kind : str
+        ``"floating"``, ``"planar"``, ``"continuous"``, or the unit of its coordinate.
+    q, v : slice
+    actuated : bool
+    """
+
+    name: str
+    kind: str
+    q: slice
+    v: slice
+    actuated: bool
+
+    def lengths(self, q: Array) -> Array:
+        """Distance along the world's axes from the first of some q, shape (n, 3) [m]."""
+        count = {"floating": 3, "planar": 2}.get(self.kind, 0)
+        moved = np.zeros((len(q), 3))
+        moved[:, :count] = (q - q[0])[:, self.q][:, :count]
+        return moved
+
+    def angle(self, q: Array, q_0: Array) -> Array:
+        """Angle from q_0 to q, both of shape (n, n_q) [rad]; 0 of a joint that only slides."""
+        a = q[:, self.q]
+        b = q_0[:, self.q]
+        if self.kind == "floating":
+            return _rotation(a[:, 3:], b[:, 3:])
+        if self.kind in ("planar", "continuous"):
+            turn = (a[:, -2] + 1j * a[:, -1]) * (b[:, -2] - 1j * b[:, -1])
+            return np.asarray(np.abs(np.angle(turn)))
+        return np.abs(a - b)[:, 0] if self.kind == "rad" else np.zeros(len(a))
+
+    def distance(self, q: Array, q_0: Array) -> Array:
+        """Distance from q_0 to q, both of shape (n, n_q) [m]."""
+        count = {"floating": 3, "planar": 2, "m": 1}.get(self.kind, 0)
+        return np.asarray(np.linalg.norm((q - q_0)[:, self.q][:, :count], axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class Motion(Plain):
+    """How a body that nothing drives moved, or a joint of it.
+
+    Parameters
+    ----------
+    of : Coordinates
+    moved : ndarray, shape (steps + 1, 3)
+        From the start, along the world's axes [m]; of a prismatic joint its position, along x.
+    turned : ndarray, shape (steps + 1,)
+        From the start [rad].
+    touched : mapping of str to list of Span
+        By what it touched, while it did.
+    """
+
+    of: Coordinates
+    moved: Array
+    turned: Array
+    touched: Mapping[str, list[Span]]
+
+    @property
+    def body(self) -> str:
+        """Name of its body."""
+        return self.of.name.partition("/")[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Drive(Plain):
+    """What an actuated joint or base did.
+
+    Parameters
+    ----------
+    of : Coordinates
+    error : ndarray, shape (steps,)
+        Distance from its target at the end of each step [m], of a joint that turns [rad].
+    spring : ndarray, shape (steps,), or None
+        Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
+        K_q is not diagonal.
+    waypoints : tuple of float
+        Times [s].
+    """
+
+    of: Coordinates
+    error: Array
+    spring: Array | None
+    waypoints: tuple[float, ...]
+
+    @property
+    def unit(self) -> str:
+        """Of its error."""
+        return "m" if self.of.kind in ("floating", "planar", "m") else "rad"
+
+
+@dataclass(frozen=True, eq=False)
+class Account(Plain):
+    """What happened in a run.
+
+    Parameters
+    ----------
+    t : ndarray, shape (steps,)
+        End of each step [s].
+    h : float
+    pairs : tuple of PairAccount
+    motions : tuple of Motion
+    drives : tuple of Drive
+    missing : tuple of str
+        What the record does not hold, in sentences.
+    findings : tuple of str
+    """
+
+    t: Array
+    h: float
+    pairs: tuple[PairAccount, ...]
+    motions: tuple[Motion, ...]
+    drives: tuple[Drive, ...]
+    missing: tuple[str, ...]
+    findings: tuple[str, ...]
+
+
+def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
+    """The account of a run.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    forces : bool
+        Whether to form the forces of a full record.
+
+    Raises
+    ------
+    InputError
+        If the file has no names of its positions or no scene, or its scene is none.
+    """
+    header = trajectory.header
+    if "scene" not in header or "positions" not in header:
+        problem = "has no scene: it is from before there were accounts; run it again"
+        raise InputError(problem, field="scene")
+    scene = TableReader(header["scene"], "scene")
+    waypoints = scene.table("waypoints")
+    times = {name: tuple(waypoints.sequence(name)) for name in waypoints.names_left()}
+    stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
+    every = list(coordinates(header["positions"], header["n_a"]))
+    missing: list[str] = []
+    pairs: tuple[PairAccount, ...] = ()
+    if trajectory.steps:
+        pairs = tuple(_pairs(trajectory, scene.sequence("pairs"), forces, missing))
+    free = [joint for joint in every if not joint.actuated]
+    return Account(
+        t=trajectory["t"],
+        h=float(header["h"]),
+        pairs=pairs,
+        motions=tuple(_motion(joint, trajectory["q"], pairs) for joint in free),
+        drives=tuple(
+            _drive(joint, trajectory, stiffness, times.get(joint.name, ()))
+            for joint in every
+            if joint.actuated and trajectory.steps
+        ),
+        missing=tuple(missing),
+        findings=tuple(str(finding) for finding in trajectory.findings),
+    )
+
+
+def coordinates(positions: list[str], n_a: int) -> Iterator[Coordinates]:
+    """The bases and joints of a file, by the names of its entries of q.
+
+    Parameters
+    ----------
+    positions : list of str, length n_q
+        Such as ``arm/elbow [rad]`` and ``mug.z [m]``.
+    n_a : int
+    """
+    names = [name.partition(" [")[0] for name in positions]
+    q = 0
+    v = 0
+    while q < len(names):
+        owner, _, _ = names[q].rpartition(".")
+        ends = [name.removeprefix(f"{owner}.") for name in names[q : q + 7]]
+        if ends == FLOATING:
+            one = Coordinates(
+                f"{owner}/base", "floating", slice(q, q + 7), slice(v, v + 6), v < n_a
+            )
+        elif ends[:4] == PLANAR:
+            one = Coordinates(f"{owner}/base", "planar", slice(q, q + 4), slice(v, v + 3), v < n_a)
+        elif ends[:2] == TURN:
+            one = Coordinates(owner, "continuous", slice(q, q + 2), slice(v, v + 1), v < n_a)
+        else:
+            unit = positions[q].rpartition("[")[2].removesuffix("]")
+            one = Coordinates(names[q], unit, slice(q, q + 1), slice(v, v + 1), v < n_a)
+        yield one
+        q = one.q.stop
+        v = one.v.stop
+
+
+def _rotation(a: Array, b: Array) -> Array:
+    """Angle between quaternions x y z w, both of shape (n, 4) [rad], accurate near 0 and pi."""
+    w = np.vecdot(a, b)
+    axial = a[:, 3:] * b[:, :3] - b[:, 3:] * a[:, :3] + np.cross(a[:, :3], b[:, :3])
+    return np.asarray(2 * np.arctan2(np.linalg.norm(axial, axis=1), np.abs(w)))
+
+
+def _pairs(
+    run: Trajectory, named: list[Any], forces: bool, missing: list[str]
+) -> Iterator[PairAccount]:
+    slots = np.array(run.pair_names)
+    motion = _motion_of_contacts(run)
+    wrench = _forces(run, forces, missing)
+    if motion is None:
+        missing.append(f"a {run.header['record']} record has no slips, and what touches without a "
+                       "positive multiplier is not known")  # fmt: skip
+    touches = _touches(run, motion)
+    slip = None
+    if motion is not None:
+        across = [np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
+        slip = np.hypot(*across)
+    for name, alpha, beta in named:
+        own = slots == name
+        if not own.any():
+            continue
+        on = touches[:, own]
+        count = np.maximum(on.sum(axis=1), 1)
+        loads = None
+        if wrench is not None:
+            normal = wrench[:, own, 2].sum(axis=1)
+            friction = np.hypot(wrench[:, own, 0], wrench[:, own, 1]).sum(axis=1)
+            most = run["mu_v"][own][0] * normal
+            share = np.divide(friction, most, out=np.zeros_like(most), where=most > 0)
+            loads = Loads(normal, friction, np.abs(wrench[:, own, 3]).sum(axis=1), share)
+        yield PairAccount(
+            name=name,
+            alpha=alpha,
+            beta=beta,
+            phi=run["phi"][:, own].min(axis=1),
+            touches=np.asarray(on.any(axis=1)),
+            slip=None if slip is None else np.where(on, slip[:, own], 0.0).sum(axis=1) / count,
+            loads=loads,
+            h=float(run.header["h"]),
+        )
+
+
+def _motion_of_contacts(run: Trajectory) -> Array | None:
+    """J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of a record that has it."""
+    if "motion" in run.arrays:
+        return run["motion"]
+    if "J" not in run.arrays:
+        return None
+    delta_q = run["delta_q"]
+    return np.asarray(np.einsum("kciv,kv->kci", run["J"][..., : delta_q.shape[1]], delta_q))
+
+
+def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
+    if "forces" in run.arrays or (wanted and run.header["record"] == "full"):
+        try:
+            return run.forces
+        except InputError:
+            missing.append(UNKNOWN)
+    elif run.header["record"] == "full":
+        missing.append("the forces are not formed here: 'quasistatic-ref account' does that")
+    else:
+        missing.append("a light record holds no forces: run again with record = 'forces'")
+    return None
+
+
+def _touches(run: Trajectory, motion: Array | None) -> Mask:
+    """Which contacts have a row without slack, shape (steps, n_c)."""
+    friction = cone(run.header["cone"])
+    ends = np.cumsum(friction.counts(run["rows"]))
+    lam = run["lam"]
+    each = [part.max(axis=1, initial=0.0) for part in np.split(lam, ends, axis=1)[:-1]]
+    most = np.stack(each, axis=1) if each else np.zeros((run.steps, 0))
+    touches = np.asarray(most > BEARS * most.max(axis=1, initial=0.0, keepdims=True))
+    if motion is None or not friction.polyhedral:
+        return touches
+    gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
+    across = [run["mu_v"] * np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
+    spin = np.where(run["rows"] == 6, run["mu_omega"], 0.0) * motion[:, :, 3]
+    slack = np.min(friction.function(gap, across[0], across[1], spin), axis=0)
+    return np.asarray(touches | (slack <= TOUCHES))
+
+
+def _motion(joint: Coordinates, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
+    moved = joint.lengths(q)
+    start = np.broadcast_to(q[0], q.shape)
+    if joint.kind == "m":
+        moved[:, 0] = q[:, joint.q][:, 0] - q[0, joint.q][0]
+    body = joint.name.partition("/")[0]
+    touched: dict[str, Mask] = {}
+    for pair in pairs:
+        for own, other in ((pair.alpha, pair.beta), (pair.beta, pair.alpha)):
+            if own.partition("/")[0] == body != other.partition("/")[0]:
+                touched[other] = touched.get(other, False) | pair.touches
+    on = {other: found for other, holds in touched.items() if (found := spans(holds))}
+    return Motion(joint, moved, joint.angle(q, start), on)
+
+
+def _drive(
+    joint: Coordinates, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]
+) -> Drive:
+    target = run["q_bar_a"]
+    q = run["q"][1:, : target.shape[1]]
+    angle = joint.angle(q, target)
+    error = angle if joint.kind in ("rad", "continuous") else joint.distance(q, target)
+    scalar = joint.v.stop == joint.v.start + 1
+    spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
+    return Drive(joint, error, spring, waypoints)

@@ -1,0 +1,101 @@
+"""The figure of an account: what touches and slides, loads, slips, and motions, over time."""
+
+from io import BytesIO
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from quasistatic_ref.optional.show.figures.style import PAGE, figure_style
+from quasistatic_ref.step.data import Array
+
+MILLI: Final = 1e3
+BAR: Final = 0.3
+"""Height of the bar of a pair [in]."""
+PANEL: Final = 1.3
+"""Height of a panel with lines [in]."""
+MOST: Final = 8
+"""Most lines of a panel: those that reach farthest."""
+HEIGHTS: Final = (("near", 0.2), ("contact", 0.5), ("sliding", 0.8))
+"""Of bars, over the room of a pair [-]."""
+WORDS: Final = {"near": "near", "contact": "touches", "sliding": "slides"}
+
+
+def page(account: Any) -> bytes:
+    """The figure as PNG, as wide as a page of text.
+
+    Parameters
+    ----------
+    account : Account
+    """
+    with figure_style("paper"):
+        drawn = figure(account)
+        file = BytesIO()
+        drawn.savefig(file, format="png", dpi=150, metadata={"Software": None})
+    return file.getvalue()
+
+
+def figure(account: Any) -> Figure:
+    """Bars of contacts; normal forces and slips of pairs; motions of bodies; errors of joints.
+
+    Parameters
+    ----------
+    account : Account
+    """
+    t = account.t
+    start = np.concatenate([[0.0], t])
+    panels = {
+        "normal force [N]": {p.name: (t, p.loads.normal) for p in account.pairs if p.loads},
+        "slip [mm]": {
+            p.name: (t, MILLI * np.cumsum(p.slip)) for p in account.pairs if p.slip is not None
+        },
+        "moved [mm]": {
+            m.of.name: (start, MILLI * np.linalg.norm(m.moved, axis=1)) for m in account.motions
+        },
+        "turned [deg]": {m.of.name: (start, np.degrees(m.turned)) for m in account.motions},
+        "off target [mm]": {
+            d.of.name: (t, MILLI * d.error) for d in account.drives if d.unit == "m"
+        },
+        "off target [deg]": {
+            d.of.name: (t, np.degrees(d.error)) for d in account.drives if d.unit == "rad"
+        },
+    }
+    panels = {label: lines for label, lines in panels.items() if _matters(lines)}
+    bars = max(len(account.pairs), 1)
+    heights = [BAR * bars + 0.4, *[PANEL] * len(panels)]
+    drawn = Figure(figsize=(PAGE, sum(heights)), layout="constrained")
+    axes = drawn.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    _contacts(axes[0], account)
+    for place, (label, lines) in zip(axes[1:], panels.items(), strict=True):
+        for name, (time, values) in _farthest(lines):
+            place.plot(time, values, label=name)
+        place.set_ylabel(label)
+        place.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+    axes[-1].set_xlabel("t [s]")
+    return drawn
+
+
+def _contacts(axes: Any, account: Any) -> None:
+    """A row a pair: a thin bar while it is near, a thicker one while it touches or slides."""
+    t = account.t
+    for row, pair in enumerate(account.pairs):
+        for i, (kind, height) in enumerate(HEIGHTS):
+            held = getattr(pair, kind)
+            parts = [
+                (t[span.first] - account.h, t[span.last] - t[span.first] + account.h)
+                for span in held
+            ]
+            label = WORDS[kind] if row == 0 else None
+            axes.broken_barh(parts, (row - height / 2, height), color=f"C{i}", label=label)
+    axes.set_yticks(range(len(account.pairs)), [pair.name for pair in account.pairs])
+    axes.tick_params(axis="y", labelsize="x-small")
+    axes.set_ylim(len(account.pairs) - 0.5, -0.5)
+    axes.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+
+
+def _matters(lines: dict[str, tuple[Array, Array]]) -> bool:
+    return any(np.abs(values).max(initial=0.0) > 0 for _, values in lines.values())
+
+
+def _farthest(lines: dict[str, tuple[Array, Array]]) -> list[tuple[str, tuple[Array, Array]]]:
+    return sorted(lines.items(), key=lambda line: -float(np.abs(line[1][1]).max()))[:MOST]
