@@ -30,7 +30,7 @@ from validation.tools.scripts import ROOT, asked, shown
 
 FILES = (
     "fixed_point.h", "rounding.c", "span.c", "kkt.c", "certificate.c", "groups.c", "contraction.c",
-    "zeros.c",
+    "zeros.c", "walk.c",
 )  # fmt: skip
 """Those that prove."""
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
