@@ -14,16 +14,22 @@ import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.files import bytes_read, json_text, text_of, unique_fields
+from quasistatic_ref.formats.files import (
+    LARGEST_TEXT,
+    bytes_read,
+    json_text,
+    text_of,
+    unique_fields,
+)
 
-LARGEST_UNPACKED = 2 * 2**30
-"""Largest sum of all arrays [bytes]: 100,000 full steps of the paper's size."""
+LARGEST_UNPACKED = 2**30
+"""Largest sum of all arrays [bytes]: 50,000 full steps of the paper's size."""
 MOST_ARRAYS = 256
 UNREADABLE: tuple[type[Exception], ...] = (
     ValueError,
@@ -60,11 +66,12 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
     problem = f"is not {what}"
     with readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
         members = {_name(member, problem): member for member in _checked_sizes(archive)}
-        return {
-            name: array_of(archive.read(member), member.filename)
-            for name, member in members.items()
-            if only in ("", name)
-        }
+        found = {}
+        for name, member in members.items():
+            if only in ("", name):
+                with archive.open(member) as file:
+                    found[name] = array_of(file, member.file_size, member.filename)
+        return found
 
 
 def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
@@ -90,6 +97,8 @@ def header_of(path: str | Path, what: str, header: NDArray[Any] | None) -> Any:
     with about_file(path):
         if header is None or header.dtype != np.uint8:
             raise InputError(f"is not {what}: it has no header")
+        if header.size > LARGEST_TEXT:
+            raise InputError(f"is not {what}: its header is too large")
         try:
             text = text_of(header.tobytes(), path)
             return json.loads(text, object_pairs_hook=unique_fields)
@@ -135,22 +144,21 @@ def _name(member: zipfile.ZipInfo, problem: str) -> str:
     return member.filename.removesuffix(".npy")
 
 
-def array_of(content: bytes, name: str) -> NDArray[Any]:
-    """The array that the bytes of an ``.npy`` file hold, of any shape [its unit]; never a pickle.
+def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
+    """The array that an ``.npy`` file of some bytes holds, of any shape [its unit]; never a pickle.
 
     Raises
     ------
     ValueError
         If it is no such array; :func:`readable` says so of the file.
     """
-    file = io.BytesIO(content)
     if np.lib.format.read_magic(file) != (1, 0):
         raise ValueError(f"{name} is an array file of another version")
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
         raise ValueError(f"{name} is a pickle, which is never opened")
-    size = math.prod(shape, start=kind.itemsize)  # of Python's own numbers: it does not overflow
-    if min(shape, default=0) < 0 or size != len(content) - file.tell():
+    own = math.prod(shape, start=kind.itemsize)  # of Python's own numbers: it does not overflow
+    if min(shape, default=0) < 0 or own != size - file.tell():
         raise ValueError(f"{name} does not have the size that it says")
     file.seek(0)
     array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)

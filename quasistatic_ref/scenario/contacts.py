@@ -28,6 +28,8 @@ Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 WORLD = 0
 """Number of the world among the links."""
+MOST_PAIRS = 50_000
+"""Most pairs of a scenario, which take 5 s."""
 
 
 def placed_shapes(
@@ -100,9 +102,10 @@ def contact_pairs(
 ) -> tuple[ContactPair, ...]:
     """The pairs of all ``[contacts.NAME]`` tables, in file order.
 
-    A k that is a distance becomes a number where the scenario starts.
+    A k that is a distance becomes a number where the scenario starts. ScenarioError if a table is
+    wrong, or there are more than MOST_PAIRS.
     """
-    pairs = []
+    pairs: list[ContactPair] = []
     for name in tables.names_left():
         table = tables.table(name)
         check_names(table, CONTACT)
@@ -122,6 +125,10 @@ def contact_pairs(
         if within is None:
             k = TableReader({"k": k_given}, table.where, ScenarioError).integer("k", least=1)
         hull = value(table, CONTACT, "hull")
+        count = len(pairs) + len(sides[0]) * len(sides[1])
+        if count > MOST_PAIRS:
+            problem = f"brings the pairs of this scenario to more than {MOST_PAIRS}"
+            raise ScenarioError(problem, field=table.where, value=count)
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"

@@ -54,6 +54,7 @@ from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import ACCURACY
 
 SAVING = ("save", "save_every", "resume", "observers")
+MOST_BODIES = 1000
 """What `run` hands on to a rollout."""
 
 
@@ -271,6 +272,8 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
+    if (count := len(tables.names_left())) > MOST_BODIES:
+        raise ScenarioError(f"are more than {MOST_BODIES}", field="bodies", value=count)
     roots = folders_in(path.parent, top, "roots", value(top, TOP, "roots"))
     entries = {
         name: body_entry(name, tables.table(name), path.parent, roots)

@@ -3,6 +3,7 @@
 import pytest
 
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.scenario import contacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
@@ -13,6 +14,9 @@ RAIL = "bodies/rail/"
 CAUSES = {
     # name: (changes to the scene, the field named, words of the sentence)
     "very many steps": (("steps", 10**8), "steps", "must be at most 10000000 (got 100000000)"),
+    "very many bodies": (
+        ("bodies", {f"b{i}": {} for i in range(1001)}), "bodies", "are more than 1000 (got 1001)",
+    ),
     "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
     "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
     "h by another name": (
@@ -126,6 +130,12 @@ CAUSES = {
         ("contacts/push/k", {"within": "5e mm"}), "contacts.push.k.within", "finite decimal number",
     ),
 }  # fmt: skip
+
+
+def test_very_many_pairs_are_refused_before_they_are_made(tmp_path, refused, monkeypatch):
+    monkeypatch.setattr(contacts, "MOST_PAIRS", 1)
+    sentence = refused("run", scene_written(tmp_path, SCENE), "--out", tmp_path / "out")
+    assert "contacts.push: brings the pairs of this scenario to more than 1 (got 2)" in sentence
 
 
 @pytest.mark.parametrize("cause", CAUSES)

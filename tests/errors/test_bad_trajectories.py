@@ -80,7 +80,7 @@ CAUSES = {
         lambda run: rewritten(run, {"t": npy(np.array([{}]), pickled=True)}),
         f"{NOT_ONE}: t.npy is a pickle, which is never opened",
     ),
-    "a bomb": (lambda run: bomb(3), "its arrays: unpacks to more than 2 GiB (got 3221225472)"),
+    "a bomb": (lambda run: bomb(3), "its arrays: unpacks to more than 1 GiB (got 3221225472)"),
     "an array twice": (twice, "t.npy: is given twice"),
     "very many members": (
         lambda run: rewritten(run, {f"x{i}": b"" for i in range(300)}),

@@ -10,6 +10,8 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from tests.oracles.spoilt_files import zip_bytes
 
 MANY = 3_000_000
@@ -36,14 +38,14 @@ def npy_header(shape: str, kind: str = "<f8") -> bytes:
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head
 
 
-def packed_zeros(name: str, size: int) -> bytes:
+def packed_zeros(name: str, size: int, kind: str = "<f8") -> bytes:
     """A ZIP file of a few hundred KiB with an array of zeros."""
     file = io.BytesIO()
     with (
         zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive,
         archive.open(name, "w") as one,
     ):
-        one.write(npy_header(f"({size // 8},)"))
+        one.write(npy_header(f"({size // int(kind[-1])},)", kind))
         for _ in range(size >> 24):
             one.write(bytes(1 << 24))
     return file.getvalue()
@@ -66,6 +68,11 @@ NUMERIC = '<numeric name="n@" size="900000"/>'
 PLY = "ply\nformat {} 1.0\nelement vertex {}\nproperty {}\nend_header\n"
 PCD = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 {0}\n"
 PCD += "WIDTH {1}\nHEIGHT 1\nPOINTS {1}\nDATA {2}\n"
+FLOATS = "float x\nproperty float y\nproperty float z"
+BYTES = FLOATS.replace("float", "char")
+HALF_GB = 480 * 10**6
+CORNERS = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+BALL = '[bodies.b@]\nurdf = "sphere.urdf"\nbase = "floating"\nactuated = []\n'
 SCENE = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
 STEP = '{"format": "quasistatic-ref/step", "version": 1, "h": 0.01, "n_a": 0, "n_u": 6, '
 
@@ -120,10 +127,16 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
     "OBJ: a corner of the number 2^31": (
         "mesh, OBJ", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 2147483647\n",
     ),
+    "STL: 10 million triangles": ("mesh, STL", lambda: triangles(10**7)),
+    "STL: 300,000 triangles": ("mesh, STL", lambda: triangles(300000)),
+    "OBJ: 2 million triangles": ("mesh, OBJ", lambda: CORNERS + b"f 1 2 3\n" * (2 * 10**6)),
+    "DAE: 4 million elements": ("mesh, DAE", lambda: b"<a>" + b"<b/>" * (4 * 10**6) + b"</a>"),
+    "DAE: 100 million elements": ("mesh, DAE", lambda: b"<a>" + b"<b/>" * (100 * 10**6) + b"</a>"),
     "OBJ: 3 million corners": ("mesh, OBJ", lambda: b"v 0 0 1\n" * MANY + b"f 1 2 3\n"),
     "DAE: entities of entities": ("mesh, DAE", LAUGHS.encode()),
     "XYZ: one line of 60 MB": ("cloud, xyz", lambda: b"1 " * (30 * 10**6)),
     "XYZ: 10 million points": ("cloud, xyz", lambda: b"1 2 3\n" * 10**7),
+    "XYZ: 500 million lines": ("cloud, xyz", lambda: b"\n" * (500 * 10**6)),
     "CSV: 10^6 columns": ("cloud, csv", lambda: b"x,y,z" + b",a" * 10**6 + b"\n1,2,3\n"),
     "PLY: 4 * 10^9 points": (
         "cloud, ply", PLY.format("binary_little_endian", 2**32, "float x").encode() + bytes(99),
@@ -132,15 +145,35 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
         "cloud, ply",
         PLY.format("binary_little_endian", 3, "list uint float x").encode() + b"\xff" * 99,
     ),
+    "PLY: 10 million points": (
+        "cloud, ply", lambda: PLY.format("ascii", 10**7, FLOATS).encode() + b"1 2 3\n" * 10**7,
+    ),
+    "PLY: a header of 60 MB": ("cloud, ply", lambda: b"ply\n" + b"\n" * (60 * 10**6)),
+    "PLY: 160 million points of three bytes": (
+        "cloud, ply",
+        lambda: PLY.format("binary_little_endian", 160 * 10**6, BYTES).encode() + bytes(HALF_GB),
+    ),
+    "PCD: 10 million points": (
+        "cloud, pcd", lambda: PCD.format(1, 10**7, "ascii").encode() + b"1 2 3\n" * 10**7,
+    ),
     "PCD: 10^18 points": ("cloud, pcd", PCD.format(1, 10**18, "binary").encode()),
     "PCD: columns of 10^9 numbers": ("cloud, pcd", PCD.format(10**9, 3, "ascii").encode()),
     "NPY: an array of 10^18 numbers": ("cloud, npy", npy_header("(1000000000000000000, 3)")),
+    "NPY: 160 million points of three bytes": (
+        "cloud, npy", lambda: npy_header("(160000000, 3)", "|i1") + bytes(HALF_GB),
+    ),
     "NPY: an array of objects": ("cloud, npy", npy_header("(3,)", "|O") + b"cos\nsystem\n"),
     "NPZ: 1 GiB of zeros": ("cloud, npz", lambda: packed_zeros("points.npy", 1 << 30)),
     "NPZ: 60,000 arrays": (
         "trajectory", lambda: zip_bytes([(f"{i}.npy", npy_header("(0,)")) for i in range(60000)]),
     ),
     "NPZ: a trajectory of 1 GiB": ("trajectory", lambda: packed_zeros("header.npy", 1 << 30)),
+    "NPZ: a header of 1 GB": (
+        "trajectory", lambda: packed_zeros("header.npy", 1000 << 20, "|u1"),
+    ),
+    "JSON: 20 million objects": (
+        "step", lambda: f'{STEP}"M_u": [{"{}," * (20 * 10**6)}1]}}'.encode(),
+    ),
     "JSON: a million brackets": ("step", b"[" * 10**6),
     "JSON: a number of a million digits": ("step", f'{STEP}"M_u": {"9" * 10**6}}}'.encode()),
     "JSON: 10 million coordinates": (
@@ -157,6 +190,14 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
     "TOML: roots elsewhere": (
         "scenario", f'{SCENE}roots = ["/"]\n[bodies.b]\nurdf = "sphere.urdf"\n'.encode(),
     ),
+    "TOML: 9,000 bodies": ("scenario", lambda: _scene(9000).encode()),
+    "TOML: 900 bodies": ("scenario", lambda: _scene(900).encode()),
+    "TOML: 250,000 pairs": ("scenario", lambda: _pairs(500).encode()),
+    "TOML: 40,000 pairs": ("scenario", lambda: _pairs(200).encode()),
+    "XZ: 20 million lists": (
+        "study, study.json.xz",
+        lambda: lzma.compress(b'{"tables":{"rows":[' + b"[]," * (20 * 10**6) + b"0]}}", preset=0),
+    ),
     "XZ: 8 GiB of zeros": ("study, study.json.xz", lambda: _packed(8 << 30)),
 }  # fmt: skip
 """Name -> reader, and content of its file."""
@@ -168,6 +209,28 @@ def _packed(size: int) -> bytes:
     chunk = bytes(1 << 24)
     parts = [packer.compress(chunk) for _ in range(size >> 24)]
     return b"".join([*parts, packer.flush()])
+
+
+def triangles(count: int) -> bytes:
+    """A file of STL, of triangles with corners all over."""
+    corners = np.random.default_rng(0).normal(size=(count, 3, 3)).astype("<f4")
+    kind = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]
+    every = np.zeros(count, kind)
+    every["corners"] = corners
+    return bytes(80) + struct.pack("<I", count) + every.tobytes()
+
+
+def _scene(count: int) -> str:
+    """A scenario of so many bodies, which is loaded and not run."""
+    return SCENE.replace("steps = 1", "steps = 3") + copies(BALL, count)
+
+
+def _pairs(count: int) -> str:
+    """A scenario of so many bodies on so many floors, each on each."""
+    floors = copies("[shapes.f@]\nhalfspace = { normal = [0, 0, 1] }\n", count)
+    names = [f"f{i}" for i in range(count)], [f"b{i}" for i in range(count)]
+    sides = f"alpha = {names[0]}\nbeta = {names[1]}\n"
+    return f"{_scene(count)}{floors}[contacts.c]\n{sides}mu_v = 0.5\nrows = 4\n"
 
 
 def outside(folder: Path) -> None:

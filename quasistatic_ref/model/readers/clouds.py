@@ -12,14 +12,12 @@ import numpy as np
 from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.model.readers.text import decimal, point_lines
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
-MOST_LINES = 1_000_000
-"""Most lines of a text, which take 5 s."""
 Lines = Iterator[tuple[int, str]]
 """Lines of a text with their numbers."""
 Point = tuple[int, Sequence[str]]
@@ -76,10 +74,7 @@ def _checked(given: list[list[float]] | Array) -> Array:
 
 def _of_lines(path: Path, words_of: Callable[[Lines], Iterator[Point]]) -> list[list[float]]:
     """Points of a text: what the words of each are is a matter of its format."""
-    lines = text_of(bytes_read(path, ModelError), path, ModelError).splitlines()
-    if len(lines) > MOST_LINES:
-        problem = f"holds more than {MOST_LINES} lines; write it in NumPy's format, .npy"
-        raise ModelError(problem, file=path, value=len(lines))
+    lines = point_lines(text_of(bytes_read(path, ModelError), path, ModelError))
     return [_numbers(*point) for point in words_of(enumerate(lines, start=1))]
 
 

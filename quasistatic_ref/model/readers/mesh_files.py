@@ -15,6 +15,8 @@ from quasistatic_ref.step.arrays import Array, Indices
 
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
+LARGEST_MESHES = 16 * 2**20
+"""Largest sum of the meshes of a URDF [bytes], which take up to 7 s and 1.6 GiB."""
 
 
 def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Path:
@@ -34,7 +36,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     ModelError
         If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
         the package folders after symbolic links are resolved: what is loaded is never a surprise.
-        Or if it is a COLLADA file that would take a mesh library's memory.
+        Or if it is too large, or a COLLADA file that would take a mesh library's memory.
     """
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
@@ -63,9 +65,18 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
             "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
         )
         raise ModelError(problem, value=uri)
+    check_size(path.stat().st_size)
     if path.suffix.lower() == ".dae":
         needed_part("readers.dae", "a .dae mesh").check_dae(path)
     return path
+
+
+def check_size(size: int) -> None:
+    """ModelError if these are more bytes of meshes than a URDF may have."""
+    if size > LARGEST_MESHES:
+        most = LARGEST_MESHES / 2**20
+        problem = f"brings the meshes of this file to more than {most:g} MiB; give it simpler ones"
+        raise ModelError(problem, value=size)
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:

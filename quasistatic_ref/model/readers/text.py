@@ -4,6 +4,10 @@ import math
 import re
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.files import LARGEST_TEXT
+
+MOST_POINTS = 1_000_000
+"""Most points of a cloud, and most lines of a text of points, which take 5 s."""
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
@@ -26,3 +30,18 @@ def decimal(text: str) -> float:
     if not math.isfinite(number):
         raise ModelError("must be a finite decimal number; this one overflows", value=text)
     return number
+
+
+def point_lines(text: str) -> list[str]:
+    """The lines of a text of points; ModelError if they are too many, or too long in all."""
+    if len(text) > LARGEST_TEXT:
+        raise ModelError(f"is a text of more than {LARGEST_TEXT / 2**20:g} MiB; thin it out")
+    lines = text.splitlines()
+    check_points(len(lines), "lines")
+    return lines
+
+
+def check_points(count: int, what: str) -> None:
+    """ModelError if these are more points, or lines of points, than a cloud may have."""
+    if count > MOST_POINTS:
+        raise ModelError(f"holds more than {MOST_POINTS} {what}; thin it out", value=count)

@@ -8,7 +8,12 @@ from xml.etree.ElementTree import tostring
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
+from quasistatic_ref.model.readers.mesh_files import (
+    check_size,
+    hull_note,
+    hull_of_loaded,
+    mesh_path,
+)
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
     InlineMesh,
@@ -32,9 +37,10 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
     Raises
     ------
     ModelError
-        If a mesh is not to be found where it may be.
+        If a mesh is not to be found where it may be, or they are too large.
     """
     robot = xml_root(file.text)
+    size = 0
     for link in robot.findall("link"):
         for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
             link.remove(ignored)
@@ -43,6 +49,8 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
             for mesh in files:
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
                     path = mesh_path(mesh.get("filename", ""), file.path.parent, package_dirs)
+                    size += path.stat().st_size
+                    check_size(size)
                 mesh.set("filename", str(path))
     return tostring(robot, encoding="unicode")
 

@@ -7,8 +7,11 @@ from itertools import count
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.model.readers.text import check_points, decimal, point_lines
 from quasistatic_ref.step.arrays import Array
+
+LARGEST_HEADER = 2**20
+"""Bytes in which a header must end."""
 
 
 @dataclass(frozen=True)
@@ -46,9 +49,9 @@ def header_lines(content: bytes, last: str) -> Iterator[tuple[int, list[str], in
     """Number and words of each line, and where the next one starts; ModelError after the last."""
     start = 0
     for number in count(1):
-        end = content.find(b"\n", start)
+        end = content.find(b"\n", start, LARGEST_HEADER)
         if end < 0:
-            raise ModelError(f"must end with {last}", field="header")
+            raise ModelError(f"must end with {last}, within 1 MiB", field="header")
         words = content[start:end].decode("ascii", errors="replace").split()
         start = end + 1
         yield number, words, start
@@ -79,6 +82,7 @@ def table_points(table: PointTable, field: str, what: str) -> Array:
 def _binary(table: PointTable, at: Sequence[int]) -> Array:
     point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(table.columns)])
     held = min(len(table.body) // point.itemsize, table.count)
+    check_points(held, "points")
     rows = np.frombuffer(table.body, dtype=point, count=held)
     with np.errstate(invalid="ignore"):  # of a signalling NaN, which is refused later
         return np.stack([rows[str(i)][:, 0].astype(np.float64) for i in at], axis=1)
@@ -87,7 +91,7 @@ def _binary(table: PointTable, at: Sequence[int]) -> Array:
 def _ascii(table: PointTable, at: Sequence[int]) -> Array:
     *starts, width = np.cumsum([0, *(n for _, _, n in table.columns)]).tolist()
     points: list[list[float]] = []
-    lines = table.body.decode("ascii", errors="replace").splitlines()
+    lines = point_lines(table.body.decode("ascii", errors="replace"))
     for number, line in enumerate(lines, start=table.line):
         if len(points) == table.count:
             break

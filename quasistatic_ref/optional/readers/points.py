@@ -1,5 +1,6 @@
 """Points of clouds in further formats, by the extensions of their files."""
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
+from quasistatic_ref.model.readers.text import check_points
 from quasistatic_ref.optional.readers.pcd import pcd_points
 from quasistatic_ref.optional.readers.ply import ply_points
 from quasistatic_ref.step.arrays import Array
@@ -26,7 +28,8 @@ def _npz(path: Path) -> Array:
 
 def _npy(path: Path) -> Array:
     with readable(path, "is not an array of NumPy"):
-        array = array_of(bytes_read(path), "it")
+        content = bytes_read(path)
+        array = array_of(io.BytesIO(content), len(content), "it")
     return _of_array(array, "its array")
 
 
@@ -34,6 +37,7 @@ def _of_array(array: NDArray[Any], name: str) -> Array:
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
         given = f"{array.dtype} of shape {array.shape}"
         raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
+    check_points(len(array), "points")
     return array.astype(np.float64)
 
 

@@ -2,6 +2,7 @@
 
 import resource
 import sqlite3
+from contextlib import closing
 
 import pytest
 
@@ -171,11 +172,43 @@ def test_packed_tables_of_something_else_are_refused(tmp_path, tables):
 def test_packed_tables_that_unpack_without_end_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(stores, "LARGEST_UNPACKED", 2**16)
     (tmp_path / PACKED).write_bytes(packed_tables({"rows": {"a": [0] * 2**16}}))
-    with pytest.raises(InputError, match=r"unpacks to more than 0\.0625 MiB"):
+    with pytest.raises(InputError, match=r"holds more than 0\.0625 MiB"):
         contents(tmp_path)
     (tmp_path / PACKED).write_bytes(packed_tables({})[:-4])
     with pytest.raises(InputError, match="is no xz file, or was cut off"):
         contents(tmp_path)
+
+
+ENDLESS = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT x FROM n"
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "says"),
+    [
+        ("DROP TABLE rows; CREATE VIEW rows AS " + ENDLESS, "written: a view, or a trigger"),
+        (
+            "CREATE TRIGGER more AFTER DELETE ON settings BEGIN DELETE FROM rows; END",
+            "written: a view, or a trigger",
+        ),
+        (
+            "DROP TABLE unreached;"
+            "CREATE TABLE unreached (solver, reason AS (hex(zeroblob(20000000))));"
+            "INSERT INTO unreached (solver) VALUES ('a'), ('b')",
+            "holds more than 64 MiB",
+        ),
+        (
+            "DROP TABLE unreached;"
+            "CREATE TABLE unreached (solver, reason AS (zeroblob(900000000)));"
+            "INSERT INTO unreached (solver) VALUES ('a')",
+            "written: string or blob too big",
+        ),
+    ],
+)
+def test_a_store_that_computes_what_it_holds_is_refused(folder, spoilt, says):
+    with closing(sqlite3.connect(folder / STORE)) as tables:
+        tables.executescript(spoilt)
+    with pytest.raises(InputError, match=says):
+        contents(folder)
 
 
 def test_a_folder_without_a_store_is_refused(tmp_path):

@@ -254,8 +254,36 @@ def test_a_defect_is_one_sentence_that_names_the_file(
     assert str(caught.value).startswith(f"{path}: ")
 
 
-def test_a_text_of_too_many_lines_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "c.xyz"
-    path.write_bytes(b"\n" * 1_000_001)
-    with pytest.raises(ModelError, match=r"c.xyz: holds more than 1000000 lines; .* \.npy"):
+POINTS_OF_BYTES = "element vertex 1000001\nproperty char x\nproperty char y\nproperty char z\n"
+
+
+def npy_of_bytes() -> bytes:
+    file = io.BytesIO()
+    np.save(file, np.zeros((1_000_001, 3), np.int8))
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("c.xyz", b"\n" * 1_000_001, "holds more than 1000000 lines"),
+        ("c.xyz", b" " * (64 * 2**20 + 1), "is a text of more than 64 MiB"),
+        ("c.ply", PLY_ASCII.encode() + b"\n" * 1_000_001, "holds more than 1000000 lines"),
+        ("c.pcd", pcd("ascii", b"\n" * 1_000_001), "holds more than 1000000 lines"),
+        ("c.ply", b"ply\n" + b"\n" * 2**20, "header: must end with end_header, within 1 MiB"),
+        (
+            "c.ply",
+            f"ply\nformat binary_little_endian 1.0\n{POINTS_OF_BYTES}end_header\n".encode()
+            + bytes(3_000_003),
+            "holds more than 1000000 points",
+        ),
+        ("c.npy", npy_of_bytes(), "holds more than 1000000 points"),
+    ],
+)
+def test_more_points_or_text_than_a_cloud_may_have_are_refused(
+    tmp_path: Path, name: str, content: bytes, says: str
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(ModelError, match=f"{name}: {says}"):
         point_cloud(path)

@@ -1,5 +1,6 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
+import os
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -75,6 +76,18 @@ def test_a_mesh_that_is_not_where_it_may_be_is_refused(
     (home / "link.obj").symlink_to(secret)
     with pytest.raises(ModelError, match=words):
         mesh_path(address.format(root=tmp_path), home, ())
+
+
+@pytest.mark.parametrize(("count", "size"), [(1, 17 * 2**20), (2, 9 * 2**20)])
+def test_meshes_that_are_too_large_in_all_are_refused(
+    tmp_path: Path, count: int, size: int
+) -> None:
+    (tmp_path / "a.stl").touch()
+    os.truncate(tmp_path / "a.stl", size)
+    meshes = collision('<mesh filename="a.stl"/>') * count
+    with pytest.raises(ModelError, match=r"meshes of this file to more than 16 MiB") as caught:
+        loaded_urdf(written(tmp_path, robot(link("a", meshes))))
+    assert caught.value.field == f"link[a].collision[{count - 1}].mesh.filename"
 
 
 COLLADA = """<?xml version="1.0"?>

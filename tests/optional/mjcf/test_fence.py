@@ -146,6 +146,14 @@ def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
     assert time.monotonic() - begun < 5
 
 
+def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeypatch):
+    """The process waits for longer than the time of the processor that it is given."""
+    monkeypatch.setattr(compiler, "SECONDS", 2)
+    written(tmp_path, "import time\ntime.sleep(2.5)\n", "sitecustomize.py")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert '<link name="b">' in mjcf_urdf(written(tmp_path, BODY, "m.xml"))
+
+
 def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     nan = BODY.replace('size="0.1"', 'size="0.1" pos="NaN 0 0"')

@@ -17,6 +17,7 @@ from scipy.sparse import csr_matrix
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import (
+    LARGEST_TEXT,
     bytes_read,
     json_read,
     json_text,
@@ -165,7 +166,7 @@ def _line(one: Problem) -> dict[str, Any]:
 
 
 def _lines(path: Path) -> list[dict[str, Any]]:
-    text = bytes_read(path).decode("utf-8")
+    text = bytes_read(path, largest=LARGEST_TEXT).decode("utf-8")
     return [json.loads(line) for line in text.splitlines()]
 
 

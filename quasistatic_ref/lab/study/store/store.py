@@ -5,6 +5,7 @@ What is read is first copied into a store in memory, whose schema refuses what n
 """
 
 import fcntl
+import itertools
 import json
 import lzma
 import os
@@ -33,8 +34,11 @@ APART = ("kind", "time_limit", "settings", "solvers", "sweeps", "machine", "vers
                 "machines")  # fmt: skip
 """What has a table or a column of its own; the rest of a study is JSON."""
 Line = tuple[Any, ...]
-LARGEST_UNPACKED = 256 * 2**20
-"""Largest size of packed tables [bytes]: those of the study 'default' have 12 MiB."""
+LARGEST_UNPACKED = 64 * 2**20
+"""Largest size of all tables, of a number 8 [bytes]: those of the study 'default' have 16 MB."""
+COMPUTED = "SELECT name FROM sqlite_schema WHERE type IN ('view', 'trigger')"
+MOST_WORK = 100
+"""Millions of SQLite's instructions that reading may take: a view need not end."""
 MEMORY = 128 * 2**20
 """What the unpacking itself may take [bytes]: 65 MiB at the strongest setting."""
 UNREADABLE = (sqlite3.Error, ValueError, TypeError, KeyError, AttributeError, IndexError,
@@ -286,8 +290,28 @@ def records_of(tables: sqlite3.Connection, name: str) -> Iterator[Row]:
 def _stored(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
     """Every table of a file of SQLite, with its columns and lines."""
     with closing(sqlite3.connect(path)) as there:
+        work = itertools.count()
+        there.set_progress_handler(lambda: next(work) >= MOST_WORK, 10**6)
+        there.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_UNPACKED)
+        if there.execute(COMPUTED).fetchone():
+            raise ValueError("a view, or a trigger")
         for name in TABLES:
-            yield name, *lines_of(there, name)
+            columns, lines = lines_of(there, name)
+            yield name, columns, _of_some_size(lines, path)
+
+
+def _of_some_size(lines: Iterable[Line], path: Path) -> Iterator[Line]:
+    """The lines of a table; InputError if it is larger than any study's."""
+    size = 0
+    for line in lines:
+        size += sum(len(one) if isinstance(one, str | bytes) else 8 for one in line)
+        if size > LARGEST_UNPACKED:
+            raise _too_large(path)
+        yield line
+
+
+def _too_large(path: Path) -> InputError:
+    return InputError(f"holds more than {LARGEST_UNPACKED / 2**20:g} MiB", file=path)
 
 
 def _unpacked(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
@@ -308,7 +332,7 @@ def _decompressed(path: Path) -> bytes:
     except lzma.LZMAError:
         content = b""
     if len(content) > LARGEST_UNPACKED:
-        raise InputError(f"unpacks to more than {LARGEST_UNPACKED / 2**20:g} MiB", file=path)
+        raise _too_large(path)
     if not stream.eof:
         raise InputError("is no xz file, or was cut off; copy it again", file=path)
     return content
