@@ -14,10 +14,12 @@ from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.formats.given import arguments_checked, made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_urdf
 from quasistatic_ref.shapes.frozen import finite, freeze_array
 
-BASES = ("fixed", "floating", "planar")
+FIXED = "fixed"
+BASE_WORDS = (FIXED, *BASES)
 
 
 @made_by_arguments
@@ -75,8 +77,8 @@ class Body(Plain):
         if any(c in "/#*" or c.isspace() for c in self.name):
             problem = "must not contain '/', '#', '*' or white space"
             raise ModelError(problem, field="body.name", value=self.name)
-        if self.base not in BASES:
-            problem = f"is not a base{suggestion(str(self.base), BASES)}"
+        if self.base not in BASE_WORDS:
+            problem = f"is not a base{suggestion(str(self.base), BASE_WORDS)}"
             raise ModelError(problem, field=f"{self.name}.base", value=self.base)
         if self.actuated != "all":
             names = self.actuated
@@ -87,10 +89,11 @@ class Body(Plain):
         for key in ("xyz", "rpy"):
             with about_field(f"{self.name}.{key}"):
                 freeze_array(self, key, (3,))
-        if self.base == "planar" and np.any(np.asarray(self.rpy)[:2]):
-            problem = "must be [0, 0, yaw]: a planar base stays upright"
-            problem += '; tilt it in its URDF, or take base = "floating"'
-            raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
+        xyz = np.asarray(self.xyz)
+        rpy = np.asarray(self.rpy)
+        obstacle = None if self.base == FIXED else BASES[self.base].obstacle(xyz, rpy, xyz)
+        if obstacle is not None:
+            raise ModelError(obstacle, field=f"{self.name}.rpy", value=rpy.tolist())
         positions = {
             joint: finite(value, f"{self.name}.positions.{joint}")
             for joint, value in self.positions.items()

@@ -11,13 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.step.arrays import Array, checked_numbers
 from quasistatic_ref.step.ordered import length
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
-
-UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
-"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 W_FIRST = [1.0, 0.0, 0.0, 0.0]
 """The quaternion of no turn where w comes first, as in MuJoCo and Drake."""
@@ -37,7 +34,7 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     checked = _entries(joints, n_q, q)
     UnitParts(joints).check(checked)
     for joint in joints:
-        if joint.kind == "floating" and checked[joint.q][3:].tolist() == W_FIRST:
+        if joint.unit and checked[joint.unit_part].tolist() == W_FIRST:
             problem = (
                 "looks like the identity as [w x y z]; quaternions are [x y z w], and the identity "
                 "is [0 0 0 1] (half a turn about x is [1 0 0 1e-16])"
@@ -56,8 +53,8 @@ def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array
     """
     checked = _entries(joints, n_q, q)
     for joint in joints:
-        if joint.kind in UNIT_PART and not checked[unit_part(joint)].any():
-            problem = f"its {_name(joint)} has length 0, which gives no direction"
+        if joint.unit and not checked[joint.unit_part].any():
+            problem = f"its {joint.unit} has length 0, which gives no direction"
             raise ModelError(problem, field=f"q[{joint.name}]")
     return normalised(joints, checked)
 
@@ -72,8 +69,8 @@ class UnitParts:
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
-        self._joints = [joint for joint in joints if joint.kind in UNIT_PART]
-        parts = [np.arange(joint.q.stop)[unit_part(joint)] for joint in self._joints]
+        self._joints = [joint for joint in joints if joint.unit]
+        parts = [np.arange(joint.q.stop)[joint.unit_part] for joint in self._joints]
         self._entries = np.concatenate([np.zeros(0, np.int64), *parts])
         self._starts = np.array([0, *accumulate(map(len, parts))][:-1], np.int64)
 
@@ -97,15 +94,10 @@ class UnitParts:
         first = int(wrong.argmax())
         joint = self._joints[first]
         problem = (
-            f"its {_name(joint)} must have length one, not {lengths[first]:.10g}; "
+            f"its {joint.unit} must have length one, not {lengths[first]:.10g}; "
             "system.normalised(q) divides it by its length"
         )
-        raise ModelError(problem, field=f"q[{joint.name}]", value=q[unit_part(joint)].tolist())
-
-
-def unit_part(joint: Joint) -> slice:
-    """Where in q a joint's quaternion, or (cos, sin), stands."""
-    return slice(joint.q.start + UNIT_PART[joint.kind], joint.q.stop)
+        raise ModelError(problem, field=f"q[{joint.name}]", value=q[joint.unit_part].tolist())
 
 
 def normalised(joints: Sequence[Joint], q: Array) -> Array:
@@ -120,8 +112,8 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
     """
     found = q + 0.0
     for joint in joints:
-        if joint.kind in UNIT_PART:
-            unit = found[unit_part(joint)]
+        if joint.unit:
+            unit = found[joint.unit_part]
             size = length(unit)
             if size > 0 and abs(size - 1) > UNIT_ROUNDING:
                 unit /= size
@@ -138,8 +130,3 @@ def _entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
         if not np.isfinite(part).all():
             raise ModelError("must be finite", field=f"q[{joint.name}]", value=part.tolist())
     return entries
-
-
-def _name(joint: Joint) -> str:
-    """What its unit part is called."""
-    return "quaternion" if joint.kind == "floating" else "(cos, sin)"

@@ -11,7 +11,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.column_map import ColumnMap
-from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
+from quasistatic_ref.model.coordinates import joint_key
+from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.ordered import crossed, dot, rotated
@@ -124,8 +125,7 @@ def mass_matrix(
             continue
         constant[joint.v] = True
         block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
-        floating = joint.kind == "floating"
-        known[block] = rigid_masses(model, [joint])[0] if floating else full_matrix[block]
+        known[block] = rigid_masses(model, [joint])[0] if joint.free else full_matrix[block]
     return MassMatrix(column_map, n_a, *inertias, known, constant)
 
 
@@ -141,7 +141,7 @@ def constant_mass(model: Any, unactuated: Sequence[Joint]) -> bool:
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in unactuated)
+    return all(joint.free and moves_alone(model, joint) for joint in unactuated)
 
 
 def moves_alone(model: Any, joint: Joint) -> bool:

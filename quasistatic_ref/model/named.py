@@ -8,12 +8,9 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.step.arrays import Array, Indices, checked_array, checked_numbers
-
-ANGLE_LAST = ("planar", "continuous")
-"""Kinds of joints whose entries of q end with the cosine and sine of an angle."""
 
 
 class Named:
@@ -73,11 +70,12 @@ class Named:
         for name, given in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
             own = self.q(name if joint is None else joint.name)
-            if joint is not None and joint.kind == "floating" and isinstance(given, Mapping):
-                placed[own] = _pose(name, given, placed[own])
+            unit = None if joint is None else joint.unit
+            if joint is not None and unit == QUATERNION and isinstance(given, Mapping):
+                placed[own] = _pose(joint, name, given, placed[own])
                 continue
             entries = np.atleast_1d(checked_numbers(given, name, ModelError))
-            if joint is not None and joint.kind in ANGLE_LAST and len(entries) == len(own) - 1:
+            if unit == COSINE_SINE and len(entries) == len(own) - 1:
                 entries = np.array([*entries[:-1], *cos_sin(float(entries[-1]))])
             if entries.shape != own.shape:
                 wanted = "a number" if len(own) == 1 else f"{len(own)} numbers"
@@ -93,15 +91,16 @@ def _indices(known: Mapping[str, list[int]], name: str) -> Indices:
     return np.array(known[name], dtype=np.int64)
 
 
-def _pose(name: str, given: Mapping[str, Any], before: Array) -> Array:
-    """Entries of q of a floating base, shape (7,); what the table leaves out stays."""
+def _pose(joint: Joint, name: str, given: Mapping[str, Any], before: Array) -> Array:
+    """Entries of q of a joint with a quaternion; what the table leaves out stays."""
     after = before + 0.0
+    known = ("xyz", "rpy") if joint.lengths else ("rpy",)
     for key, value in given.items():
-        if key not in ("xyz", "rpy"):
-            raise ModelError(f"is unknown{suggestion(key, ('xyz', 'rpy'))}", field=f"{name}.{key}")
+        if key not in known:
+            raise ModelError(f"is unknown{suggestion(key, known)}", field=f"{name}.{key}")
         numbers = checked_array(value, f"{name}.{key}", (3,), ModelError)
         if key == "xyz":
             after[:3] = numbers
         else:
-            after[3:] = quaternion(numbers)
+            after[joint.lengths :] = quaternion(numbers)
     return after

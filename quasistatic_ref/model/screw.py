@@ -1,4 +1,4 @@
-"""q (+) delta_q and q_next (-) q of the joints that turn: screws of bases, turns of wheels.
+"""Sums and differences of joints that turn: screws of bases, turns of wheels.
 
 With a the angle of a turn, b = a / 2, and (C, S) = (cos b, sin b), all else is sums, products,
 quotients and square roots in one fixed order, so that a run has the same bits everywhere. Nothing
@@ -11,66 +11,13 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from quasistatic_ref.model.angles import angle_of, cos_sin
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.step.arrays import Array
 
 Vector = Sequence[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
-
-TURNING = ("floating", "planar", "continuous")
-"""Kinds of joints whose q holds a quaternion, or (cos, sin)."""
-
-
-def moved(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
-    """A turning joint's entries of q (+) delta_q [m, -].
-
-    Parameters
-    ----------
-    joint : Joint
-    q : list of n_q floats
-    delta_q : list of n_v floats
-    """
-    q_joint = q[joint.q]
-    increment = delta_q[joint.v]
-    if joint.kind == "continuous":
-        return _heading(q_joint, increment[0])
-    if joint.kind == "planar":
-        v = [increment[0], increment[1], 0.0]
-        w = [0.0, 0.0, increment[2]]
-        t = translation(v, w, half_turn(w))
-        x, y, _ = _carried([*q_joint[:2], 0.0], _rotation(joint, q_joint), t)
-        return [x, y, *_heading(q_joint[2:], increment[2])]
-    v = increment[:3]
-    w = increment[3:]
-    half = half_turn(w)
-    t = translation(v, w, half)
-    position = _carried(q_joint[:3], _rotation(joint, q_joint), t)
-    return position + _quaternion(q_joint[3:], w, half)
-
-
-def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
-    """A turning joint's entries of q_next (-) q [m, rad].
-
-    Parameters
-    ----------
-    joint : Joint
-    q, q_next : list of n_q floats
-    """
-    q_joint = q[joint.q]
-    q_joint_next = q_next[joint.q]
-    if joint.kind == "continuous":
-        return [_turn(q_joint, q_joint_next)]
-    planar = joint.kind == "planar"
-    z = 0.0 if planar else q_joint_next[2] - q_joint[2]
-    apart = [q_joint_next[0] - q_joint[0], q_joint_next[1] - q_joint[1], z]
-    # The columns of R are the base's own axes in the world.
-    axis_x, axis_y, axis_z = zip(*_rotation(joint, q_joint), strict=True)
-    displacement = [dot(axis_x, apart), dot(axis_y, apart), dot(axis_z, apart)]
-    if planar:
-        angle = _turn(q_joint[2:], q_joint_next[2:])
-        return [*linear_part(displacement, [0.0, 0.0, angle])[:2], angle]
-    w, a, c2 = _rotation_between(q_joint[3:], q_joint_next[3:])
-    return [*_combined(displacement, w, a, -0.5, c2), *w]
 
 
 class HalfTurn(NamedTuple):
@@ -109,7 +56,7 @@ def translation(v: Vector, w: Vector, half: HalfTurn) -> list[float]:
         Of w.
     """
     a, C, ratio = half
-    return _combined(v, w, a, ratio * ratio / 2, 1 - ratio * C)  # sin a = 2 sin(a/2) cos(a/2)
+    return combined(v, w, a, ratio * ratio / 2, 1 - ratio * C)  # sin a = 2 sin(a/2) cos(a/2)
 
 
 def linear_part(t: Vector, w: Vector) -> list[float]:
@@ -123,7 +70,7 @@ def linear_part(t: Vector, w: Vector) -> list[float]:
         Translation [m] and rotation vector [rad].
     """
     a, C, ratio = half_turn(w)
-    return _combined(t, w, a, -0.5, 1 - C / ratio)
+    return combined(t, w, a, -0.5, 1 - C / ratio)
 
 
 def dot(w: Vector, v: Vector) -> float:
@@ -138,8 +85,8 @@ def length(w: Vector) -> float:
     return math.sqrt(dot(w, w))
 
 
-def _combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float]:
-    """V + c1 w x v + c2 e x (e x v), where w = a e, and e x (e x v) = (e . v) e - v."""
+def combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float]:
+    """V + c1 w x v + c2 e x (e x v), where w = a e [rad], and e x (e x v) = (e . v) e - v."""
     x, y, z = v
     p, q, r = w
     rest = 1 - c2
@@ -151,14 +98,14 @@ def _combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[floa
     ]
 
 
-def _carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
+def carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
     """The position of a base, 3 floats, after a translation t in its own axes, those of R [m]."""
     x, y, z = position
     row_x, row_y, row_z = R
     return [x + dot(row_x, t), y + dot(row_y, t), z + dot(row_z, t)]
 
 
-def _quaternion(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
+def turned(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
     """A quaternion times that of a rotation vector, of length one; without a turn as it is."""
     _, C, ratio = half
     p, q, r = w
@@ -177,7 +124,7 @@ def _quaternion(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
     return [shorter * a, shorter * b, shorter * c, shorter * d]
 
 
-def _rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float], float, float]:
+def rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float], float, float]:
     """What turns one quaternion into another: w, a = |w| <= pi [rad], and 1 - (a/2) cot(a/2)."""
     x, y, z, s = q_joint
     p, q, r, k = q_joint_next
@@ -195,7 +142,7 @@ def _rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float
     return [scale * part for part in v], 2 * b, 1 - ratio * C if S else 0.0
 
 
-def _heading(q_joint: Vector, angle: float) -> list[float]:
+def heading(q_joint: Vector, angle: float) -> list[float]:
     """(cos, sin) turned by an angle, of length one; without a turn as it is."""
     if angle == 0:
         return [*q_joint]
@@ -209,12 +156,9 @@ def _heading(q_joint: Vector, angle: float) -> list[float]:
     return [shorter * x, shorter * y]
 
 
-def _rotation(joint: Joint, q_joint: list[float]) -> list[list[float]]:
-    """Rows of the rotation matrix of a base, from its entries of q."""
-    if joint.kind == "planar":
-        c, s = q_joint[2:]
-        return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-    x, y, z, w = q_joint[3:]
+def rows(quaternion: Vector) -> list[list[float]]:
+    """Rows of the rotation matrix of a quaternion [x y z w] of length one."""
+    x, y, z, w = quaternion
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
@@ -222,8 +166,19 @@ def _rotation(joint: Joint, q_joint: list[float]) -> list[list[float]]:
     ]
 
 
-def _turn(before: Vector, after: Vector) -> float:
-    """Angle from one (cos, sin) to another."""
+def along(R: list[list[float]], v: Vector) -> list[float]:
+    """R'v of the rows of R: a vector of the world along a link's own axes [its unit]."""
+    return [dot(axis, v) for axis in zip(*R, strict=True)]
+
+
+def quaternion_rates(quaternion: Array) -> Array:
+    """Derivative of a quaternion [x y z w], shape (4,), by a turn in its own frame, (4, 3)."""
+    x, y, z, w = quaternion.tolist()
+    return np.array([[w, -z, y], [z, w, -x], [-y, x, w], [-x, -y, -z]]) / 2
+
+
+def turn_between(before: Vector, after: Vector) -> float:
+    """Angle from one (cos, sin) to another [rad]."""
     c, s = before
     c_next, s_next = after
     return angle_of(c * s_next - s * c_next, c * c_next + s * s_next)

@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import (
@@ -27,7 +26,8 @@ from quasistatic_ref.model.configuration import (
     configuration,
     unit_configuration,
 )
-from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order, with_shape
+from quasistatic_ref.model.coordinates import paper_order, with_shape
+from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import (
     MassMatrix,
@@ -159,12 +159,10 @@ class System(Shown):
         for array in (self.masses, self.centres, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
-        self._turning = [joint for joint in self.joints if joint.kind in screw.TURNING]
         self.named = Named(self.joints)
         self.units = UnitParts(self.joints)
-        self.actuated_units = UnitParts([joint for joint in self.joints if joint.actuated])
-        others = [joint for joint in self.joints if joint.kind not in screw.TURNING]
-        self._scalars = [(joint.q.start, joint.v.start) for joint in others]
+        self._actuated = [joint for joint in self.joints if joint.actuated]
+        self.actuated_units = UnitParts(self._actuated)
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -225,12 +223,10 @@ class System(Shown):
         self.units.check(q)
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
         here = q.tolist()
-        there = q.tolist()
         change = delta_q.tolist()
-        for joint in self._turning:
-            there[joint.q] = screw.moved(joint, here, change)
-        for i, j in self._scalars:
-            there[i] += change[j]
+        there: list[float] = []
+        for joint in self.joints:  # in the order of q
+            there += joint.moved(here[joint.q], change[joint.v])
         return np.array(there)
 
     def difference(self, q: Array, q_next: Array) -> Array:
@@ -239,18 +235,7 @@ class System(Shown):
         q_next = with_shape(q_next, "q", (self.n_q,))
         self.units.check(q)
         self.units.check(q_next)
-        return self._change(q.tolist(), q_next.tolist(), self.n_v)
-
-    def _change(self, here: list[float], there: list[float], n: int) -> Array:
-        """The first n entries of a change of q, those of whole joints, of which both q hold all."""
-        change = [0.0] * n
-        for joint in self._turning:
-            if joint.v.stop <= n:
-                change[joint.v] = screw.change(joint, here, there)
-        for i, j in self._scalars:
-            if j < n:
-                change[j] = there[i] - here[i]
-        return np.array(change)
+        return _change(self.joints, q.tolist(), q_next.tolist())
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,).
@@ -264,7 +249,7 @@ class System(Shown):
         q_a = with_shape(q_a, "q_a", (self.n_q_a,))
         self.units.check(q)
         self.actuated_units.check(q_a)
-        return self._change(q.tolist(), q_a.tolist(), self.n_a)
+        return _change(self._actuated, q.tolist(), q_a.tolist())
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
@@ -438,6 +423,14 @@ class System(Shown):
             problem = f"is not a body{suggestion(body, self._roots)}"
             raise ModelError(problem, field="body", value=body)
         return self._roots[body]
+
+
+def _change(joints: Sequence[Joint], here: list[float], there: list[float]) -> Array:
+    """Entries of delta_q of joints, the first ones in q, from one configuration to another."""
+    change: list[float] = []
+    for joint in joints:
+        change += joint.change(here[joint.q], there[joint.q])
+    return np.array(change)
 
 
 def _taken(x: ArrayLike, own: Indices, lengths: set[int], name: str) -> Array:

@@ -13,9 +13,10 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.given import checked_items
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.coordinates import Joint, MimicJoint, joint_key
+from quasistatic_ref.model.body import FIXED, Body
+from quasistatic_ref.model.coordinates import MimicJoint, joint_key
+from quasistatic_ref.model.joints import AXES, BASES
+from quasistatic_ref.model.joints.joint import QUATERNION, Joint
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.urdf.urdf import (
     BASE,
@@ -200,19 +201,13 @@ def _prefixed(model: Any, name: str) -> Any:
 
 
 def _anchor(body: Body) -> Any:
-    """Placement of a body's model in the world, as far as q does not hold it.
-
-    The identity for a floating base, the height for a planar base, the whole pose for a fixed one.
-    """
-    if body.base == "floating":
-        return pin.SE3.Identity()
-    if body.base == "planar":
-        return pin.SE3(np.eye(3), np.array([0.0, 0.0, np.asarray(body.xyz)[2]]))
-    return _placement(body)
-
-
-def _placement(body: Body) -> Any:
-    return pin.SE3(rotation(np.asarray(body.rpy)), np.asarray(body.xyz))
+    """Placement of a body's model in the world, as far as q does not hold it."""
+    xyz = np.array(body.xyz)
+    if body.base == FIXED:
+        return pin.SE3(rotation(np.asarray(body.rpy)), xyz)
+    held = [i for i in BASES[body.base].twist if i < 3]
+    xyz[held] = 0.0
+    return pin.SE3(np.eye(3), xyz)
 
 
 def _check_joint_names(body: Body, urdf: Urdf) -> None:
@@ -243,35 +238,33 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
 
 def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
     """Joints with coordinates of one body, each with its start."""
-    kinds = {} if urdf.base == "fixed" else {BASE: urdf.base}
-    kinds |= {j.name: j.kind for j in urdf.file.joints if j.kind != "fixed" and j.mimic is None}
-    joints = []
-    for name, kind in kinds.items():
-        joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
-        position = body.positions.get(name, 0.0)
-        if kind == "floating":
-            placement = _placement(body)
-            quaternion = pin.Quaternion(placement.rotation).normalized()
-            start = np.concatenate([placement.translation, quaternion.coeffs()])
-        elif kind == "planar":
-            x, y, _ = np.asarray(body.xyz)
-            yaw = np.asarray(body.rpy)[2]
-            start = np.array([x, y, *cos_sin(float(yaw))])
-        elif kind == "continuous":
-            start = np.array(cos_sin(float(position)))
-        else:
-            start = np.array([position])
-        actuated = body.actuated == "all" or name in body.actuated
-        q = slice(joint.idx_q, joint.idx_q + joint.nq)
-        v = slice(joint.idx_v, joint.idx_v + joint.nv)
-        limits = None
-        if kind in ("revolute", "prismatic"):
-            lower = float(model.lowerPositionLimit[joint.idx_q])
-            upper = float(model.upperPositionLimit[joint.idx_q])
+    joints: list[tuple[Joint, Array]] = []
+    if body.base != FIXED:
+        base = BASES[body.base](*_entries(body, BASE, model))
+        rpy = np.asarray(body.rpy)
+        start = np.array(base.at(np.asarray(body.xyz), rpy))
+        if base.unit == QUATERNION:  # with the last bits of runs that are recorded
+            start[base.lengths :] = pin.Quaternion(rotation(rpy)).normalized().coeffs()
+        joints.append((base, start))
+    for written in urdf.file.joints:
+        if written.kind == FIXED or written.mimic is not None:
+            continue
+        joint = AXES[written.kind](*_entries(body, written.name, model))
+        if joint.unit is None:
+            lower = float(model.lowerPositionLimit[joint.q.start])
+            upper = float(model.upperPositionLimit[joint.q.start])
             # URDF's default is 0 to 0, with which nothing is said.
-            limits = None if lower == upper == 0 else (lower, upper)
-        joints.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
+            joint = replace(joint, limits=None if lower == upper == 0 else (lower, upper))
+        joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
+
+
+def _entries(body: Body, name: str, model: Any) -> tuple[str, bool, slice, slice]:
+    """Name of a joint, whether it is actuated, and its entries of pinocchio's q and delta_q."""
+    joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
+    q = slice(joint.idx_q, joint.idx_q + joint.nq)
+    v = slice(joint.idx_v, joint.idx_v + joint.nv)
+    return f"{body.name}/{name}", body.actuated == "all" or name in body.actuated, q, v
 
 
 def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:

@@ -11,15 +11,15 @@ from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
+    ORIGIN,
     WAYPOINT,
     WRENCH,
     pose,
@@ -232,18 +232,13 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             problem = "sets no joint; give the position of at least one"
             raise entry.table.error_about(f"targets[{i}]", problem, record)
         for name in waypoint.names_left():
-            kind = joints[name].kind
-            if kind == "floating":
-                xyz, turned = pose(waypoint.table(name))
-                target: Any = np.concatenate([xyz, quaternion(turned)])
-            elif kind == "planar":
-                xyz, turned = _planar(waypoint, name, entry.body)
-                target = np.array([xyz[0], xyz[1], *cos_sin(float(turned[2]))])
+            joint = joints[name]
+            if isinstance(joint, TwistJoint):
+                target, turned = _placed(waypoint, name, joint, entry.body)
             else:
-                turned = np.array([waypoint.number(name)])
-                target = turned
+                target = turned = np.array([waypoint.number(name)])
             # Between waypoints a continuous joint turns as often as they say.
-            if kind in ("floating", "planar") or (kind == "continuous" and name not in times):
+            if joint.unit and (isinstance(joint, TwistJoint) or name not in times):
                 _check_turn(waypoint, name, angles[name], turned)
                 angles[name] = turned
             times.setdefault(name, []).append(t)
@@ -270,7 +265,7 @@ def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array
 
 def _start_angles(body: Body, name: str, joint: Joint) -> Array:
     """Roll, pitch and yaw of a base at the start, or the position of a joint [rad, m]."""
-    if joint.kind in ("floating", "planar"):
+    if isinstance(joint, TwistJoint):
         return np.asarray(body.rpy)
     return np.array([body.positions.get(name, 0.0)])
 
@@ -287,17 +282,14 @@ def _check_turn(waypoint: TableReader, name: str, before: Array, after: Array) -
         raise waypoint.error_about(name, problem, after.tolist())
 
 
-def _planar(waypoint: TableReader, name: str, body: Body) -> tuple[Array, Array]:
-    """Origin [m] and roll, pitch, yaw [rad] of a planar base."""
-    xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
-    height = float(np.asarray(body.xyz)[2])
-    if xyz[2] != height or rpy[:2].any():
-        problem = (
-            f"must keep the height {height:g} and turn only about the vertical, because the base "
-            "is planar"
-        )
-        raise waypoint.error_about(name, problem, [*xyz.tolist(), *rpy.tolist()])
-    return xyz, rpy
+def _placed(waypoint: TableReader, name: str, joint: TwistJoint, body: Body) -> tuple[Array, Array]:
+    """Entries of q of a base at a pose, and its roll, pitch, yaw [rad]."""
+    start = np.asarray(body.xyz)
+    xyz, rpy = pose(waypoint.table(name), ORIGIN if joint.free else start)
+    obstacle = joint.obstacle(xyz, rpy, start)
+    if obstacle is not None:
+        raise waypoint.error_about(name, obstacle, [*xyz.tolist(), *rpy.tolist()])
+    return np.array(joint.at(xyz, rpy)), rpy
 
 
 def _wrenches(name: str, table: TableReader) -> Wrenches | None:

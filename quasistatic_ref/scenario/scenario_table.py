@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.model.body import BASES
+from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.limits import Limits
@@ -104,7 +104,7 @@ TABLES = Tables({
                       default=None, schema={"pattern": r"\S"}),
         "mjcf": Field("text", "in place of a URDF; read by MuJoCo (extra 'engines')", default=None,
                       schema={"pattern": r"\S"}),
-        "base": Field("text", "how the root link moves", default="fixed", choices=BASES),
+        "base": Field("text", "how the root link moves", default="fixed", choices=BASE_WORDS),
         "actuated": Field(
             'names of joints, or "all"', 'joints that have targets; "base" is the base', default=[],
             schema={"anyOf": [{"enum": ["all"]}, {"type": "array", "items": TEXT}]},

@@ -7,8 +7,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.axis_joint import AxisJoint
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array, freeze_copies
 
@@ -65,11 +65,8 @@ class JointTrack(Plain):
 
     def at(self, t: float) -> Array:
         """The joint's entries of q at time t, shape (nq,)."""
-        if self.joint.kind not in ("floating", "planar"):
-            value = piecewise_linear(self.times, self.values, t)
-            if self.joint.kind == "continuous":
-                return np.array(cos_sin(float(value[0])))
-            return value
+        if isinstance(self.joint, AxisJoint):
+            return np.array(self.joint.at(float(piecewise_linear(self.times, self.values, t)[0])))
         i, s = _interval(self.times, t)
         start = self._placed(self.values[i])
         if s == 0:

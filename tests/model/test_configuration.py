@@ -10,13 +10,16 @@ from quasistatic_ref.model.configuration import (
     normalised,
     unit_configuration,
 )
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.axis_joint import Revolute
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.planar import Planar
 
 JOINTS = (
-    Joint("box/base", "floating", False, slice(0, 7), slice(0, 6)),
-    Joint("puck/base", "planar", False, slice(7, 11), slice(6, 9)),
-    Joint("arm/spin", "continuous", False, slice(11, 13), slice(9, 10)),
-    Joint("arm/swing", "revolute", False, slice(13, 14), slice(10, 11)),
+    Floating("box/base", False, slice(0, 7), slice(0, 6)),
+    Planar("puck/base", False, slice(7, 11), slice(6, 9)),
+    Continuous("arm/spin", False, slice(11, 13), slice(9, 10)),
+    Revolute("arm/swing", False, slice(13, 14), slice(10, 11)),
 )
 UNITS = {"quaternion": slice(3, 7), "heading": slice(9, 11), "turn": slice(11, 13)}
 # Lengths that are whole numbers, entry by entry: (3, 4) has 5, (5, 12) has 13, (13, 84) has 85, and

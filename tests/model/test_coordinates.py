@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.model.coordinates import Joint, paper_order
+from quasistatic_ref.model.coordinates import paper_order
+from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
 
 PINOCCHIO_S = (
-    Joint("swing", "revolute", False, slice(0, 1), slice(0, 1)),
-    Joint("spin", "continuous", True, slice(1, 3), slice(1, 2)),
-    Joint("box/base", "floating", False, slice(3, 10), slice(2, 8)),
-    Joint("slide", "prismatic", True, slice(10, 11), slice(8, 9)),
+    Revolute("swing", False, slice(0, 1), slice(0, 1)),
+    Continuous("spin", True, slice(1, 3), slice(1, 2)),
+    Floating("box/base", False, slice(3, 10), slice(2, 8)),
+    Prismatic("slide", True, slice(10, 11), slice(8, 9)),
 )
 
 
@@ -28,8 +31,8 @@ def test_actuated_entries_come_first_whatever_the_number_of_axes():
 
 def test_orders_are_the_same_where_all_actuated_joints_come_first():
     swing, spin = PINOCCHIO_S[:2]
-    first = Joint("spin", "continuous", True, slice(0, 2), slice(0, 1))
-    then = Joint("swing", "revolute", False, slice(2, 3), slice(1, 2))
+    first = Continuous("spin", True, slice(0, 2), slice(0, 1))
+    then = Revolute("swing", False, slice(2, 3), slice(1, 2))
     order = paper_order([first, then])
     v = np.arange(2.0)
     assert order.same

@@ -5,16 +5,28 @@ import pytest
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.screw import change, half_turn, linear_part, moved, translation
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.model.screw import half_turn, linear_part, translation
 from tests.tolerances import ROUNDING
 
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
 LINEAR = (0.3, -0.7, 1.1)
 AXIS = np.array([2.0, -3.0, 6.0]) / 7
-FLOATING = Joint("base", "floating", False, slice(1, 8), slice(1, 7))
-PLANAR = Joint("puck", "planar", False, slice(1, 5), slice(1, 4))
-CONTINUOUS = Joint("wheel", "continuous", False, slice(1, 3), slice(1, 2))
+FLOATING = Floating("base", False, slice(1, 8), slice(1, 7))
+PLANAR = Planar("puck", False, slice(1, 5), slice(1, 4))
+CONTINUOUS = Continuous("wheel", False, slice(1, 3), slice(1, 2))
+
+
+def moved(joint, q, delta_q):
+    """A joint's entries of q (+) delta_q."""
+    return joint.moved(q[joint.q], delta_q[joint.v])
+
+
+def change(joint, q, q_next):
+    """A joint's entries of q_next (-) q."""
+    return joint.change(q[joint.q], q_next[joint.q])
 
 
 def screw(v, w):

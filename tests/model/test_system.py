@@ -47,7 +47,7 @@ def test_difference_is_the_inverse_of_integrate(
     for each in scene.joints:
         part = there[each.q].copy()
         other = q_next[each.q].copy()
-        if each.kind == "floating":  # x and -x are the same orientation
+        if each.free:  # x and -x are the same orientation
             part[3:] *= np.sign(part[3:] @ other[3:])
         assert np.abs(part - other).max() < ROUNDING
 

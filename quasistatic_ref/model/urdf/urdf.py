@@ -15,6 +15,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
@@ -24,7 +25,6 @@ from quasistatic_ref.tolerances import LOADED
 
 BASE = "base"
 """Name of the joint of a floating or planar base."""
-BASES = {"floating": pin.JointModelFreeFlyer, "planar": pin.JointModelPlanar}
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +121,7 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
 
 def urdf_model(text: str, base: str) -> Any:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
-    root = () if base == "fixed" else (BASES[base](), BASE)
+    root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
     readable, names = _readable(text)
     model = pin.buildModelFromXML(readable, *root, mimic=True)
     for number in range(1, model.njoints):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
 from quasistatic_ref.simulate.law import COULOMB
@@ -140,9 +141,9 @@ def _remedy(start: Start, guide: Guide) -> str:
     names = [start.simulator.layout.names[j] for j in guide.contacts]
     tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
     joint = start.system.joint(_joints(start, guide)[0])
-    if joint.kind == "floating":
+    if joint.free:
         return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
-    instead = "support" if joint.kind == "planar" else "joint_friction"
+    instead = "support" if isinstance(joint, Planar) else "joint_friction"
     return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
 
 

@@ -6,7 +6,6 @@ import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said, sizes
-from quasistatic_ref.optional.doctor.units import LENGTHS
 from quasistatic_ref.tolerances import LEAP
 
 
@@ -20,7 +19,7 @@ def leaps(run: Run) -> Iterator[Said]:
     for joint in run.system.joints:
         moved = [sides[i] for i in np.flatnonzero(moves[links, joint.v].any(axis=1))]
         motion = run["delta_q"][:, joint.v]
-        lengths = LENGTHS.get(joint.kind, 0)
+        lengths = joint.lengths
         size = max(sizes(moved), default=np.inf)
         length = np.linalg.norm(motion[:, :lengths], axis=1)
         angle = np.linalg.norm(motion[:, lengths:], axis=1)

@@ -10,7 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape
@@ -140,5 +140,5 @@ def bodies(system: System, pair: ContactPair) -> set[str]:
 
 def free_bases(system: System) -> dict[str, Joint]:
     """The floating bases that nothing actuates, by their bodies."""
-    bases = [j for j in system.joints if j.kind == "floating" and not j.actuated]
+    bases = [j for j in system.joints if j.free and not j.actuated]
     return {base.name.removesuffix("/base"): base for base in bases}

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.step.data import Array
@@ -67,9 +67,11 @@ def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:
 def half_turns(run: Run) -> Iterator[Said]:
     """Joints that come to lag their target by half a turn, from where springs turn them back."""
     for joint in run.system.joints:
-        if not joint.actuated or joint.kind not in ("floating", "planar", "continuous"):
+        if not joint.actuated or joint.unit is None:
             continue
-        lag = _lag(joint.kind, run["q"][:-1, joint.q], run["q_bar_a"][:, joint.q])
+        here = run["q"][:-1, joint.q].tolist()
+        there = run["q_bar_a"][:, joint.q].tolist()
+        lag = np.array(list(map(joint.change, here, there)))[:, joint.lengths :]
         far = np.linalg.norm(lag, axis=1) > np.pi / 2
         turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
         if turned_over.any():
@@ -80,15 +82,3 @@ def half_turns(run: Run) -> Iterator[Said]:
                 "shorter way",
                 {"step": k},
             )
-
-
-def _lag(kind: str, q: Array, q_bar: Array) -> Array:
-    """The shorter turn from q to q_bar, shape (steps, 1 or 3) [rad]."""
-    if kind == "floating":
-        from scipy.spatial.transform import Rotation  # takes as long as a short run
-
-        turn = Rotation.from_quat(q[:, 3:]).inv() * Rotation.from_quat(q_bar[:, 3:])
-        return np.asarray(turn.as_rotvec())
-    at = q[:, -2] + 1j * q[:, -1]  # cos + i sin
-    target = q_bar[:, -2] + 1j * q_bar[:, -1]
-    return np.angle(target / at)[:, None]

@@ -10,9 +10,6 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import IN_METRES
 
-LENGTHS = {"floating": 3, "planar": 2, "prismatic": 1}
-"""How many of a joint's coordinates, the first ones, are lengths; the others are angles."""
-
 
 def long_shapes(start: Start) -> Iterator[Said]:
     """Meshes and clouds longer than anything that a robot meets: the longest is named."""
@@ -47,7 +44,7 @@ def far_targets(run: Run) -> Iterator[Said]:
     for joint in run.system.joints:
         if joint.actuated:
             value = run["q_bar_a"][:, joint.q]
-            length = np.abs(value[:, : LENGTHS.get(joint.kind, 0)]).max(axis=1, initial=0.0)
+            length = np.abs(value[:, : joint.lengths]).max(axis=1, initial=0.0)
             k = int(length.argmax())
             if length[k] > IN_METRES:
                 yield Said(

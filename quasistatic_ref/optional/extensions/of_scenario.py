@@ -86,7 +86,7 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
     table = {} if entry.joint_friction is None else entry.joint_friction
     given = TableReader(table, entry.table.name("joint_friction"), ScenarioError)
     own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
-    rubbed = [joint for joint in own if joint.kind != "floating"]
+    rubbed = [joint for joint in own if not joint.free]
     given.only(entry.short(joint) for joint in rubbed)
     found: dict[str, float] = {}
     for joint in rubbed:

@@ -61,9 +61,10 @@ class FastSimulator(Simulator):
     """As :class:`~quasistatic_ref.simulate.simulator.Simulator`, in less time.
 
     Closest points, J, the data of a step and its standard form come from compiled code, in every
-    scene; contacts of pairs that it does not know are those of the plain path. The numbers are
-    right by construction, and not checked one by one. Where J is dense, the first step's are
-    compared with those of the plain path, which takes all steps if they differ. If the default
+    scene; contacts of pairs and sums of joints that it does not know are those of the plain path.
+    The numbers are right by construction, and not checked one by one. Those of the first step (of
+    a sparse one only q+) are compared with those of the plain path, which takes all steps if they
+    differ. If the default
     backend, named or not, fails at a step that is not certified in full, Clarabel solves the step.
 
     Parameters
@@ -75,8 +76,8 @@ class FastSimulator(Simulator):
     ----------
     spare : Solver or None
         A second solver, Clarabel's, once it was needed.
-    compared : bool
-        Whether the first step was compared.
+    compares : bool
+        Whether the next step is the first, which is compared.
     by_c : bool
         Whether compiled code takes the steps.
     """
@@ -121,7 +122,7 @@ class FastSimulator(Simulator):
         self.form = compiled.step_data
         self.reach = compiled.reach
         self.has_rows = cone(self.cone).polyhedral
-        self.compared = large is not None
+        self.compares = True
         self.by_c = True
         self.named: tuple[list[int], tuple[str, ...]] = [], ()
         self.fitted: Solver | None = None
@@ -143,8 +144,7 @@ class FastSimulator(Simulator):
         self.contacts.find(self.poses)
         lap("distances")
         step, form, points = self.posed_step(q, q_bar_a, force)
-        if not self.compared:
-            self.compared = True
+        if self.compares:
             self.by_c = self.is_plain(step, form, q, q_bar_a, force)
             if not self.by_c:
                 return super().step(q, q_bar_a, force)
@@ -156,7 +156,13 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
+        delta_q = solution.delta_q[: self.system.n_v]
+        q_next = self.screws.integrate(delta_q)
+        if self.compares:
+            self.compares = False
+            self.by_c = bits(q_next) == bits(self.system.integrate(q, delta_q))
+            if not self.by_c:
+                return super().step(q, q_bar_a, force)
         self.poses.move(q_next)
         if not self.reach(self.numbers.address) <= SURELY * limits.reach**2:
             limits.check_reach(step, self.system.links, self.poses.kinematics().t)
@@ -246,7 +252,9 @@ class FastSimulator(Simulator):
         q_bar_a: Array,
         force: Array | float,
     ) -> bool:
-        """Whether the numbers of a dense step, and its matrices, are those of the plain path."""
+        """Whether the numbers of a step and its matrices, unless sparse, are the plain path's."""
+        if self.blocks is not None:
+            return True
         kinematics = self.system.kinematics(q)
         points = self.closest_points(kinematics)
         plain = super().step_data(q, q_bar_a, force, points, kinematics)

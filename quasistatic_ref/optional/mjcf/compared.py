@@ -8,6 +8,7 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.geoms import FREE, geom_support, touching
@@ -95,7 +96,7 @@ def _qpos(
         qpos[:7] = [*kinematics.t[root], w, x, y, z]
     for joint in system.joints:
         own = joint.name.partition("/")[2]
-        if joint.kind not in ("floating", "planar"):
+        if isinstance(joint, AxisJoint):
             qpos[model.jnt_qposadr[names.joints.index(own)]] += delta_q[joint.v][0]
     return qpos
 

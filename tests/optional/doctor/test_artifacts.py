@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
     drags,
@@ -33,7 +34,7 @@ def system(tmp_path_factory):
 
 
 def test_pi_is_the_speed_of_the_free_base_over_mu_g_h(system):
-    (box,) = (j for j in system.joints if j.kind == "floating" and not j.actuated)
+    (box,) = (j for j in system.joints if j.free and not j.actuated)
     step = point_on_floor(mu_v=0.5, h=H)
     delta_q = np.zeros(system.n_v)
     delta_q[box.v] = [3e-4, 0, 4e-4, 7.0, 8.0, 9.0]  # 0.05 m/s; turning does not count
@@ -54,7 +55,7 @@ def test_pi_takes_the_least_friction_that_is_not_zero_and_needs_some(system):
 
 def free_body(m, at=0):
     """A system of one free body of mass m whose twist starts at a column of delta_q."""
-    base = Joint("body/base", "floating", False, slice(at, at + 7), slice(at, at + 6))
+    base = Floating("body/base", False, slice(at, at + 7), slice(at, at + 6))
     return SimpleNamespace(joints=(base,), mass={"body": m}.__getitem__)
 
 
@@ -99,7 +100,8 @@ def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
     body = free_body(0.3)
     assert drag_share(body, solution, 0.0) is None
     (base,) = body.joints
-    for other in (replace(base, actuated=True), replace(base, kind="planar")):
+    flat = Planar("body/base", False, slice(0, 4), slice(0, 3))
+    for other in (replace(base, actuated=True), flat):
         body.joints = (other,)
         assert drag_share(body, solution, G) is None
 

@@ -8,6 +8,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.systems import RAIL
+from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.optional.runs.scene_file import scenario_written
 from tests.contact.still import placed
@@ -48,7 +49,7 @@ def scene(changes=(), **settings):
 
 def motion(simulator, steps=5):
     target = simulator.system.q_start[: simulator.system.n_q_a]
-    if simulator.system.joints[0].kind == "prismatic":
+    if isinstance(simulator.system.joints[0], Prismatic):
         target = target + 0.1
     run = qr.rollout(simulator, simulator.system.q_start, target, steps=steps, progress=False)
     return run["q"].tobytes()

@@ -140,8 +140,9 @@ model/kinematics.py
     system random_mechanisms CONTACT
 model/column_map.py
     system simulator CONTACT
-model/screw.py
-    rotation system
+model/screw.py model/joints/joint.py model/joints/axis_joint.py model/joints/continuous.py
+model/joints/floating.py model/joints/planar.py
+    screw rotation system
 shapes/placed_shape.py
     shapes solid words
 shapes/point_cloud.py

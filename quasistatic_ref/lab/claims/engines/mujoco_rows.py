@@ -37,7 +37,7 @@ def tangent_map(system: System, bodies: tuple[str, ...]) -> Array:
                 continue
             size = joint.v.stop - joint.v.start
             block = np.eye(size)
-            if joint.kind == "floating":
+            if joint.free:
                 block[:3, :3] = kinematics.R[system.link(name)]
             T[row : row + size, joint.v] = block
             row += size

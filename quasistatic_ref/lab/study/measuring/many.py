@@ -22,6 +22,7 @@ from quasistatic_ref.lab.study.measuring.sweep import (
     sweep_scenario,
 )
 from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import parsed
 
@@ -129,8 +130,10 @@ def _axis(name: str, values: Iterable[float | str]) -> Axis:
 
 def _followed(system: System) -> str:
     """Return the root link of the first body that nothing drives, or else the last link."""
-    free = [j for j in system.joints if j.kind in ("floating", "planar") and not j.actuated]
-    return free[0].name.removesuffix("/base") if free else system.links[-1]
+    for joint in system.joints:
+        if isinstance(joint, TwistJoint) and joint.name.endswith("/base") and not joint.actuated:
+            return joint.name.removesuffix("/base")
+    return system.links[-1]
 
 
 def _table(rows: Sequence[Row]) -> str:

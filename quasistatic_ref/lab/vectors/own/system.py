@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
-from quasistatic_ref.lab.vectors.converters import UNITS, places
+from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
@@ -81,8 +81,8 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
         if body["joint"] == "fixed":
             continue
         joint = joints[f"t{tree[body['name']]}/{_joint(body, numbers[body['name']])}"]
-        if joint.kind in UNITS:
-            units.append(slice(own.start + UNITS[joint.kind], own.stop))
+        if joint.unit:
+            units.append(slice(own.start + joint.lengths, own.stop))
         q += range(joint.q.start, joint.q.stop)
         v += range(joint.v.start, joint.v.stop)
     links = {name: system.link(f"t{tree[name]}/b{k}") for name, k in numbers.items()}

@@ -14,13 +14,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.model.configuration import UNIT_PART
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
-
-COORDINATES = {"floating": [0, 1, 2, 3, 4, 5], "planar": [0, 1, 5]}
-"""What of a twist a base has."""
 
 TERMS = 28
 """Of the series: of a turn by pi the rest is below 1e-16 of the twist."""
@@ -111,21 +108,7 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
     """
     E = np.zeros((joints[-1].q.stop, joints[-1].v.stop)) if joints else np.zeros((0, 0))
     for joint in joints:
-        own = q[joint.q]
-        e = E[joint.q, joint.v]
-        if joint.kind == "floating":
-            x = own[3:6]
-            w = own[6]
-            turned = cross_matrix(x)
-            e[:3, :3] = np.eye(3) + 2 * (w * turned + turned @ turned) / (x @ x + w * w)
-            e[3:6, 3:], e[6, 3:] = (w * np.eye(3) + turned) / 2, -x / 2
-        elif joint.kind in UNIT_PART:
-            c, s = own[-2:]
-            e[-2:, -1] = -s, c
-            if joint.kind == "planar":
-                e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
-        else:
-            e[0, 0] = 1.0
+        E[joint.q, joint.v] = joint.rates(q[joint.q])
     return E
 
 
@@ -142,19 +125,19 @@ def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[st
     """
     found = []
     for joint in joints:
-        if joint.kind in UNIT_PART and joint.v.stop <= len(change):
-            turn = change[joint.v][UNIT_PART[joint.kind] :]  # it comes last, as in q
+        if joint.unit and joint.v.stop <= len(change):
+            turn = change[joint.v][joint.lengths :]
             if np.linalg.norm(turn) >= np.pi - within:
                 found.append(joint.name)
     return found
 
 
 def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, slice], Array]]:
-    """Of each floating and planar base its block of a matrix, and ad of its part of a change."""
+    """Of each joint that moves by a twist its block of a matrix, and ad of its part of a change."""
     found = []
     for joint in joints:
-        if joint.kind in COORDINATES and joint.v.stop <= len(change):
-            own = COORDINATES[joint.kind]
+        if isinstance(joint, TwistJoint) and joint.v.stop <= len(change):
+            own = list(joint.twist)
             twist = np.zeros(6)
             twist[own] = change[joint.v]
             found.append(((joint.v, joint.v), adjoint(twist)[own][:, own]))

@@ -1,12 +1,14 @@
-"""Sums q (+) delta_q and differences of configurations, whose sines Python decides if C cannot."""
+"""Sums q (+) delta_q and differences of configurations: in C, if it knows every joint.
+
+Sines that C cannot decide are Python's.
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 
 from quasistatic_ref.model.angles import angle_of, cos_sin
-from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.screw import TURNING
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
@@ -34,13 +36,16 @@ class Screws:
         self._subtract = found.changes
         joints = system.joints
         n_a = system.n_a
+        self.known = all(joint.in_c is not None for joint in joints)
         self._sums = _structure(poses.q, joints, system.n_v)
         self._differences = _structure(poses.q, [j for j in joints if j.actuated], n_a)
         self._target = self._differences["q_next"][: system.n_q_a]
-        self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.kind in TURNING]
+        self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.unit]
 
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
+        if not self.known:
+            return self.system.integrate(self.q, delta_q)
         s = self._sums
         s["delta_q"][:] = delta_q
         if not self._half_turns(s.address):
@@ -51,6 +56,8 @@ class Screws:
 
     def actuated_difference(self, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
+        if not self.known:
+            return self.system.actuated_difference(self.q, q_a)
         s = self._differences
         if np.shape(q_a) != self._target.shape:
             self.system.with_actuated(self.q, q_a)  # which says so
@@ -68,11 +75,10 @@ class Screws:
 def _structure(q: Array, joints: Sequence[Joint], n_v: int) -> Structure:
     """The structure for some joints at q, whose delta_q has n_v entries."""
     made = Structure("screws.c", "Screws")
-    kinds = [*TURNING, "prismatic", "revolute"]  # of the two last, q is a number: SCALAR
     made.put(
         {
             "joints": len(joints),
-            "kind": np.array([min(kinds.index(joint.kind), 3) for joint in joints], np.int64),
+            "kind": np.array([-1 if j.in_c is None else j.in_c for j in joints], np.int64),
             "q_start": np.array([joint.q.start for joint in joints], np.int64),
             "v_start": np.array([joint.v.start for joint in joints], np.int64),
             **{name: np.zeros(len(joints)) for name in ("angle", "cosine", "sine", "x", "y")},

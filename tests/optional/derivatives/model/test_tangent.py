@@ -8,7 +8,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.joints.continuous import Continuous
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.tangent import (
     adjoint,
@@ -22,9 +25,9 @@ from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.arrays import Array
 from tests.tolerances import DIFFERENCE, FOUR_ULP, ROUNDING
 
-FLOATING = Joint("box/base", "floating", False, slice(0, 7), slice(0, 6))
-PLANAR = Joint("puck/base", "planar", False, slice(0, 4), slice(0, 3))
-CONTINUOUS = Joint("arm/spin", "continuous", False, slice(0, 2), slice(0, 1))
+FLOATING = Floating("box/base", False, slice(0, 7), slice(0, 6))
+PLANAR = Planar("puck/base", False, slice(0, 4), slice(0, 3))
+CONTINUOUS = Continuous("arm/spin", False, slice(0, 2), slice(0, 1))
 
 
 def test_the_jacobian_of_a_small_turn_keeps_its_second_order() -> None:

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -267,6 +268,18 @@ def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name):
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one = scenario.simulator()
     one.numbers[name][:] *= 2  # as if the compiled code were wrong
+    q = scenario.system.q_start
+    goal = scenario.targets(scenario.h)
+    expected = replace(scenario, fast=False).simulator().step(q, goal)
+    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    assert not one.by_c
+
+
+@needs_compiler
+def test_a_sum_that_compiled_code_makes_wrong_is_left_to_the_plain_path():
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
+    one = scenario.simulator()
+    one.screws._sums["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
     q = scenario.system.q_start
     goal = scenario.targets(scenario.h)
     expected = replace(scenario, fast=False).simulator().step(q, goal)

@@ -1,0 +1,60 @@
+"""Joints with one axis: along it or about it, by one number."""
+
+from typing import ClassVar
+
+import numpy as np
+
+from quasistatic_ref.model.joints.joint import Coordinate, Joint
+from quasistatic_ref.step.arrays import Array
+
+
+class AxisJoint(Joint):
+    """A joint with one coordinate, whose position is the sum of its changes.
+
+    Attributes
+    ----------
+    measure : str
+        The unit of its coordinate, ``"m"`` or ``"rad"``.
+    """
+
+    measure: ClassVar[str] = "rad"
+    lengths = 0
+    in_c = 3
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Its entry of delta_q."""
+        return (Coordinate(self.name, self.name, self.measure, self.actuated),)
+
+    @property
+    def positions(self) -> tuple[str, ...]:
+        """Its entry of q, with its unit."""
+        return (f"{self.name} [{self.measure}]",)
+
+    @classmethod
+    def at(cls, position: float) -> list[float]:
+        """Its entries of q at a position [m, rad]."""
+        return [position]
+
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q."""
+        return [q[0] + delta_q[0]]
+
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entry of q_next (-) q."""
+        return [q_next[0] - q[0]]
+
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by e at 0, shape (1, 1)."""
+        return np.ones((1, 1))
+
+
+class Revolute(AxisJoint):
+    """A joint that turns about its axis, between limits."""
+
+
+class Prismatic(AxisJoint):
+    """A joint that slides along its axis."""
+
+    measure = "m"
+    lengths = 1

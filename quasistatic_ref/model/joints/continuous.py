@@ -1,0 +1,39 @@
+"""A joint that turns about its axis as often as it likes: q holds cos and sin of its angle."""
+
+import numpy as np
+
+from quasistatic_ref.model import screw
+from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.model.joints.axis_joint import AxisJoint
+from quasistatic_ref.model.joints.joint import COSINE_SINE
+from quasistatic_ref.step.arrays import Array
+
+
+class Continuous(AxisJoint):
+    """A wheel."""
+
+    unit = COSINE_SINE
+    in_c = 2
+
+    @property
+    def positions(self) -> tuple[str, ...]:
+        """Its entries of q, with their units."""
+        return (f"{self.name}.cos [-]", f"{self.name}.sin [-]")
+
+    @classmethod
+    def at(cls, position: float) -> list[float]:
+        """Its entries of q at a position, an angle [rad]."""
+        return [*cos_sin(position)]
+
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q."""
+        return screw.heading(q, delta_q[0])
+
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entry of q_next (-) q."""
+        return [screw.turn_between(q, q_next)]
+
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by e at 0, shape (2, 1)."""
+        c, s = q.tolist()
+        return np.array([[-s], [c]])

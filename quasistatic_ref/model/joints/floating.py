@@ -1,0 +1,48 @@
+"""A body that moves freely: q holds x, y, z and a quaternion [x y z w], delta_q a twist."""
+
+import numpy as np
+import pinocchio as pin
+
+from quasistatic_ref.model import screw
+from quasistatic_ref.model.joints.joint import QUATERNION
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
+from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import length
+
+
+class Floating(TwistJoint):
+    """A floating base: q (+) delta_q = q exp6(delta_q)."""
+
+    twist = (0, 1, 2, 3, 4, 5)
+    entries = ("x [m]", "y [m]", "z [m]", "qx [-]", "qy [-]", "qz [-]", "qw [-]")
+    pinocchio = pin.JointModelFreeFlyer
+    lengths = 3
+    unit = QUATERNION
+    free = True
+    in_c = 0
+
+    @classmethod
+    def at(cls, xyz: Array, rpy: Array) -> list[float]:
+        """Its entries of q at a pose."""
+        return [*xyz.tolist(), *quaternion(rpy).tolist()]
+
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q."""
+        v, w = delta_q[:3], delta_q[3:]
+        half = screw.half_turn(w)
+        t = screw.translation(v, w, half)
+        return [*screw.carried(q[:3], screw.rows(q[3:]), t), *screw.turned(q[3:], w, half)]
+
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entries of q_next (-) q."""
+        apart = [b - a for a, b in zip(q[:3], q_next[:3], strict=True)]
+        w, a, c2 = screw.rotation_between(q[3:], q_next[3:])
+        return [*screw.combined(screw.along(screw.rows(q[3:]), apart), w, a, -0.5, c2), *w]
+
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by e at 0, shape (7, 6)."""
+        E = np.zeros((7, 6))
+        E[:3, :3] = screw.rows((q[3:] / length(q[3:])).tolist())
+        E[3:, 3:] = screw.quaternion_rates(q[3:])
+        return E

@@ -1,0 +1,103 @@
+"""What every kind of joint knows of itself; nothing else asks which kind a joint is."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.step.arrays import Array
+
+QUATERNION = "quaternion"
+COSINE_SINE = "(cos, sin)"
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One entry of delta_q.
+
+    Parameters
+    ----------
+    name : str
+        ``gripper/width``, or ``gripper/base.x`` .. ``gripper/base.rz``.
+    joint : str
+        Its joint, e.g. ``gripper/base``.
+    unit : str
+        ``"m"`` or ``"rad"``.
+    actuated : bool
+    """
+
+    name: str
+    joint: str
+    unit: str
+    actuated: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Joint(Plain, ABC):
+    """One joint with coordinates of its own.
+
+    Parameters
+    ----------
+    name : str
+    actuated : bool
+    q, v : slice
+        Its entries of q and of delta_q: lengths first.
+    limits : tuple of float, optional
+        Least and greatest position that its URDF allows [m, rad], which the model ignores. None
+        where the URDF gives none or both are 0, and for bases and continuous joints.
+
+    Attributes
+    ----------
+    lengths : int
+        How many of its entries of q, and of delta_q, are lengths.
+    unit : str or None
+        What its other entries of q are called if they are a vector of length one.
+    free : bool
+        Whether nothing guides the link that it moves.
+    in_c : int or None
+        Its number in ``screws.c``; None where compiled code does not know it.
+    """
+
+    name: str
+    actuated: bool
+    q: slice
+    v: slice
+    limits: tuple[float, float] | None = None
+
+    lengths: ClassVar[int]
+    unit: ClassVar[str | None] = None
+    free: ClassVar[bool] = False
+    in_c: ClassVar[int | None] = None
+
+    @property
+    @abstractmethod
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Its entries of delta_q."""
+
+    @property
+    @abstractmethod
+    def positions(self) -> tuple[str, ...]:
+        """Its entries of q, with their units: ``arm/elbow [rad]``, ``mug.z [m]``."""
+
+    @property
+    def unit_part(self) -> slice:
+        """Where in q the entries stand whose length is one."""
+        return slice(self.q.start + self.lengths, self.q.stop)
+
+    @abstractmethod
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q, from its entries of both [m, rad, -]."""
+
+    @abstractmethod
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entries of q_next (-) q, from its entries of both [m, rad]."""
+
+    @abstractmethod
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by its entries of e at 0, shape (k, n) [1/m, 1/rad].
+
+        Parameters
+        ----------
+        q : ndarray, shape (k,)
+            Its entries of q, those of :attr:`unit_part` of any length but zero.
+        """

@@ -1,0 +1,63 @@
+"""A body that stays upright at its height: q holds x, y, cos and sin of its angle."""
+
+import numpy as np
+import pinocchio as pin
+
+from quasistatic_ref.model import screw
+from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.model.joints.joint import COSINE_SINE
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import length
+
+
+class Planar(TwistJoint):
+    """A planar base: delta_q is x and y along the body's own axes, and the angle."""
+
+    twist = (0, 1, 5)
+    entries = ("x [m]", "y [m]", "cos [-]", "sin [-]")
+    pinocchio = pin.JointModelPlanar
+    lengths = 2
+    unit = COSINE_SINE
+    in_c = 1
+
+    @classmethod
+    def at(cls, xyz: Array, rpy: Array) -> list[float]:
+        """Its entries of q at a pose."""
+        return [*xyz[:2].tolist(), *cos_sin(float(rpy[2]))]
+
+    @classmethod
+    def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
+        """Why it cannot be tilted, or higher or lower than at the start, shape (3,) [m]."""
+        if xyz[2] == start[2] and not rpy[:2].any():
+            return None
+        return (
+            f"must keep the height {start[2]:g} and turn only about the vertical, because the base "
+            'is planar; tilt the body in its URDF, or take base = "floating"'
+        )
+
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q."""
+        x, y, angle = delta_q
+        w = [0.0, 0.0, angle]
+        t = screw.translation([x, y, 0.0], w, screw.half_turn(w))
+        return [*screw.carried([*q[:2], 0.0], _rows(q), t)[:2], *screw.heading(q[2:], angle)]
+
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entries of q_next (-) q."""
+        apart = screw.along(_rows(q), [q_next[0] - q[0], q_next[1] - q[1], 0.0])
+        angle = screw.turn_between(q[2:], q_next[2:])
+        return [*screw.linear_part(apart, [0.0, 0.0, angle])[:2], angle]
+
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by e at 0, shape (4, 3)."""
+        _, _, c, s = q.tolist()
+        E = np.array([[c, -s, 0], [s, c, 0], [0, 0, -s], [0, 0, c]])
+        E[:2] /= length(q[2:])
+        return E
+
+
+def _rows(q: list[float]) -> list[list[float]]:
+    """Rows of its rotation matrix."""
+    c, s = q[2:]
+    return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]

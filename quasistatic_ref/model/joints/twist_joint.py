@@ -1,0 +1,52 @@
+"""Joints with several coordinates: entries of the twist of the link that they move."""
+
+from abc import abstractmethod
+from typing import Any, ClassVar
+
+from quasistatic_ref.model.joints.joint import Coordinate, Joint
+from quasistatic_ref.step.arrays import Array
+
+AXES = (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad"))
+"""Entries of a twist, and their units."""
+
+
+class TwistJoint(Joint):
+    """A joint whose entries of delta_q are some of a twist in the moved link's own frame.
+
+    Attributes
+    ----------
+    twist : tuple of int
+        Which entries, in ascending order: 0-2 linear, 3-5 angular.
+    entries : tuple of str
+        Its entries of q, with their units.
+    pinocchio : type
+        The joint's class in pinocchio.
+    """
+
+    twist: ClassVar[tuple[int, ...]]
+    entries: ClassVar[tuple[str, ...]]
+    pinocchio: ClassVar[Any]
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Its entries of delta_q."""
+        return tuple(
+            Coordinate(f"{self.name}.{axis}", self.name, unit, self.actuated)
+            for axis, unit in (AXES[i] for i in self.twist)
+        )
+
+    @property
+    def positions(self) -> tuple[str, ...]:
+        """Its entries of q, with their units."""
+        owner = self.name.removesuffix("/base")
+        return tuple(f"{owner}.{entry}" for entry in self.entries)
+
+    @classmethod
+    @abstractmethod
+    def at(cls, xyz: Array, rpy: Array) -> list[float]:
+        """Its entries of q at an origin [m] and roll, pitch, yaw [rad], each of shape (3,)."""
+
+    @classmethod
+    def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
+        """Why it cannot get to a pose, as of `at`, from the origin `start`, shape (3,) [m]."""
+        return None
