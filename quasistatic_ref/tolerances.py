@@ -271,15 +271,18 @@ SPARSE_FROM_PIQP: Final = 10_000
 """The same for PIQP, whose dense method is faster than theirs: between 6 boxes in a row (6,336) and
 8 (11,520)."""
 
+SPARSE_FROM_DAQP: Final = 30_000
+"""The same for DAQP, which takes each part that nothing couples by itself, in dense matrices: 10
+boxes apart (9,600) take less time all at once, 25 (60,000) part by part."""
+
 DENSE_BELOW: Final = 150_000
-"""Entries below which runs that certify nothing and name no backend stay with DAQP and dense
-matrices. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one
-of 32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""
+"""Entries of the largest group below which runs that certify nothing and name no backend stay with
+DAQP. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one of
+32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""
 
 DENSE_BELOW_PROOFS: Final = 600_000
 """The same for runs that are certified exactly, in which DAQP's answers, vertices, are the better
-guesses of a working set: a step of 80 separate boxes (614,400) that are turned takes 0.3 s of
-processor time with DAQP and 0.4 s with PIQP, of 80 aligned ones 0.23 s and 0.08 s."""
+guesses of a working set."""
 
 TOUCHING: Final = 1e-14
 """Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a

@@ -290,11 +290,10 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     if any(entry.extends for entry in entries.values()):
         part = needed_part("extensions.of_scenario", "joint_friction, support and joint_limits")
         pairs, of_bodies = part.of_scenario(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
-    entries_of_J = 0
+    entries_of_J = None
     backends = fast_part("backends") if fast else None
     if backends is not None:  # its default depends on the size of the scene
-        n_c = sum(pair.n_c for pair in pairs)
-        entries_of_J = backends.entries_of_J(system, n_c, law == CONVEX and of_bodies is None)
+        entries_of_J = backends.entries_of_J(system, pairs, law == CONVEX and of_bodies is None)
     backend = _backend(solver, certify, named, entries_of_J, backends)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
@@ -334,7 +333,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
 
 
 def _backend(
-    solver: TableReader, certify: str, cone_name: str, entries_of_J: int, fast: Any
+    solver: TableReader, certify: str, cone_name: str, entries_of_J: Any, fast: Any
 ) -> str:
     """The name of the backend, looked up here rather than in the first step."""
     name: str | None = value(solver, SOLVER, "backend")

@@ -15,7 +15,7 @@ from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
+from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_DAQP, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
@@ -183,7 +183,8 @@ BACKENDS: dict[str, Backend] = {
                 sparse=SPARSE_FROM_PIQP, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
         Backend("daqp", "dual active set", _once(_daqp),
-                adapter="Daqp", warm=("qpsolvers",), required=True),
+                adapter="Daqp", sparse=SPARSE_FROM_DAQP, warm=("qpsolvers",),
+                required=True),
         Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=BOTH,
                 package="proxsuite"),
         Backend("scs", "operator splitting", _once(_scs), time_limit="time_limit_secs",

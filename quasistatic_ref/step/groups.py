@@ -66,20 +66,24 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     coupling = np.concatenate([contact, n_c + extra_row, of_hessian, of_hessian])
     coordinate = np.concatenate([of_contact, of_extra, first, second])
     count = n_c + n_extra + len(first)
-    label, of_coupling = _labels(step.n_v, count, coupling, coordinate)
+    label, of_coupling = labels(step.n_v, count, coupling, coordinate)
     firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
     of_contacts = np.where(near, of_coupling[:n_c], -1)
     of_extra_rows = of_coupling[n_c : n_c + n_extra]
     of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
-    labels = (label, of_contacts, of_extra_rows, of_rows)
     members = []
-    for entries in labels:  # which entries have each of the labels `firsts`, ascending
+    for entries in (
+        label,
+        of_contacts,
+        of_extra_rows,
+        of_rows,
+    ):  # which entries have each of the labels `firsts`, ascending
         order = np.argsort(entries, kind="stable")
         members.append(np.split(order, np.searchsorted(entries[order], firsts))[1:])
     return [Group(*parts) for parts in zip(*members, strict=True)]
 
 
-def _labels(
+def labels(
     n: int, couplings: int, coupling: Indices, coordinate: Indices
 ) -> tuple[Indices, Indices]:
     """The first coordinate of the group of each coordinate, (n,), and of each coupling.
@@ -115,7 +119,7 @@ def sides(step: StepData) -> list[Indices]:
     _, same = np.unique(moved, axis=1, return_inverse=True)
     some = np.flatnonzero(moved.any(axis=0))
     entries = np.arange(len(first))
-    label, _ = _labels(
+    label, _ = labels(
         step.n_v,
         len(first) + step.n_v,
         coupling=np.concatenate([entries, entries, len(first) + same.ravel()[some]]),

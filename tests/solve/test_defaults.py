@@ -11,16 +11,28 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.adapters.piqp import Piqp
-from quasistatic_ref.optional.fast.backends import default_backend, sparse_from
+from quasistatic_ref.optional.fast.backends import (
+    EntriesOfJ,
+    default_backend,
+    entries_of_J,
+    sparse_from,
+)
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
+from quasistatic_ref.tolerances import (
+    DENSE_BELOW,
+    DENSE_BELOW_PROOFS,
+    SPARSE_FROM_DAQP,
+    SPARSE_FROM_PIQP,
+)
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
+from validation.make.ordinary_states import Scene, simulator
 
+LARGE = EntriesOfJ(10**9, 10**9)
 FAILED = Reply(None, None, False, "at a loss")
 
 
@@ -28,10 +40,12 @@ FAILED = Reply(None, None, False, "at a loss")
 def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
     by_certify = {"off": DENSE_BELOW, "residual": SPARSE_FROM_PIQP, "full": DENSE_BELOW_PROOFS}
     for certify, least in by_certify.items():
-        assert default_backend("pyramid", certify, least - 1) == "daqp"
-        assert default_backend("product", certify, least) == "piqp"
+        of_one_group = [EntriesOfJ(n, n) for n in (least - 1, least)]
+        assert default_backend("pyramid", certify, of_one_group[0]) == "daqp"
+        assert default_backend("product", certify, of_one_group[1]) == "piqp"
     assert sparse_from("piqp", "product") == SPARSE_FROM_PIQP
-    assert sparse_from("daqp", "product") == sparse_from("piqp", "ellipsoid") == 0
+    assert sparse_from("daqp", "product") == SPARSE_FROM_DAQP
+    assert sparse_from("quadprog", "product") == sparse_from("piqp", "ellipsoid") == 0
     assert sparse_from("qpsolvers:piqp", "product") == 0
     few = pile((2, 1, 1), certify="residual")
     many = pile((8, 1, 1), certify="residual")
@@ -44,9 +58,21 @@ def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
 
 
 @pytest.mark.extra("fast")
+def test_bodies_that_cannot_touch_count_one_by_one():
+    """3 stacks of 2 cubes, 4 contacts below each cube: 24 contacts and 36 coordinates, or 8 and 12.
+
+    J has four rows a contact. Under another law than the model's contacts are never in blocks.
+    """
+    made = simulator(Scene(stacks=3, height=2, rows=6, push="rest"), "off")
+    assert made.entries() == EntriesOfJ(4 * 24 * 36, 4 * 8 * 12)
+    assert entries_of_J(made.system, made.pairs, ordinary=False) == EntriesOfJ(0, 0)
+    assert entries_of_J(made.system, [], ordinary=True) == EntriesOfJ(0, 0)
+
+
+@pytest.mark.extra("fast")
 def test_the_default_backend_is_clarabel_and_with_fast_daqp():
-    assert default_backend("facets-8", "full", 0) == "daqp"
-    assert default_backend("ellipsoid", "off", 10**9) == "clarabel"
+    assert default_backend("facets-8", "full", EntriesOfJ()) == "daqp"
+    assert default_backend("ellipsoid", "off", LARGE) == "clarabel"
     for settings, named in (
         ({}, "clarabel"),
         ({"fast": True}, "daqp"),
@@ -62,11 +88,11 @@ WITHOUT_DAQP = """
 import sys
 sys.modules["daqp"] = sys.modules["piqp"] = None
 from quasistatic_ref import load_scenario
-from quasistatic_ref.optional.fast.backends import default_backend
+from quasistatic_ref.optional.fast.backends import EntriesOfJ, default_backend
 from quasistatic_ref.cli.main import main
 run = load_scenario("sphere_spin", steps=2, fast=True).run(progress=False)
 print(run.header["backend"], *run["certificate"], main(["bench", "--out", sys.argv[1]]))
-print(default_backend("pyramid", "off", 0), default_backend("pyramid", "off", 10**9))
+print(*(default_backend("pyramid", "off", EntriesOfJ(n, n)) for n in (0, 10**9)))
 """
 
 

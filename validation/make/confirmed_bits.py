@@ -28,6 +28,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
 from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.groups import Group
 from tests.oracles.random_steps import mixed_step
 from validation.tools.scripts import asked, shown
 
@@ -87,7 +88,8 @@ def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimu
     if fast is None:
         return None
     both = DenseStepInBothUnits(step)
-    prover = fast.undivided(both)
+    sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
+    prover = fast.Prover(both, [(Group(*map(np.arange, sizes)), both)])
     pressed = np.zeros(step.m)
     pressed[rows if nearby else []] = 1.0
     prover.optimum(both, pressed, np.zeros(step.m))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from quasistatic_ref.optional.fast.native import native_backends
 from quasistatic_ref.solve.backends import (
@@ -13,9 +16,11 @@ from quasistatic_ref.solve.backends import (
     check_certify,
 )
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.groups import labels
 from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
 
 if TYPE_CHECKING:
+    from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.model.system import System
 
 DEFAULT_OF_FAST = "daqp" if find_spec("daqp") else DEFAULT
@@ -24,7 +29,48 @@ DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
 """Backend of large steps: with sparse matrices, in half of the time that DEFAULT takes."""
 
 
-def fast_backend(name: str | None, cone_name: str, certify: str = "full", entries: int = 0) -> str:
+class EntriesOfJ(NamedTuple):
+    """Entries of the dense J of steps whose contacts may be in blocks; 0 where they may not.
+
+    Parameters
+    ----------
+    every : int
+        4 n_c n_v.
+    of_group : int
+        The same of the group in which it is largest, whatever touches what.
+    """
+
+    every: int = 0
+    of_group: int = 0
+
+
+def entries_of_J(system: System, pairs: Sequence[ContactPair], ordinary: bool) -> EntriesOfJ:
+    """The entries in a scene.
+
+    Parameters
+    ----------
+    system : System
+    pairs : sequence of ContactPair
+    ordinary : bool
+        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+    """
+    if not (ordinary and system.constant_mass_matrix):
+        return EntriesOfJ()
+    column_map = system.column_map
+    moves = column_map.moves[:, 0] > 0
+    moved = [moves[pair.alpha.link] | moves[pair.beta.link] for pair in pairs]
+    pair, joint = np.nonzero(np.reshape(moved, (len(pairs), moves.shape[1])))
+    of_coordinate, of_pair = labels(system.n_v, len(pairs), pair, column_map.owner[joint])
+    n_c = np.array([one.n_c for one in pairs], dtype=np.int64)
+    sizes = np.bincount(of_coordinate)
+    contacts = np.bincount(of_pair, n_c, len(sizes))
+    every = 4 * int(n_c.sum()) * system.n_v
+    return EntriesOfJ(every, 4 * int((contacts * sizes).max(initial=0)))
+
+
+def fast_backend(
+    name: str | None, cone_name: str, certify: str = "full", entries: EntriesOfJ | None = None
+) -> str:
     """The name of a backend, or of the default where none is named; checked.
 
     Parameters
@@ -32,8 +78,8 @@ def fast_backend(name: str | None, cone_name: str, certify: str = "full", entrie
     name : str or None
     cone_name : str
     certify : str
-    entries : int
-        As of :func:`entries_of_J`.
+    entries : EntriesOfJ, optional
+        By default those of a small scene.
 
     Raises
     ------
@@ -41,7 +87,7 @@ def fast_backend(name: str | None, cone_name: str, certify: str = "full", entrie
         As of :func:`~quasistatic_ref.solve.backends.check_backend`.
     """
     if name is None:
-        name = default_backend(cone_name, certify, entries)
+        name = default_backend(cone_name, certify, entries or EntriesOfJ())
     if name in native_backends(cone_name):  # also those that CVXPY does not reach
         check_certify(name, certify)
     else:
@@ -49,26 +95,16 @@ def fast_backend(name: str | None, cone_name: str, certify: str = "full", entrie
     return name
 
 
-def entries_of_J(system: System, n_c: int, ordinary: bool) -> int:
-    """Entries of the dense J of n_c contacts, 4 n_c n_v, where they may be in blocks; otherwise 0.
-
-    Parameters
-    ----------
-    system : System
-    n_c : int
-    ordinary : bool
-        Whether the steps are the model's own: neither extended nor under Coulomb's law.
-    """
-    may = ordinary and system.constant_mass_matrix
-    return 4 * n_c * system.n_v if may else 0
-
-
-def default_backend(cone_name: str, certify: str, entries: int) -> str:
+def default_backend(cone_name: str, certify: str, entries: EntriesOfJ) -> str:
     """The backend where none is named; arguments are those of :func:`fast_backend`."""
     if not cone(cone_name).polyhedral:
         return DEFAULT
-    least = {"off": DENSE_BELOW, "residual": SPARSE_FROM_PIQP, "full": DENSE_BELOW_PROOFS}
-    return DEFAULT_OF_LARGE if entries >= least[certify] else DEFAULT_OF_FAST
+    large = {
+        "off": entries.of_group >= DENSE_BELOW,
+        "residual": entries.every >= SPARSE_FROM_PIQP,
+        "full": entries.of_group >= DENSE_BELOW_PROOFS,
+    }
+    return DEFAULT_OF_LARGE if large[certify] else DEFAULT_OF_FAST
 
 
 def sparse_from(name: str, cone_name: str) -> int:

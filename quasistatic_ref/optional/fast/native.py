@@ -95,9 +95,8 @@ class NativeSolver(BackendSolver):
     def reply(self, option_set: OptionSet, both: Any) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
-        if isinstance(program, Program) and not program.b.size:  # not every backend takes that
-            x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
-            return Reply(x, np.zeros(0), True, "optimal", 0)
+        if isinstance(program, Program) and not program.b.size:
+            return program.unconstrained()
         held: _SetUpAdapter | None = option_set.kept
         option_set.kept = None  # an adapter that raises is set up again
         if held is None:

@@ -64,8 +64,6 @@ class Kept:
     def __init__(self) -> None:
         self.hessian: HessianInBothUnits | None = None
         self._in_balls: BallHessian | None = None
-        self._alone: Any = None
-        self._of_alone: tuple[HessianInBothUnits, str, bytes, int] | None = None
 
     def in_balls(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same."""
@@ -78,30 +76,6 @@ class Kept:
         """The norm ||.||_H of the last step."""
         assert self.hessian is not None
         return self.hessian.norm
-
-    def alone(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> Any:
-        """What C proves of a step that is one group; None where nothing does.
-
-        Parameters
-        ----------
-        both : DenseStepInBothUnits
-        lam, slack : ndarray, shape (m,)
-            Of an answer, both in natural units [-].
-
-        Returns
-        -------
-        GroupProof or None
-        """
-        in_c = compiled("certificate")
-        if in_c is None:
-            return None
-        step = both.si_step
-        of = both.hessian, step.cone, step.counts.tobytes(), len(step.extra.names)
-        if self._of_alone != of:
-            self._of_alone = of
-            self._alone = in_c.undivided(both)
-        self._alone.optimum(both, lam, slack)
-        return self._alone.proofs[0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +120,6 @@ class KeptGroup:
         rows = self.group.rows
         if decided is None:
             own = self.in_both_units(whole)
-            in_c = self.kept.alone(own, lam[rows], slack[rows]) if in_c is None else in_c
             decided = None if in_c is None else in_c.nearby(own.units)
         if decided is not None:
             if is_due(GROUP, len(self.group.coordinates)):
@@ -261,13 +234,11 @@ class Proofs:
         return optimum
 
     def _prover(self, both: StepInBothUnits) -> Any:
-        """What proves all groups of a dense step in C; None where nothing does."""
+        """What proves all groups of a step in C; None where nothing does."""
         in_c = compiled("certificate")
-        if in_c is None or not isinstance(both, DenseStepInBothUnits):
-            return None
-        if self.prover is None:
+        if in_c is not None and self.prover is None:
             groups = [(part.group, part.in_both_units(both)) for part in self.parts]
-            self.prover = in_c.Prover(both.si_step, groups)
+            self.prover = in_c.Prover(both, groups)
         return self.prover
 
     def _may_be_long(self, g: Array, delta_q: Array) -> bool:

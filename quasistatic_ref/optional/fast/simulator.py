@@ -14,6 +14,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.fast.backends import (
+    EntriesOfJ,
     default_backend,
     entries_of_J,
     fast_backend,
@@ -86,10 +87,10 @@ class FastSimulator(Simulator):
         """The backend that was named, or the default of this scene; BackendError as in the base."""
         return fast_backend(self.named_backend, self.cone, self.certify, self.entries())
 
-    def entries(self) -> int:
-        """Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0."""
+    def entries(self) -> EntriesOfJ:
+        """Entries of a step's dense J."""
         ordinary = self.extension is None and self.law == CONVEX
-        return entries_of_J(self.system, len(self.layout.rows), ordinary)
+        return entries_of_J(self.system, self.pairs, ordinary)
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
@@ -97,8 +98,8 @@ class FastSimulator(Simulator):
         layout = self.layout
         entries = self.entries()
         self.default_backend = default_backend(self.cone, self.certify, entries)
-        least = sparse_from(self.backend, self.cone) if entries else 0
-        large = part("large.block_columns") if 0 < least <= entries else None
+        least = sparse_from(self.backend, self.cone)
+        large = part("large.block_columns") if 0 < least <= entries.every else None
         columns: Columns
         if large is None:
             self.blocks: Any = None

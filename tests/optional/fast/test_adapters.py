@@ -84,15 +84,45 @@ def test_every_exit_flag_of_daqp_has_a_word():
     assert adapter.reply(same_H=True, warm=False).status == "infeasible"
 
 
-def test_piqp_scales_dense_programs_only():
-    """Its own number of rounds for a dense program, none for a sparse one in natural units."""
+def sparse_program(H, f, A, b):
+    """A program in compressed columns, zeros of H and A left out."""
     from scipy.sparse import csc_matrix
 
+    return SparseProgram(csc_matrix(H), csc_matrix(np.triu(H)), f, csc_matrix(A), b)
+
+
+def test_daqp_solves_what_nothing_couples_by_itself():
+    """Parts of 1 to 4 unknowns, shuffled, the first without rows; b has what is written last.
+
+    The optimum is unique: the answer to all of it at once is the same.
+    """
+    rng = np.random.default_rng(5)
+    part = rng.permutation(np.repeat(np.arange(4), [1, 2, 3, 4]))
+    part_of_row = rng.permutation(np.repeat([1, 2, 3], [3, 4, 6]))
+    root = np.where(part[:, None] == part, rng.normal(size=(10, 10)), 0.0)
+    H = root @ root.T + np.eye(10)
+    A = np.where(part_of_row[:, None] == part, rng.normal(size=(13, 10)), 0.0)
+    f = rng.normal(size=10)
+    b = np.zeros(13)
+    adapter = adapter_class("daqp")(sparse_program(H, f, A, b), BACKENDS["daqp"].first(1e-12))
+    assert sorted(len(one.program.f) for one in adapter.workspaces) == [1, 2, 3, 4]
+    for scale in (0.1, 1.0):
+        b[:] = A @ rng.normal(size=10) - scale * rng.random(13)  # so that there is a solution
+        reply = adapter.reply(True, warm=False)
+        whole = adapter_class("daqp")(Program(H, f, A, b), BACKENDS["daqp"].first(1e-12))
+        right = whole.reply(True, warm=False)
+        assert reply.solved
+        assert right.lam.max() > OPTIMUM
+        np.testing.assert_allclose(reply.x, right.x, rtol=0.0, atol=OPTIMUM)
+        np.testing.assert_allclose(reply.lam, right.lam, rtol=0.0, atol=OPTIMUM)
+    b[np.flatnonzero(part_of_row == 3)] = np.inf
+    reply = adapter.reply(True, warm=False)
+    assert (reply.solved, reply.status) == (False, "infeasible")
+
+
+def test_piqp_scales_dense_programs_only():
+    """Its own number of rounds for a dense program, none for a sparse one in natural units."""
     dense, program = held("piqp")
-    P = csc_matrix(np.triu(program.H))
-    A = csc_matrix(program.A)
-    sparse = adapter_class("piqp")(
-        SparseProgram(csc_matrix(program.H), P, program.f, A, program.b), {}
-    )
+    sparse = adapter_class("piqp")(sparse_program(program.H, program.f, program.A, program.b), {})
     assert dense.solver.settings.preconditioner_iter > 0
     assert sparse.solver.settings.preconditioner_iter == 0

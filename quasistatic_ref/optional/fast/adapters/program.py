@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, Protocol
@@ -10,6 +11,7 @@ import numpy as np
 
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.groups import labels
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_matrix
@@ -36,6 +38,11 @@ class Program:
     A: Array
     b: Array
     cones: int = 0
+
+    def unconstrained(self) -> Reply:
+        """The minimiser of a program without rows, which not every backend takes."""
+        x = np.asarray(np.linalg.solve(self.H, -self.f), dtype=np.float64)
+        return Reply(x, np.zeros(0), True, "optimal", 0)
 
     @cached_property
     def triangle(self) -> tuple[Indices, Indices]:
@@ -96,6 +103,102 @@ class SparseProgram:
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
         """P and A."""
         return self.P, self.A
+
+
+class Parts:
+    """What nothing couples in a sparse program, as dense programs: rewritten from it at each step.
+
+    Parameters
+    ----------
+    program : SparseProgram
+
+    Attributes
+    ----------
+    programs : list of Program
+    """
+
+    def __init__(self, program: SparseProgram) -> None:
+        self.program = p = program
+        m, n = p.A.shape
+        row, column = p.A.indices, _columns(p.A)
+        one, other = p.H.indices, _columns(p.H)
+        entry = m + np.arange(len(one))
+        part, part_of_row = labels(
+            n,
+            m + len(one),
+            coupling=np.concatenate([row, entry, entry]),
+            coordinate=np.concatenate([column, one, other]),
+        )
+        firsts, part = np.unique(part, return_inverse=True)
+        part_of_row = np.searchsorted(firsts, part_of_row[:m])
+        self.v, v_ends, v_place = _sorted_by(part, len(firsts))
+        self.rows, row_ends, row_place = _sorted_by(part_of_row, len(firsts))
+        width, height = np.diff(v_ends), np.diff(row_ends)
+        H_ends = np.cumsum([0, *width * width])
+        A_ends = np.cumsum([0, *height * width])
+        at = part[column]
+        self.place = A_ends[at] + row_place[row] * width[at] + v_place[column]
+        at = part[other]
+        H = np.zeros(H_ends[-1])
+        H[H_ends[at] + v_place[one] * width[at] + v_place[other]] = p.H.data
+        self.f = np.zeros(n)
+        self.A = np.zeros(A_ends[-1])
+        self.b = np.zeros(m)
+        self.programs = [
+            Program(H_i.reshape(w, w), f_i, A_i.reshape(-1, w), b_i)
+            for w, H_i, f_i, A_i, b_i in zip(
+                width.tolist(),
+                np.split(H, H_ends[1:-1]),
+                np.split(self.f, v_ends[1:-1]),
+                np.split(self.A, A_ends[1:-1]),
+                np.split(self.b, row_ends[1:-1]),
+                strict=True,
+            )
+        ]
+        self.rewrite()
+
+    def rewrite(self) -> None:
+        """Take over what the sparse program says now."""
+        p = self.program
+        self.f[:] = p.f[self.v]
+        self.A[self.place] = p.A.data
+        self.b[:] = p.b[self.rows]
+
+    def joined(self, replies: Sequence[Reply]) -> Reply:
+        """The reply to the sparse program from those to its parts: solved if all of them are."""
+        x = np.zeros(len(self.v))
+        lam = np.zeros(len(self.rows))
+        x[self.v] = np.concatenate([reply.x for reply in replies])
+        lam[self.rows] = np.concatenate([reply.lam for reply in replies])
+        worst = min(replies, key=lambda reply: reply.solved)
+        iterations = sum(reply.iterations or 0 for reply in replies)
+        seconds = sum(reply.seconds or 0.0 for reply in replies)
+        return Reply(x, lam, worst.solved, worst.status, iterations, seconds)
+
+
+def _columns(matrix: csc_matrix) -> Indices:
+    """The column of each entry, shape (entries,)."""
+    return np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
+
+
+def _sorted_by(part: Indices, count: int) -> tuple[Indices, Indices, Indices]:
+    """Members by their part, where each of so many parts ends, and each member's place in its own.
+
+    Parameters
+    ----------
+    part : ndarray of int, shape (k,)
+    count : int
+
+    Returns
+    -------
+    ndarray of int, shapes (k,), (count + 1,) and (k,)
+        The ends begin with 0.
+    """
+    order = np.argsort(part, kind="stable")
+    ends = np.searchsorted(part[order], np.arange(count + 1))
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order)) - ends[part[order]]
+    return order, ends, place
 
 
 class Adapter(Protocol):

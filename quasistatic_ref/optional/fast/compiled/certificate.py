@@ -2,7 +2,9 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
-from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group
@@ -35,6 +37,8 @@ class GroupProof:
     own : DenseStepInBothUnits
         The step of the group, in a polyhedral cone, without rows of a user's own, of at most
         LARGEST coordinates.
+    whole : StepInBothUnits
+        The whole step.
 
     Attributes
     ----------
@@ -42,26 +46,28 @@ class GroupProof:
         Whether H can be written in fixed point.
     """
 
-    def __init__(self, group: Group, own: DenseStepInBothUnits) -> None:
+    def __init__(self, group: Group, own: DenseStepInBothUnits, whole: StepInBothUnits) -> None:
         found = library()
         step = own.si_step
         hessian = own.hessian
         self._prove = found.proof
         self._prove_nearby = found.proof_nearby
         n = step.n_v
+        n_c = step.contacts.n_c
         m = step.m
         contact, row = places(step, range(m))
         self.s = s = Structure("proof.h", "Proof")
         self._natural = Structure("natural.c", "Natural")
         s.put(
             {
-                "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
+                "n_a": step.n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
                 "answered": 0, "code": NOT_POSED,
                 "coordinates": group.coordinates, "contacts": group.contacts,
-                "rows_of_J": (4 * group.contacts[:, None] + np.arange(4)).ravel(),
+                "in_J": _in_J(whole, group), "in_A": _in_A(whole, group),
                 "rows_of_step": group.rows, "natural": self._natural.address,
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "inverse": hessian.H_inverse,
+                "J": np.zeros((n_c, 4, n)), "A": np.zeros((m, n)),
                 "answer": np.zeros(m, np.int64), "guess": np.zeros(m, np.int64),
                 "cone": cone_matrix(step.cone), "integers": _combined(step.cone),
                 "contact": contact, "row": row,
@@ -129,18 +135,54 @@ def step_arrays(step: StepData) -> dict[str, Array]:
     Returns
     -------
     dict of str to ndarray
-        Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...
+        Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...;
+        without J and A.
     """
     n_c = step.contacts.n_c
     n = step.n_v
     m = step.m
     return {
-        "delta_q_bar_a": np.zeros(step.n_a), "phi": np.zeros(n_c), "J": np.zeros((n_c, 4, n)),
+        "delta_q_bar_a": np.zeros(step.n_a), "phi": np.zeros(n_c), "least": np.zeros(2),
         "frame": np.tile(np.diag([0.0, 0.0, 0.0, 1.0]), (n_c, 1, 1)), "mu": np.ones((n_c, 4)),
-        "A": np.zeros((m, n)), "least": np.zeros(2),
         **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
         **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
     }  # fmt: skip
+
+
+def _kept(both: StepInBothUnits) -> dict[str, Array]:
+    """J and A as a step keeps them, of any shapes: whole, or without their zeros."""
+    contacts: Any = both.si_step.contacts
+    A: Any = both.si_form.A
+    if isinstance(both, DenseStepInBothUnits):
+        return {"J": contacts.J, "A": A}
+    return {"J": contacts.blocks.J, "A": A.data}
+
+
+def _in_J(both: StepInBothUnits, group: Group) -> Indices:
+    """Where the entries of a group's J, shape (n_c, 4, n), are among those that are kept."""
+    contacts: Any = both.si_step.contacts
+    J = _kept(both)["J"]
+    numbered = np.arange(1.0, J.size + 1).reshape(J.shape)
+    if isinstance(both, DenseStepInBothUnits):
+        own = numbered[group.contacts][:, :, group.coordinates]
+    else:
+        own = replace(contacts.blocks, J=numbered).columns(group.contacts, group.coordinates)
+    return own.astype(np.int64) - 1
+
+
+def _in_A(both: StepInBothUnits, group: Group) -> Indices:
+    """The same of A, shape (m, n)."""
+    A: Any = both.si_form.A
+    rows = group.rows
+    if isinstance(both, DenseStepInBothUnits):
+        whole: Indices = rows[:, None] * A.shape[1] + group.coordinates
+        return whole
+    at = np.full((len(rows), len(group.coordinates)), -1)
+    for i, v in enumerate(group.coordinates.tolist()):
+        entries = np.arange(A.indptr[v], A.indptr[v + 1])
+        own = np.isin(A.indices[entries], rows)
+        at[np.searchsorted(rows, A.indices[entries[own]]), i] = entries[own]
+    return at
 
 
 def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
@@ -167,7 +209,7 @@ class Prover:
 
     Parameters
     ----------
-    step : StepData
+    both : StepInBothUnits
         One of them.
     groups : sequence of (Group, DenseStepInBothUnits)
         Its groups, each with its own step in natural units.
@@ -179,28 +221,27 @@ class Prover:
     """
 
     def __init__(
-        self, step: StepData, groups: Sequence[tuple[Group, DenseStepInBothUnits]]
+        self, both: StepInBothUnits, groups: Sequence[tuple[Group, DenseStepInBothUnits]]
     ) -> None:
         found = library()
         self._prove = found.groups_proved
-        self.proofs = [group_proof(*each) for each in groups]
+        self.proofs = [group_proof(*each, both) for each in groups]
         addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
         self.s = Structure("groups.c", "Step")
         self.s.put(
             {
-                "n_v": step.n_v, "groups": len(groups),
-                "group": np.array(addresses, np.int64), "code": np.zeros(len(groups), np.int64),
-                "claims": np.zeros(2, np.int64),
-                **step_arrays(step),
+                "groups": len(groups), "group": np.array(addresses, np.int64),
+                "code": np.zeros(len(groups), np.int64), "claims": np.zeros(2, np.int64),
+                **_kept(both), **step_arrays(both.si_step),
             }
         )  # fmt: skip
 
-    def optimum(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
+    def optimum(self, both: StepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
         """The exact optimum on the rows that an answer presses; None unless C proves all groups.
 
         Parameters
         ----------
-        both : DenseStepInBothUnits
+        both : StepInBothUnits
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
         """
@@ -209,10 +250,10 @@ class Prover:
         contacts = step.contacts
         form = both.si_form
         for name, value in {
-            "delta_q_bar_a": step.delta_q_bar_a, "phi": contacts.phi, "J": contacts.J,
-            "g": form.g, "A": form.A, "b": form.b, "pressure": lam, "gap": slack,
+            "delta_q_bar_a": step.delta_q_bar_a, "phi": contacts.phi, "g": form.g, "b": form.b,
+            "pressure": lam, "gap": slack, **_kept(both),
         }.items():  # fmt: skip
-            s.fill(name, value)
+            s.lend(name, value)
         s["tau"][: step.n_a] = step.tau_a
         s["tau"][step.n_a :] = step.tau_u
         s["mu"][:, 1:] = contacts.mu
@@ -223,18 +264,13 @@ class Prover:
         return _optimum(s, s["lam"].nonzero()[0].tolist())
 
 
-def undivided(both: DenseStepInBothUnits) -> Prover:
-    """The proofs of steps like one, all of which is a group."""
-    step = both.si_step
-    sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
-    return Prover(step, [(Group(*map(np.arange, sizes)), both)])
-
-
-def group_proof(group: Group, own: DenseStepInBothUnits) -> GroupProof | None:
-    """The proofs of a group, or None of one that C does not prove."""
+def group_proof(
+    group: Group, own: DenseStepInBothUnits, whole: StepInBothUnits
+) -> GroupProof | None:
+    """The proofs of a group of a step, or None of one that C does not prove."""
     if own.si_step.extra.names or own.si_step.n_v > LARGEST:
         return None
-    proof = GroupProof(group, own)
+    proof = GroupProof(group, own, whole)
     return proof if proof.usable else None
 
 

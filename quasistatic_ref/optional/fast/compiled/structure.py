@@ -36,14 +36,14 @@ class Structure:
         """One of its integers."""
         return int(getattr(self._fields, name))
 
-    def fill(self, name: str, value: NDArray[Any]) -> None:
-        """Copy numbers into one of its arrays: nothing broadcasts.
+    def lend(self, name: str, value: NDArray[np.float64]) -> None:
+        """Let C read an array in the place of one of its own: nothing broadcasts.
 
         Parameters
         ----------
         name : str
         value : ndarray
-            Of the array's shape [in its unit].
+            Of the shape of the one before [in its unit].
 
         Raises
         ------
@@ -53,7 +53,7 @@ class Structure:
         array = self._arrays[name]
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
-        array[...] = value
+        self.put({name: value})
 
     def put(self, values: Mapping[str, Any]) -> None:
         """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""

@@ -9,9 +9,10 @@ enum { GUESSES = 16 }; /* that follow one that is wrong; boxes in a row at rest 
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    int64_t n_v, groups;
+    int64_t groups;
     Proof *const *group; /* 0: of one that is not proved here */
-    /* The step, and its standard form; lam and slacks of an answer in natural units. */
+    /* The step, and its standard form, J and A as they are kept: whole, or without their zeros; lam
+       and slacks of an answer in natural units. */
     const double *delta_q_bar_a, *tau, *phi, *frame, *J, *mu, *g, *A, *b, *pressure, *gap;
     /* What the proof of each group comes to; the optimum of those that are DECIDED; least and claims
        as in Proof. */
@@ -20,17 +21,27 @@ typedef struct {
     int64_t *claims;
 } Step;
 
-/* Some rows of a matrix, or some columns of them (all if NULL): whether a number has changed. */
-static int taken(double *to, const double *from, const int64_t *rows, int64_t n_rows,
-                 const int64_t *columns, int64_t n, int64_t width)
+/* Some numbers, -1 standing for a zero: whether one has changed. */
+static int taken(double *to, const double *from, const int64_t *at, int64_t n)
 {
     int changed = 0;
-    for (int64_t i = 0; i < n_rows; i++)
-        for (int64_t j = 0; j < n; j++, to++) {
-            double x = from[rows[i] * width + (columns ? columns[j] : j)];
-            changed |= x != *to;
-            *to = x;
-        }
+    for (int64_t i = 0; i < n; i++) {
+        double x = at[i] < 0 ? 0.0 : from[at[i]];
+        changed |= x != to[i];
+        to[i] = x;
+    }
+    return changed;
+}
+
+/* The same of rows of some width, which stand one after the other. */
+static int rows_taken(double *to, const double *from, const int64_t *at, int64_t n, int64_t width)
+{
+    int changed = 0;
+    for (int64_t i = 0; i < n * width; i++) {
+        double x = from[at[i / width] * width + i % width];
+        changed |= x != to[i];
+        to[i] = x;
+    }
     return changed;
 }
 
@@ -44,19 +55,19 @@ static void given(double *to, const double *from, const int64_t *index, int64_t 
 static int posed(const Step *s, Proof *p)
 {
     const int64_t *v = p->coordinates, *c = p->contacts, *r = p->rows_of_step;
-    int64_t n = p->n_v, n_c = p->n_c, m = p->rows, N = s->n_v;
+    int64_t n = p->n_v, n_c = p->n_c, m = p->rows;
     int changed = 0;
-    changed |= taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a, NULL, 1, 1);
-    changed |= taken(p->tau, s->tau, v, n, NULL, 1, 1);
-    taken(p->g, s->g, v, n, NULL, 1, 1);
-    taken(p->A, s->A, r, m, v, n, N);
-    taken(p->b, s->b, r, m, NULL, 1, 1);
-    taken(p->pressure, s->pressure, r, m, NULL, 1, 1);
-    taken(p->gap, s->gap, r, m, NULL, 1, 1);
-    changed |= taken(p->phi, s->phi, c, n_c, NULL, 1, 1);
-    changed |= taken(p->frame, s->frame, c, n_c, NULL, 16, 16);
-    changed |= taken(p->mu, s->mu, c, n_c, NULL, 4, 4);
-    changed |= taken(p->J, s->J, p->rows_of_J, 4 * n_c, v, n, N);
+    changed |= taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a);
+    changed |= taken(p->tau, s->tau, v, n);
+    taken(p->g, s->g, v, n);
+    taken(p->A, s->A, p->in_A, m * n);
+    taken(p->b, s->b, r, m);
+    taken(p->pressure, s->pressure, r, m);
+    taken(p->gap, s->gap, r, m);
+    changed |= taken(p->phi, s->phi, c, n_c);
+    changed |= rows_taken(p->frame, s->frame, c, n_c, 16);
+    changed |= rows_taken(p->mu, s->mu, c, n_c, 4);
+    changed |= taken(p->J, s->J, p->in_J, 4 * n_c * n);
     return changed;
 }
 
@@ -89,6 +100,15 @@ int proof_nearby(Proof *p)
     return code;
 }
 
+/* What comes of the last optimum's rows, as long as the answer presses what it pressed then; or of
+   those of the answer. */
+static int proof_again(Proof *p, int same_answer)
+{
+    if (same_answer && p->code == DECIDED && proof(p) == DECIDED)
+        return DECIDED;
+    return proof_nearby(p);
+}
+
 /* Whether all groups are DECIDED. A group of which nothing has changed, nor its answer, is as it was. */
 int groups_proved(Step *s)
 {
@@ -99,12 +119,11 @@ int groups_proved(Step *s)
         Proof *p = s->group[i];
         s->code[i] = NOT_POSED;
         if (p) {
-            int changed = posed(s, p);
-            changed |= answered(p);
-            if (!changed && p->code != NOT_POSED)
+            int changed = posed(s, p), same_answer = !answered(p);
+            if (!changed && same_answer && p->code != NOT_POSED)
                 s->code[i] = p->code;
             else if (natural_units(p->natural))
-                s->code[i] = proof_nearby(p);
+                s->code[i] = proof_again(p, same_answer);
             else
                 p->code = NOT_POSED;
         }

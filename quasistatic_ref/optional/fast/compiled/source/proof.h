@@ -26,8 +26,9 @@ struct Natural;
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t n_a, n_v, n_c, rows, working, answered, code;
-    /* Where the group's coordinates, contacts and rows stand in the step. */
-    const int64_t *coordinates, *contacts, *rows_of_J, *rows_of_step;
+    /* Where the group's coordinates, contacts and rows stand in the step, and the entries of its J and
+       A among those that the step keeps; -1 of a zero. */
+    const int64_t *coordinates, *contacts, *rows_of_step, *in_J, *in_A;
     /* h; the units S, and {length, size}: powers of two. What finds these, and the g, A and b that it
        reads; lam and slacks of an answer. */
     const double *h, *coordinate;
