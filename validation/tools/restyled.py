@@ -15,7 +15,7 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from docs.six_figures import corner_loads, the_program
+from docs.drawings import corner_loads, the_program
 from quasistatic_ref.lab.claims.claim import finding
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example

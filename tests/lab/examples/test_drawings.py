@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from docs.six_figures import corner_loads, the_program
+from docs.drawings import corner_loads, the_program
 from quasistatic_ref.optional.show.figures import figure_style
 from tests.legible import faults
 from tests.tolerances import ROUNDING
