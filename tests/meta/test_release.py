@@ -11,7 +11,7 @@ BY_HAND = {"validation/results/mutation_survivors.md", "validation/results/ports
 
 
 def committed():
-    folders = ("validation/results/*", "validation/results/figures/*.png", "docs/figures/*.png")
+    folders = ("validation/results/*", "validation/results/figures/*.png", "docs/figures/*")
     folders = (*folders, "validation/results/benchmarks/*")
     return {str(p.relative_to(ROOT)) for folder in folders for p in ROOT.glob(folder)}
 

@@ -128,6 +128,12 @@ RESULTS = (
     ),
     to_file("reality_tripods", "json"),
     Result(
+        "moving_figures",
+        "validation.make.moving_figures --out {temporary}",
+        ("docs/figures/grasp.gif", "docs/figures/sliding_block.gif"),
+        (("*.gif", "docs/figures"),),
+    ),
+    Result(
         "reality_figures",
         "validation.make.reality_figures --out {temporary}",
         tuple(f"docs/figures/reality_{name}.png" for name in REALITY),

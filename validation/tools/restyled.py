@@ -1,8 +1,8 @@
 """Every figure in every style and in a grid, read for what is not legible.
 
 Run ``python -m validation.tools.restyled [NAME ...] [--out FOLDER]`` (some three minutes). These
-are the figures of the examples, of the tour and of the claims, in the style of paper. Those of
-examples and the tour are also drawn in ``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in
+are the figures of the examples, of the course and of the claims, in the style of paper. Those of
+examples and course are also drawn in ``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in
 slides, on a poster, and into one cell of a user's own grid of 2 x 2 axes, a page wide. Exit status
 1 if any of them has a fault; with --out each is kept as a PNG: look at them for what no program
 sees.
@@ -15,7 +15,7 @@ from pathlib import Path
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from docs.drawings import corner_loads, the_program
+from docs.drawings import contact_geometry, corner_loads, free_body, sliding_block, the_program
 from quasistatic_ref.lab.claims.claim import finding
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
@@ -30,14 +30,17 @@ GRID = (PAGE, 6.3)
 """Size of the grid [in]."""
 
 FIGURES = {
+    "contact_geometry": contact_geometry.figure,
     "corner_loads": corner_loads.figure,
+    "free_body": free_body.figure,
+    "sliding_block": sliding_block.figure,
     "the_program": the_program.figure,
 }
-"""Those of the tour."""
+"""Those that pages of the course draw."""
 
 
 def drawer(name: str) -> Callable[..., Figure]:
-    """The function that draws a figure of an example or of the tour."""
+    """The function that draws a figure of an example or of the course."""
     return FIGURES[name] if name in FIGURES else example(name).figure
 
 

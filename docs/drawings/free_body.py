@@ -1,0 +1,50 @@
+"""The forces on a block that is pushed with 3 and with 6 N: weight, push, contact, and its cone."""
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon, Rectangle
+
+from docs.drawings.the_program import GRAVITY, MASS, MU_V, point
+from quasistatic_ref import solve_step
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.style import scaled
+
+PUSHES = (3.0, 6.0)  # N: one that is held, one that is not
+COLOURS = {"weight": "0.3", "push": "#D55E00", "contact": "#0072B2", "resultant": "#CC79A7"}
+
+
+def main(pushes=PUSHES):
+    """For each push the force of the table, (along the push, up), shape (pushes, 2) [N]."""
+    return np.array([solve_step(point(push)).wrench[0, [0, 2]] for push in pushes])
+
+
+def figure(ax=None, *, pushes=PUSHES):
+    """One panel a push: the block, the forces at one point, the cone and the resultant."""
+    made, row = panels(6.3, 4.4, columns=len(pushes), within=ax, sharey=True)
+    for axes, push, force in zip(row, pushes, main(pushes), strict=True):
+        axes.add_patch(Rectangle((-5, 0), 10, 8, facecolor="0.93", edgecolor="0.7", zorder=0))
+        axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))
+        f_n = force[1]
+        cone = [(0, 0), (-MU_V * f_n, f_n), (MU_V * f_n, f_n)]
+        axes.add_patch(Polygon(cone, facecolor=COLOURS["contact"], alpha=0.2))
+        weight, pushed = np.array([0.0, -MASS * GRAVITY]), np.array([push, 0.0])
+        forces = {"weight": weight, "push": pushed, "contact": force}
+        resultant = weight + pushed + force
+        if np.hypot(*resultant) > 1e-9:  # N; zero but for rounding where the block is held
+            forces["resultant"] = 5 * resultant
+        for name, arrow in forces.items():
+            style = {"arrowstyle": "-|>", "color": COLOURS[name], "shrinkA": 0, "shrinkB": 0}
+            axes.annotate("", arrow, (0, 0), arrowprops={**style, "linewidth": scaled(1.6)})
+        axes.set(xlim=(-8, 8), ylim=(-11, 12), aspect="equal")
+        axes.grid(visible=False)
+        held = "no resultant: it stays" if "resultant" not in forces else "it slides and rises"
+        labelled(axes, "force along the push [N]", "force up [N]", f"{push:g} N, {held}")
+        axes.label_outer(remove_inner_ticks=True)
+    handles = [
+        Line2D([], [], color=colour, marker=">", markersize=scaled(4), label=name)
+        for name, colour in COLOURS.items()
+    ]
+    handles[-1].set_label("5 x resultant")
+    legend_below(row, handles, "shaded: the friction cone at the normal force of the contact")
+    return made

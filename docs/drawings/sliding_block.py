@@ -1,0 +1,57 @@
+"""A block that is pushed with 6 N and then with 3 N, step after step: its place and its gap."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+from matplotlib.patches import Rectangle
+
+from docs.drawings.the_program import H, point
+from quasistatic_ref import solve_step
+from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.style import scaled
+
+PUSHES = np.repeat([6.0, 3.0], [60, 40])  # N, one each step
+TALL = 200  # times its height, as drawn
+BLOCK = (60.0, 40.0)  # mm
+
+
+@cache
+def run():
+    """The block's (x, gap) before each step and after the last, shape (steps + 1, 2) [m]."""
+    places = [np.zeros(2)]
+    for push in PUSHES:
+        step = point(push)
+        contacts = replace(step.contacts, phi=[places[-1][1]])
+        places.append(places[-1] + solve_step(step.replace(contacts=contacts)).delta_q)
+    return np.array(places)
+
+
+def drawn(axes, k):
+    """The block before step k, its height above the table times TALL."""
+    (x, gap), push = 1e3 * run()[k], PUSHES[min(k, len(PUSHES) - 1)]
+    axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))
+    axes.add_patch(Rectangle((x, TALL * gap), *BLOCK, facecolor="#0072B2", alpha=0.5))
+    tip = (x, TALL * gap + BLOCK[1] / 2)
+    style = {"arrowstyle": "-|>", "color": "#D55E00", "linewidth": scaled(1.6)}
+    axes.annotate("", tip, (tip[0] - 6 * push, tip[1]), arrowprops={**style, "shrinkB": 0})
+    axes.set(xlim=(-45, 75), ylim=(-8, 60), aspect="equal", yticks=[])
+    axes.grid(visible=False)
+    labelled(axes, "x [mm]", "", f"{push:g} N, step {k}, gap {1e3 * gap:.0f} µm", key=False)
+
+
+def figure(ax=None):
+    """Slip and gap of each step, and what Coulomb's law has instead."""
+    made, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    places = 1e6 * run()
+    steps = np.arange(1, len(places))
+    coulomb = np.where(PUSHES > 0.5 * 9.81, 1e6 * H**2 * (PUSHES - 0.5 * 9.81), 0.0)
+    for axes, ours, theirs, what in (
+        (left, np.diff(places[:, 0]), coulomb, "slip of a step [µm]"),
+        (right, places[1:, 1], 0.0 * coulomb, "gap after a step [µm]"),
+    ):
+        axes.plot(steps, ours, color="#0072B2", label="the model")
+        axes.plot(steps, theirs, "--", color="0.3", label="Coulomb's law")
+        labelled(axes, "step [-]", what)
+    return made
