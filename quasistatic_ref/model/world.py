@@ -15,8 +15,10 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import FIXED, Body
 from quasistatic_ref.model.coordinates import MimicJoint, joint_key
-from quasistatic_ref.model.joints import AXES, BASES
+from quasistatic_ref.model.joints import BASES, JOINTS
+from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import QUATERNION, Joint
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.urdf.urdf import (
     BASE,
@@ -212,9 +214,10 @@ def _anchor(body: Body) -> Any:
 
 def _check_joint_names(body: Body, urdf: Urdf) -> None:
     kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != "fixed"}
-    scalar = {name for name, joint in kinds.items() if joint.mimic is None}
+    own = {name for name, joint in kinds.items() if joint.mimic is None}
+    scalar = {name for name in own if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
     moves = urdf.base != "fixed"
-    known = scalar | {BASE} if moves else scalar
+    known = own | {BASE} if moves else own
     actuated = () if body.actuated == "all" else body.actuated
     for key, names, allowed in (
         ("actuated", actuated, known),
@@ -227,6 +230,8 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             problem = f"has no such joint{suggestion(str(name), allowed)}"
             if joint is not None and joint.mimic is not None:
                 problem = f"mimics {joint.mimic.of!r} and has no coordinate of its own"
+            elif joint is not None:
+                problem = "has no position that is one number; it starts without a turn"
             elif name == BASE and moves:
                 problem = "is positioned by xyz and rpy"
             elif name == BASE:
@@ -249,7 +254,10 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
     for written in urdf.file.joints:
         if written.kind == FIXED or written.mimic is not None:
             continue
-        joint = AXES[written.kind](*_entries(body, written.name, model))
+        joint = JOINTS[written.kind](*_entries(body, written.name, model))
+        if isinstance(joint, TwistJoint):
+            joints.append((joint, np.array(joint.at(np.zeros(3), np.zeros(3)))))
+            continue
         if joint.unit is None:
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])

@@ -14,6 +14,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.model.urdf.urdf import BASE
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
@@ -264,9 +265,9 @@ def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array
 
 
 def _start_angles(body: Body, name: str, joint: Joint) -> Array:
-    """Roll, pitch and yaw of a base at the start, or the position of a joint [rad, m]."""
+    """Roll, pitch and yaw of a base or ball at the start, or the position of a joint [rad, m]."""
     if isinstance(joint, TwistJoint):
-        return np.asarray(body.rpy)
+        return np.asarray(body.rpy) if name == BASE else np.zeros(3)
     return np.array([body.positions.get(name, 0.0)])
 
 
@@ -283,7 +284,7 @@ def _check_turn(waypoint: TableReader, name: str, before: Array, after: Array) -
 
 
 def _placed(waypoint: TableReader, name: str, joint: TwistJoint, body: Body) -> tuple[Array, Array]:
-    """Entries of q of a base at a pose, and its roll, pitch, yaw [rad]."""
+    """Entries of q of a base or ball at a pose, and its roll, pitch, yaw [rad]."""
     start = np.asarray(body.xyz)
     xyz, rpy = pose(waypoint.table(name), ORIGIN if joint.free else start)
     obstacle = joint.obstacle(xyz, rpy, start)

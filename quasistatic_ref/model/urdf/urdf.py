@@ -15,7 +15,8 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.model.joints import BASES
+from quasistatic_ref.model.joints import BASES, JOINTS
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
@@ -24,7 +25,9 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.tolerances import LOADED
 
 BASE = "base"
-"""Name of the joint of a floating or planar base."""
+"""Name of the joint of a base that moves."""
+OWN = {kind: joint for kind, joint in JOINTS.items() if issubclass(joint, TwistJoint)}
+"""Joints of files that URDF does not have."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +126,7 @@ def urdf_model(text: str, base: str) -> Any:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
     readable, names = _readable(text)
-    model = pin.buildModelFromXML(readable, *root, mimic=True)
+    model = _with_own_kinds(pin.buildModelFromXML(readable, *root, mimic=True), text)
     for number in range(1, model.njoints):
         model.names[number] = names.get(model.names[number], model.names[number])
     for frame in model.frames:
@@ -135,12 +138,16 @@ def urdf_model(text: str, base: str) -> Any:
 def _readable(text: str) -> tuple[str, dict[str, str]]:
     """A URDF that pinocchio can read, and what its joints are called here, by their names in it.
 
-    Meshes in the text itself are left out. Joints are numbered where pinocchio, which visits the
-    joints of a link in alphabetical order, would meet a mimic joint before its leader.
+    Meshes in the text itself are left out, and joints of kinds that URDF does not have float.
+    Joints are numbered where pinocchio, which visits the joints of a link in alphabetical order,
+    would meet a mimic joint before its leader.
     """
-    if "mimic" not in text and "vertex" not in text:  # which saves the time of most
+    if not any(word in text for word in ("mimic", "vertex", *OWN)):  # which saves the time of most
         return text, {}
     robot = ElementTree.fromstring(text)
+    for joint in robot.findall("joint"):
+        if joint.get("type") in OWN:
+            joint.set("type", "floating")
     for link in robot.findall("link"):
         for collision in link.findall("collision"):
             if any(map(is_inline, collision.findall("geometry/mesh"))):
@@ -155,6 +162,40 @@ def _readable(text: str) -> tuple[str, dict[str, str]]:
                 "joint", numbers.get(mimic.get("joint", ""), "")
             )  # a fixed joint's may be none
     return ElementTree.tostring(robot, encoding="unicode"), names
+
+
+def _with_own_kinds(model: Any, text: str) -> Any:
+    """The model of a URDF with its own joints in the place of those that float.
+
+    Raises
+    ------
+    ModelError
+        If there are mimic joints, too: pinocchio's copies of them point to the first model.
+    """
+    if not any(kind in text for kind in OWN):
+        return model
+    robot = ElementTree.fromstring(text)
+    kinds = {joint.attrib["name"]: joint.attrib["type"] for joint in robot.findall("joint")}
+    own = {name: OWN[kind] for name, kind in kinds.items() if kind in OWN}
+    if not own:
+        return model
+    if robot.find("joint/mimic") is not None:
+        raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(own)}]")
+    made = pin.Model()
+    made.appendBodyToJoint(0, model.inertias[0], pin.SE3.Identity())
+    for i in range(1, model.njoints):
+        name = model.names[i]
+        joint = own[name].pinocchio() if name in own else model.joints[i]
+        made.addJoint(model.parents[i], joint, model.jointPlacements[i], name)
+        made.appendBodyToJoint(i, model.inertias[i], pin.SE3.Identity())
+    scalar = [i for i in range(1, model.njoints) if model.nqs[i] == 1]
+    before = [model.idx_qs[i] for i in scalar]
+    after = [made.idx_qs[i] for i in scalar]
+    made.lowerPositionLimit[after] = model.lowerPositionLimit[before]
+    made.upperPositionLimit[after] = model.upperPositionLimit[before]
+    for number in range(1, model.nframes):  # frame 0 is the universe
+        made.addFrame(model.frames[number], False)  # the joints have the inertias
+    return made
 
 
 def with_turns(text: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
@@ -16,7 +17,7 @@ from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
-_MOVING = ("revolute", "continuous", "prismatic")
+_MOVING = tuple(JOINTS)
 MOST_LINKS = 1000
 """Most links in a file: urdfdom recurses from link to link, and ends the process where the
 stack does."""

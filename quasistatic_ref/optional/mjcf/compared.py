@@ -96,8 +96,14 @@ def _qpos(
         qpos[:7] = [*kinematics.t[root], w, x, y, z]
     for joint in system.joints:
         own = joint.name.partition("/")[2]
+        if own not in names.joints:  # the base
+            continue
+        at = model.jnt_qposadr[names.joints.index(own)]
         if isinstance(joint, AxisJoint):
-            qpos[model.jnt_qposadr[names.joints.index(own)]] += delta_q[joint.v][0]
+            qpos[at] += delta_q[joint.v][0]
+        else:
+            x, y, z, w = joint.moved([0.0, 0.0, 0.0, 1.0], delta_q[joint.v].tolist())
+            qpos[at : at + 4] = [w, x, y, z]
     return qpos
 
 

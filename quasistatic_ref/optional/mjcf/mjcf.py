@@ -21,7 +21,16 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.optional.mjcf.compared import check_shapes
 from quasistatic_ref.optional.mjcf.compiler import compiled
 from quasistatic_ref.optional.mjcf.fence import Fence
-from quasistatic_ref.optional.mjcf.geoms import FREE, GEOMS, HINGE, SLIDE, drawn, rgba, touching
+from quasistatic_ref.optional.mjcf.geoms import (
+    BALL,
+    FREE,
+    GEOMS,
+    HINGE,
+    SLIDE,
+    drawn,
+    rgba,
+    touching,
+)
 from quasistatic_ref.optional.mjcf.ignored import ignored_of_free
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.arrays import Array
@@ -30,10 +39,10 @@ from quasistatic_ref.step.arrays import Array
 def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path] = ()) -> str:
     """The text of a URDF of the same bodies, for ``Body(name, urdf=text)``.
 
-    Its links are the bodies, in the same frames, its joints the hinges and slides. What the bodies
-    of the world touch is of its root link ``worldbody``; where a free joint moves the only body,
-    that is the root. Meshes stand in the text, as MuJoCo compiled them. What else the file says
-    and the model ignores stands in ``ignored`` of the
+    Its links are the bodies, in the same frames, its joints the hinges, slides and balls. What the
+    bodies of the world touch is of its root link ``worldbody``; where a free joint moves the only
+    body, that is the root. Meshes stand in the text, as MuJoCo compiled them. What else the file
+    says and the model ignores stands in ``ignored`` of the
     :class:`~quasistatic_ref.model.system.System`, each element and attribute by its name.
 
     Parameters
@@ -73,7 +82,7 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
         for i in range(root, model.nbody):
             _link(model, names, i, robot, ignored)
         for i in range(root + 1, model.nbody):
-            _joints(model, names, i, robot)
+            _joints(model, names, i, robot, ignored)
         for name in dict.fromkeys(ignored):
             SubElement(robot, "ignored", name=name)
         text = tostring(robot, encoding="unicode")
@@ -178,7 +187,7 @@ def _placed(link: Element, tag: str, shape: Element, pose: pin.SE3) -> Element:
     return element
 
 
-def _joints(model: Any, names: Names, i: int, robot: Element) -> None:
+def _joints(model: Any, names: Names, i: int, robot: Element, ignored: list[str]) -> None:
     """What moves body i in its parent: its joints one after the other, each at its anchor.
 
     A joint with an anchor p turns about it: T p R(q) p^-1. Between joints are links without mass.
@@ -192,23 +201,22 @@ def _joints(model: Any, names: Names, i: int, robot: Element) -> None:
     for j in joints:
         name = names.joints[j]
         kind = model.jnt_type[j]
-        if kind not in (SLIDE, HINGE):
-            problem = "is not supported; use hinges and slides"
-            raise ModelError(problem, field=f"joint[{name}].type")
-        anchor = model.jnt_pos[j] if kind == HINGE else at
+        anchor = at if kind == SLIDE else model.jnt_pos[j]
         last = j == joints[-1] and not np.any(anchor)
         child = body if last else names.free_body(f"{body}:{name}")
         limited = bool(model.jnt_limited[j])
         turns = "revolute" if limited else "continuous"
-        joint = _joint(robot, name, turns if kind == HINGE else "prismatic", parent, child)
+        word = {SLIDE: "prismatic", HINGE: turns, BALL: "ball"}[kind]
+        joint = _joint(robot, name, word, parent, child)
         _origin(joint, pose * _shift(anchor - at))
-        SubElement(joint, "axis", xyz=_text(model.jnt_axis[j]))
-        ref = model.qpos0[model.jnt_qposadr[j]]  # positions here count from the file's pose
-        lower, upper = model.jnt_range[j] - ref if limited else (0.0, 0.0)
-        SubElement(joint, "limit", lower=_text(lower), upper=_text(upper), effort="0", velocity="0")
         friction = model.dof_frictionloss[model.jnt_dofadr[j]]
-        if friction:  # joint_friction = "urdf" reads it
-            SubElement(joint, "dynamics", friction=_text(friction))
+        if kind == BALL:
+            ignored += [f"joint[{name}].range"] * limited
+            ignored += [f"joint[{name}].frictionloss"] * bool(friction)
+        else:
+            _measure(model, j, joint)
+            if friction:  # joint_friction = "urdf" reads it
+                SubElement(joint, "dynamics", friction=_text(friction))
         if not last:
             SubElement(robot, "link", name=child)
         parent = child
@@ -217,6 +225,14 @@ def _joints(model: Any, names: Names, i: int, robot: Element) -> None:
     if parent != body:
         joint = _joint(robot, names.free_joint(f"{body}:fixed"), "fixed", parent, body)
         _origin(joint, pose * _shift(-at))
+
+
+def _measure(model: Any, j: int, joint: Element) -> None:
+    """The axis of a hinge or slide, and its limits, counted from the file's pose."""
+    SubElement(joint, "axis", xyz=_text(model.jnt_axis[j]))
+    ref = model.qpos0[model.jnt_qposadr[j]]
+    lower, upper = model.jnt_range[j] - ref if model.jnt_limited[j] else (0.0, 0.0)
+    SubElement(joint, "limit", lower=_text(lower), upper=_text(upper), effort="0", velocity="0")
 
 
 def _joint(robot: Element, name: str, kind: str, parent: str, child: str) -> Element:

@@ -56,7 +56,14 @@ def planar():
     return simulator, q, NONE
 
 
-SCENES = {"floating": floating, "turning": turning, "planar": planar}
+def ball():
+    """A box on a ball joint, one corner of which is pushed into the floor."""
+    at = (0, 0, 0.129)
+    simulator, q = free(BOX, at, (FLOOR, (0, 0, 0)), base="ball", rpy=(0.4, 0.5, 0.3))
+    return simulator, q, NONE
+
+
+SCENES = {"floating": floating, "turning": turning, "planar": planar, "ball": ball}
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)

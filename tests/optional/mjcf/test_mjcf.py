@@ -189,9 +189,6 @@ def test_without_mujoco_one_sentence_says_what_to_install(arm, monkeypatch):
 
 
 REFUSED = {
-    '<geom size="0.1"/><body><joint type="ball"/><geom size="0.1"/></body>': (
-        r"joint\[joint1\]\.type: is not supported; use hinges and slides"
-    ),
     '<geom size="0.1 0.2 0.1" type="ellipsoid"/>': (
         r"geom\[geom0\]\.type: is not supported for ellipsoids that bodies touch with"
     ),
@@ -239,3 +236,28 @@ def test_a_scenario_takes_mjcf_where_it_takes_a_urdf(arm):
             load_scenario(scene, everything | change)
     with pytest.raises(InputError, match=r'must be <robot>; give an MJCF model as mjcf = "FILE"'):
         System([Body("arm", arm)])
+
+
+BALLS = """<mujoco><worldbody><body name="arm" pos="0 0 1" euler="10 20 30">
+  <joint name="a" type="ball" pos="0.05 0.02 -0.1" range="0 50" limited="true" frictionloss="0.2"/>
+  <geom type="capsule" size="0.03" fromto="0 0 0 0.3 0.1 0"/>
+  <body name="fore" pos="0.3 0.1 0" euler="0 40 0"><joint name="b" type="ball"/>
+    <geom type="box" size="0.03 0.04 0.1" pos="0 0 0.1"/></body></body></worldbody></mujoco>"""
+
+
+def test_balls_have_the_mass_matrix_and_the_weight_that_mujoco_gives_them(tmp_path, rng):
+    mujoco = pytest.importorskip("mujoco")
+    path = written(tmp_path, BALLS, "balls.xml")
+    system = System([Body("robot", mjcf_urdf(path))])
+    assert {"robot: joint[a].range", "robot: joint[a].frictionloss"} <= set(system.ignored)
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    q = system.integrate(system.q_start, rng.normal(size=6))
+    data.qpos[:] = q.reshape(2, 4)[:, [3, 0, 1, 2]].ravel()  # w first
+    mujoco.mj_forward(model, data)
+    M = np.zeros((6, 6))
+    for e, column in zip(np.eye(6), M, strict=True):
+        mujoco.mj_mulM(model, data, column, e)
+    np.testing.assert_allclose(system.M_u(q), M, rtol=0, atol=1e-14)
+    weight = system.gravity_force(q, model.opt.gravity)
+    np.testing.assert_allclose(weight, -data.qfrc_bias, rtol=0, atol=1e-13)

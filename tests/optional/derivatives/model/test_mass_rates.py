@@ -5,8 +5,11 @@ import pytest
 
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import random_q, random_tree
 from quasistatic_ref.lab.vectors.own.system import own_system
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE
 
@@ -23,6 +26,20 @@ def test_r31_r32_forces_and_twists_change_as_differences_say(seed, base):
     own = own_system(tree)
     system = own.system
     q = system.integrate(own.model_q(random_q(rng, tree)), np.zeros(system.n_v))
+    check_rates(rng, system, q)
+
+
+def test_r31_r32_hold_for_links_on_balls(rng):
+    links = [link(name) for name in ("root", "arm", "hand")]
+    joints = [
+        joint("a", "root", "arm", "ball", "1 0 0"),
+        joint("b", "arm", "hand", "ball", "1 0 0"),
+    ]
+    system = System([Body("robot", robot(*links, *joints), "ball")])
+    check_rates(rng, system, system.integrate(system.q_start, rng.normal(size=system.n_v)))
+
+
+def check_rates(rng, system, q):
     kinematics = system.kinematics(q)
     motion = MotionRates(kinematics, system.column_map)
     rates = MassRates(system, kinematics, motion)

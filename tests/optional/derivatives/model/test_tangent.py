@@ -48,7 +48,7 @@ def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None
     np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)
 
 
-@pytest.mark.parametrize("base", ["floating", "planar"])
+@pytest.mark.parametrize("base", ["floating", "planar", "ball"])
 @pytest.mark.parametrize("seed", range(5))
 def test_r30_sums_and_differences_change_as_written(seed: int, base: str) -> None:
     """By differences of the screws themselves, turns being below pi."""

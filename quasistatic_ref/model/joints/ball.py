@@ -1,0 +1,43 @@
+"""A joint that turns about a point, about any axis: q holds a quaternion [x y z w]."""
+
+import pinocchio as pin
+
+from quasistatic_ref.model import screw
+from quasistatic_ref.model.joints.joint import QUATERNION
+from quasistatic_ref.model.joints.twist_joint import TwistJoint
+from quasistatic_ref.model.rotation import quaternion
+from quasistatic_ref.step.arrays import Array
+
+
+class Ball(TwistJoint):
+    """A ball joint: delta_q is a rotation vector in the frame of the link that it moves."""
+
+    twist = (3, 4, 5)
+    entries = ("qx [-]", "qy [-]", "qz [-]", "qw [-]")
+    pinocchio = pin.JointModelSpherical
+    lengths = 0
+    unit = QUATERNION
+
+    @classmethod
+    def at(cls, xyz: Array, rpy: Array) -> list[float]:
+        """Its entries of q at a pose."""
+        return [*quaternion(rpy).tolist()]
+
+    @classmethod
+    def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
+        """Why it cannot be elsewhere than at the start, shape (3,) [m]."""
+        if (xyz == start).all():
+            return None
+        return f"must keep the place {start.tolist()}, because a ball joint turns and does not move"
+
+    def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
+        """Its entries of q (+) delta_q."""
+        return screw.turned(q, delta_q, screw.half_turn(delta_q))
+
+    def change(self, q: list[float], q_next: list[float]) -> list[float]:
+        """Its entries of q_next (-) q."""
+        return screw.rotation_between(q, q_next)[0]
+
+    def rates(self, q: Array) -> Array:
+        """Derivative of its entries of q (+) e by e at 0, shape (4, 3)."""
+        return screw.quaternion_rates(q)

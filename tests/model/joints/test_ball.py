@@ -1,0 +1,171 @@
+"""A ball joint, of a base and between links: the trial of a kind of joint that is added."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.errors import ModelError, ScenarioError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.joints.ball import Ball
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
+from tests.oracles.differences import after, rate
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
+
+BALL = Ball("ball", False, slice(0, 4), slice(0, 3))
+CENTRE = np.array([0.0, 0.05, -0.3])
+MOMENTS = np.array([0.02, 0.03, 0.04])
+BOB = link(
+    "bob",
+    collision('<sphere radius="0.1"/>', '<origin xyz="0 0.05 -0.3"/>'),
+    inertial("2", ("0.02", "0.03", "0.04"), '<origin xyz="0 0.05 -0.3"/>'),
+)
+HANGING = robot(link("hook"), BOB, joint("ball", "hook", "bob", "ball", "1 0 0"))
+
+
+def turn(rng, angle):
+    """A rotation vector of random direction."""
+    axis = rng.normal(size=3)
+    return angle * axis / np.linalg.norm(axis)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 3.0])
+def test_a_ball_turns_by_its_rotation_vector_in_its_own_frame(angle, rng):
+    q = Rotation.from_rotvec(turn(rng, 1.3))
+    w = turn(rng, angle)
+    after = BALL.moved(q.as_quat().tolist(), w.tolist())
+    expected = (q * Rotation.from_rotvec(w)).as_matrix()
+    found = Rotation.from_quat(after).as_matrix()
+    np.testing.assert_allclose(found, expected, rtol=0, atol=4 * ROUNDING)
+    back = BALL.change(q.as_quat().tolist(), after)
+    np.testing.assert_allclose(back, w, rtol=0, atol=8 * ROUNDING)
+
+
+def hanging(base):
+    """A pendulum on a ball joint: of its base, or between a hook that is fixed and its bob."""
+    if base:
+        return System([Body("arm", robot(BOB), "ball", xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
+    return System([Body("arm", HANGING, xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
+
+
+@pytest.mark.parametrize("base", [True, False])
+def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
+    # About the joint, in the link's frame: I + m (c'c 1 - c c'); gravity's torque is c x m R'g.
+    system = hanging(base)
+    w = np.array([0.7, -1.1, 0.3])
+    q = system.integrate(system.q_start, w)
+    R, t = system.pose(q, "arm/bob")
+    start = Rotation.from_euler("xyz", [0.4, 0.5, 0.6])
+    expected = (start * Rotation.from_rotvec(w)).as_matrix()
+    np.testing.assert_allclose(R, expected, rtol=0, atol=8 * ROUNDING)
+    np.testing.assert_allclose(t, [0.1, 0.2, 0.3], rtol=0, atol=ROUNDING)
+    inertia = np.diag(MOMENTS) + 2 * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE))
+    np.testing.assert_allclose(system.M_u(q), inertia, rtol=0, atol=4 * ROUNDING)
+    gravity = np.array([1.0, -2.0, -9.0])
+    torque = np.cross(CENTRE, 2 * R.T @ gravity)
+    found = system.gravity_force(q, gravity)
+    np.testing.assert_allclose(found, torque, rtol=0, atol=32 * ROUNDING)
+    names = [c.name.rpartition(".")[2] for c in system.coordinates]
+    entries = [name.rpartition(".")[2] for j in system.joints for name in j.positions]
+    assert names == ["rx", "ry", "rz"]
+    assert entries == ["qx [-]", "qy [-]", "qz [-]", "qw [-]"]
+
+
+def scene(base, **more):
+    """The pendulum leans on the floor; actuated, it presses."""
+    body = {"urdf": robot(BOB), "base": "ball"} if base else {"urdf": HANGING}
+    body |= {"pose": {"xyz": [0, 0, 0.2475], "rpy": [0.9, 0, 0]}}
+    contact = {
+        "alpha": "floor",
+        "beta": "arm/bob",
+        "mu_v": 0.4,
+        "mu_omega": 0.01,
+        "rows": 6,
+        "k": 1,
+    }
+    return load_scenario(
+        {
+            "h": 0.01, "steps": 12, "bodies": {"arm": body | more}, "contacts": {"floor": contact},
+            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+            "record": "full",
+        }
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("base", [True, False])
+@pytest.mark.extra("fast")
+def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base, tmp_path):
+    plain = scene(base).run(progress=False)
+    fast = replace(scene(base), fast=True)
+    simulator = fast.simulator()
+    run = fast.run(progress=False)
+    assert (plain["certificate"] == "exact").all()
+    assert plain["q"].tobytes() == run["q"].tobytes()
+    assert np.abs(np.linalg.norm(run["q"], axis=1) - 1).max() < 4 * ROUNDING
+    assert np.abs(np.diff(run["q"], axis=0)).max() > 1e-4  # it moves
+    step = simulator.step(simulator.system.q_start, np.zeros(0))
+    assert simulator.by_c
+    assert verify(step.step, step.solution.delta_q, step.solution.certificate.active)
+    assert (run.forces[:, 0, 2] > 0).all()  # the floor carries a part of the weight
+    run.save(tmp_path / "run.npz")
+    kept = trajectory_read(tmp_path / "run.npz")
+    assert kept["q"].tobytes() == run["q"].tobytes()
+
+
+@pytest.mark.parametrize("base", [True, False])
+def test_its_derivatives_are_those_of_differences(base):
+    simulator = scene(base).simulator()
+    q = simulator.system.q_start
+    found = derivatives(simulator, q, np.zeros(0))
+    assert found.differentiable
+    for k, e in enumerate(np.eye(3)):
+        expected = rate(
+            lambda t, e=e: after(
+                simulator, found.result.q, simulator.system.integrate(q, t * e), np.zeros(0)
+            )
+        )
+        np.testing.assert_allclose(found.dq_dq[:, k], expected, rtol=0, atol=DIFFERENCE_OF_STEPS)
+
+
+@pytest.mark.parametrize(("base", "name"), [(True, "base"), (False, "ball")])
+def test_a_target_turns_it_the_shorter_way(base, name):
+    goal = [0.9, 0.3, 0.1] if base else [0.0, 0.3, 0.1]
+    targets = [{"t": 0.0, name: {"rpy": [0.9, 0, 0] if base else [0, 0, 0]}},
+               {"t": 0.1, name: {"rpy": goal}}]  # fmt: skip
+    held = scene(base, actuated=[name], K_q={name: [40, 50, 60]}, targets=targets)
+    q_bar = held.targets(1.0)
+    expected = Rotation.from_euler("xyz", goal).as_quat()
+    np.testing.assert_allclose(q_bar, expected, rtol=0, atol=4 * ROUNDING)
+    start = Rotation.from_quat(held.targets(0.0))
+    half = start * Rotation.from_rotvec((start.inv() * Rotation.from_quat(q_bar)).as_rotvec() / 2)
+    np.testing.assert_allclose(held.targets(0.05), half.as_quat(), rtol=0, atol=8 * ROUNDING)
+
+
+def test_what_a_ball_cannot_is_refused():
+    with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
+        System([Body("arm", HANGING, positions={"ball": 0.1})])
+    both = robot(
+        link("hook"), BOB, link("a"), link("b"), joint("ball", "hook", "bob", "ball", "1 0 0"),
+        joint("swing", "hook", "a"), joint("follow", "hook", "b", more=mimic("swing")),
+    )  # fmt: skip
+    with pytest.raises(ModelError, match=r"joint\[ball\]: cannot stand in a file with mimic"):
+        System([Body("arm", both)])
+    away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
+    with pytest.raises(ScenarioError, match="must keep the place"):
+        scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
+    with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
+        hanging(True).placed({"arm": {"xyz": [0, 0, 1]}})
+
+
+def test_a_solid_turns_about_its_middle_as_a_base():
+    box = System([Body.of_shape("box", Box(np.array([0.1, 0.2, 0.3])), 1.0, base="ball")])
+    assert (box.n_q, box.n_v) == (4, 3)
+    placed = box.placed({"box": {"rpy": [0, 0, np.pi / 2]}})
+    np.testing.assert_allclose(placed, [0, 0, np.sqrt(0.5), np.sqrt(0.5)], atol=ROUNDING)
