@@ -31,10 +31,9 @@ WITH_UNIT = re.compile(rf"(?<![\w.^])[-+]?\d(?:[\d,.]*\d)?(?:e-?\d+)? (?:{UNITS}
 def held(page):
     """The phrases of a page, as they ought to read."""
     phrases = [phrase.format_map(FILLED) for phrase in QUOTED[page]["phrases"]]
-    labels = QUOTED[page].get("labels", {})
     for source, row in QUOTED[page].get("rows", {}).items():
         for name, own in FILLED[source].items():
-            phrases.append(row.format(name=labels.get(name, name), own=own))
+            phrases.append(row.format(name=name, own=own))
     return phrases
 
 

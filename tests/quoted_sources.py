@@ -24,8 +24,7 @@ from quasistatic_ref.lab.clouds import rows as clouds_table
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples.grasps import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step, point_step
+from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
@@ -33,7 +32,6 @@ from quasistatic_ref.optional.account.motions import link_motion
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.helpers import error, pinch
@@ -239,16 +237,6 @@ def finger():
     return {name: own * mu_v * width for name, own in share.items()} | radius
 
 
-def tight_rows():
-    """What the block of the quickstart bears under 3 N and 0.1 N m: the rows, and their loads."""
-    mass, inertia = 1.0, 1e-3
-    contact = contacts_of(0.0, np.eye(3), np.eye(4)[None], 0.5, 0.02, rows=6)
-    block = free_step(np.diag([mass] * 3 + [inertia]), [3.0, 0.0, -mass * G, 0.1], contact, H)
-    loads = dict(zip(cone("pyramid").row_names, exact(block).lam / H, strict=True))
-    first, second = (f"{name} bears {load:.3f} N" for name, load in loads.items() if load)
-    return f"{first}, and {second.replace(' bears', '')}"
-
-
 def below_the_limit():
     """How far a point slides at 90 % of Coulomb's limit [um], from a gap of 0.25 mm to none."""
     mu_v, phi, slid = 0.5, 0.25e-3, 0.0
@@ -273,24 +261,9 @@ def problem_set():
     return {"count": count, "families": len(manifest["families"])}
 
 
-def bench():
-    return table("benchmarks/bench.md")
-
-
-def solvers():
-    """The solver's call over MuJoCo's step, by scene."""
-    scenes = json.loads(text("benchmarks/bench.json"))["solids"]
-    return {name: own["solver_over_mujoco"] for name, own in scenes.items()}
-
-
 def coulomb_modes():
     """How many solutions planar steps have, by their contacts."""
     return {row["contacts"]: row for row in table("coulomb_modes.md")}
-
-
-@cache
-def solids():
-    return table("benchmarks/bench.md", "Scenes of solids")
 
 
 @cache
@@ -304,13 +277,6 @@ def profile():
         "times": {name: us / PAPERS for name, us in steps.items()},
         "distances": [float(n) for n in re.search(words, text("step_profile.md")).groups()],
     }
-
-
-def dense_and_sparse():
-    """Rows of the boxes that the page shows."""
-    shown = ("1", "3", "8", "16", "24", "32", "3 x 3 x 3", "4 x 4 x 3")
-    every = {row["boxes"]: row for row in table("large_steps.md", "Dense and sparse")}
-    return {boxes: every[boxes] for boxes in shown}
 
 
 def large():
@@ -525,9 +491,7 @@ def dials():
 # -- Measured pushes ------------------------------------------------------------------------------
 def reality():
     """What each pair came to."""
-    labels = {"all": "mean over pairs"}
-    return {name: entry | {"label": labels.get(name, name)}
-            for name, entry in record("reality")["pairs"].items()}  # fmt: skip
+    return record("reality")["pairs"]
 
 
 def certified():

@@ -9,7 +9,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 
 @dataclass(frozen=True, eq=False)
 class Finding(Plain):
-    """One finding; docs/findings.md has each, with its cause, its remedy and a scene.
+    """One finding; docs/findings.md has each, with its cause and its remedy.
 
     Parameters
     ----------

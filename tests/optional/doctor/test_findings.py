@@ -1,4 +1,4 @@
-"""The scenes of docs/findings.md: each is named with its cause, healthy ones have nothing grave."""
+"""Scenes of each finding are named with their cause; healthy ones have nothing grave."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,8 @@ import pytest
 from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, OF_TIME
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
-WORDS, *SCENES = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
+CELLS = (Path(__file__).parent / "finding_scenes.py").read_text("utf-8")
+WORDS, *SCENES = re.split(r"^# %% ", CELLS, flags=re.M)
 GRAVE = {kind.name: kind.grave for kind in (*OF_SCENE, *AFTER, *OF_TIME)}
 
 
@@ -20,11 +21,12 @@ def words():
     return names
 
 
-@pytest.mark.parametrize("scene", SCENES, ids=[scene.splitlines()[0][2:] for scene in SCENES])
-def test_a_scene_of_the_page_is_named_with_its_cause(words, scene):
-    name = scene[2:].partition(":")[0]
+@pytest.mark.parametrize("scene", SCENES, ids=[scene.splitlines()[0] for scene in SCENES])
+def test_a_scene_is_named_with_its_cause(words, scene):
+    title, _, code = scene.partition("\n")
+    name = title.partition(":")[0]
     names = dict(words)
-    exec(scene, names)
+    exec(code, names)
     found = names["found"]
     if name == "nothing":
         assert [str(one) for one in found if one.grave] == []
@@ -41,7 +43,7 @@ def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
     for kind in (*OF_SCENE, *AFTER, *OF_TIME):
         when = "Before" if kind in OF_SCENE else "After"
         assert sections[kind.name] == f"*{when} a run{', grave' * kind.grave}.*"
-    wanted = [scene.partition(":")[0][2:] for scene in SCENES]
+    wanted = [scene.partition(":")[0] for scene in SCENES]
     troubled = [name for name in wanted if name != "nothing"]
     assert set(troubled) == set(GRAVE)
     assert len(troubled) >= 40
