@@ -28,7 +28,7 @@ from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.groups import Group, group_steps
@@ -175,9 +175,9 @@ def verify(
         judged = needed_part("large.judged", 'a certificate of kind "residual"')
         verdict: Verdict = judged.bound_verdict(step, delta_q, lam, claims.error_bound)
         return verdict
-    friction_cone = cone(step.cone)
-    if isinstance(friction_cone, CurvedCone):
-        return friction_cone.verdict(step, delta_q, active, lam, claims)
+    curved = cone(step.cone).curved
+    if curved is not None:
+        return curved.verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     try:

@@ -1,7 +1,7 @@
 """What a certificate claims, in words."""
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.cones import cone
 
 
 def in_words(certificate: Certificate) -> str:
@@ -19,9 +19,9 @@ def in_words(certificate: Certificate) -> str:
         return "nothing is certified"
     step = certificate.step
     assert step is not None
-    kind = cone(step.cone)
-    if isinstance(kind, CurvedCone):
-        return kind.in_words(certificate)
+    curved = cone(step.cone).curved
+    if curved is not None:
+        return curved.in_words(certificate)
     words = [
         "exact: the optimum of the step, correctly rounded",
         f"working set: {len(certificate.active)} of {step.m} rows",

@@ -20,7 +20,7 @@ from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
-from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import group_steps
@@ -164,7 +164,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     """
     step = both.si_step
     units = both.units
-    friction_cone = cone(step.cone)
+    curved = cone(step.cone).curved
     answer, statistics = _answer_and_statistics(both, solver, accuracy)
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
@@ -173,12 +173,12 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     if answer is not None:
         si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
     certificate_of: Callable[..., Certificate]
-    if isinstance(friction_cone, CurvedCone):
-        optimum = friction_cone.optimum(step, si_answer)
+    if curved is not None:
+        optimum = curved.optimum(step, si_answer)
         if optimum is None:
             return _not_enclosed(both, solver, answer, statistics)
         check_length(step, optimum.delta_q, group_steps(step))
-        certificate_of = friction_cone.certificate
+        certificate_of = curved.certificate
     else:
         optimum = solver.optimum(both, answer)
         certificate_of = exact_certificate

@@ -64,8 +64,8 @@ CLAIMS: dict[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionCone:
-    """A polyhedral friction cone: linear inequalities (rows) describe it.
+class FrictionCone(ABC):
+    """A friction cone: what a step, its files and its certificates need to know of it.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class FrictionCone:
     without_torsion : int
         How many of these numbers a contact has whose mu_omega is not used.
     function : callable
-        (gap, slip_1, slip_2, spin) -> the rows.
+        (gap, slip_1, slip_2, spin) -> the rows of a contact in A.
     claims : mapping of str to tuple of str
         The kinds of certificate in it, each with its further fields in a solution file.
     unproved : tuple of str
@@ -91,9 +91,14 @@ class FrictionCone:
     unproved: tuple[str, ...] = ()
 
     @property
+    def curved(self) -> CurvedCone | None:
+        """Itself, where rows alone do not describe it."""
+        return None
+
+    @property
     def polyhedral(self) -> bool:
-        """Whether linear inequalities alone describe it."""
-        return not isinstance(self, CurvedCone)
+        """Whether linear inequalities (rows) alone describe it."""
+        return self.curved is None
 
     @cached_property
     def matrix(self) -> Array:
@@ -106,28 +111,24 @@ class FrictionCone:
 
     def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
-        return np.where(rows == 6, len(self.row_names), self.without_torsion)
+        return np.where(has_torsion(rows), len(self.row_names), self.without_torsion)
 
+    @abstractmethod
     def row_coefficients(self, mu: Array) -> Array:
-        """What slips and spin are multiplied by in the rows, (n_c, 3) [-, -, m]: `mu`, (n_c, 3)."""
-        return mu
+        """What slips and spin are multiplied by in A, (n_c, 3) [-, -, m]; `mu` as of contacts."""
 
+    @abstractmethod
     def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
         """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,).
 
-        One for each row of the cone, of the contacts that have it by `mask`, shape (n_c, R); none
-        where no contact has.
+        `mask`, shape (n_c, R), says which contact has which row.
         """
-        sides = self.function(*motion)
-        return [side[has] >= 0 for side, has in zip(sides, mask.T, strict=True) if has.any()]
 
+    @abstractmethod
     def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
         """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
-        lam = np.zeros(mask.shape)
-        for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
-            lam[mask[:, i], i] = row.dual_value
-        return lam[mask]
 
+    @abstractmethod
     def judge(self, step: StepData) -> Judge:
         """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
 
@@ -136,15 +137,43 @@ class FrictionCone:
         callable
             As :func:`row_violations`, of all rows of A.
         """
+
+
+class PolyhedralCone(FrictionCone):
+    """A cone that its rows describe: the core proves its optima by exact rows."""
+
+    def row_coefficients(self, mu: Array) -> Array:
+        """The coefficients of friction `mu`, (n_c, 3) [-, -, m], themselves."""
+        return mu
+
+    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+        """One for each row of the cone [m], of the contacts that have it; none where none has."""
+        sides = self.function(*motion)
+        return [side[has] >= 0 for side, has in zip(sides, mask.T, strict=True) if has.any()]
+
+    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+        """Lam of solved :meth:`constraints`, shape (m,) [N s]; `mu` is not used."""
+        lam = np.zeros(mask.shape)
+        for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
+            lam[mask[:, i], i] = row.dual_value
+        return lam[mask]
+
+    def judge(self, step: StepData) -> Judge:
+        """See :func:`row_violations`."""
         return row_violations
 
 
-class CurvedCone(FrictionCone, ABC):
+class CurvedCone(FrictionCone):
     """A cone that no rows describe: an optional part, which proves its own answers.
 
     Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
-    that :class:`FrictionCone` does by its rows, and the core by exact rows, it does itself.
+    that :class:`PolyhedralCone` does by its rows, and the core by exact rows, it does itself.
     """
+
+    @property
+    def curved(self) -> CurvedCone:
+        """Itself."""
+        return self
 
     @abstractmethod
     def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Any | None:
@@ -192,6 +221,11 @@ class CurvedCone(FrictionCone, ABC):
         claims: Certificate | None,
     ) -> Verdict:
         """As :func:`~quasistatic_ref.certify.certificate.verify`."""
+
+
+def has_torsion(rows: Indices) -> Mask:
+    """Whether contacts use mu_omega, shape (n_c,), from their ``rows``, 6 or 4, shape (n_c,)."""
+    return np.equal(rows, 6)
 
 
 def row_violations(slack: Array, lam: Array) -> Violations:
@@ -293,11 +327,11 @@ def cone(name: str) -> FrictionCone:
     sliding = ("+d1", "+d2", "-d1", "-d2")
     spin = ("+spin", "-spin")
     if name == PYRAMID:
-        return FrictionCone(name, sliding + spin, 4, pyramid)
+        return PolyhedralCone(name, sliding + spin, 4, pyramid)
     if name == "product":
-        return FrictionCone(name, tuple(d + s for s in spin for d in sliding), 4, product_cone)
+        return PolyhedralCone(name, tuple(d + s for s in spin for d in sliding), 4, product_cone)
     if name == "frictionless":
-        return FrictionCone(name, ("n",), 1, frictionless)
+        return PolyhedralCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
         curved: FrictionCone = needed_part("ellipsoid.cone", f'cone = "{name}"').ELLIPSOID_CONE
         return curved
@@ -305,7 +339,7 @@ def cone(name: str) -> FrictionCone:
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)
         if K % 2 == 0 and 4 <= K <= MOST_FACETS:
-            return FrictionCone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
+            return PolyhedralCone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
     problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
 

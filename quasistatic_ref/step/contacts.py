@@ -14,12 +14,14 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
+    Mask,
     check_and_freeze,
     checked_names,
     checked_numbers,
     column_count,
     read_only,
 )
+from quasistatic_ref.step.cones import has_torsion
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 AXES = np.eye(3)
@@ -135,6 +137,11 @@ class Contacts(Plain, Shown):
         """Number of contacts."""
         return len(self.name)
 
+    @property
+    def torsion(self) -> Mask:
+        """Whether each contact uses its mu_omega, shape (n_c,)."""
+        return has_torsion(self.rows)
+
     @cached_property
     def mu(self) -> Array:
         """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
@@ -172,4 +179,4 @@ class Contacts(Plain, Shown):
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
-    return read_only(np.column_stack([mu_v, mu_v, mu_omega * (rows == 6)]))
+    return read_only(np.column_stack([mu_v, mu_v, mu_omega * has_torsion(rows)]))

@@ -64,7 +64,7 @@ class StepProblem(Shown):
         h = template.h
         mu_v = template.contacts.mu[:, 0]
         mu_omega = template.contacts.mu[:, 2]
-        torsional = template.contacts.rows == 6
+        torsional = template.contacts.torsion
 
         # What changes from step to step.
         K_q = cp.Parameter((n_a, n_a), "K_q", PSD=True)  # stiffness of the actuated coordinates

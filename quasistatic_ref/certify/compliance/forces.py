@@ -49,7 +49,7 @@ from quasistatic_ref.certify.rational import (
 from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import InputError, StepInfeasible, StepNotSolved
 from quasistatic_ref.step.arrays import read_only, without_warnings
-from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import group_steps
@@ -167,9 +167,9 @@ def _one_of(given: Array) -> float:
 
 def _without_compliance(step: StepData) -> tuple[Array, Array]:
     """delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step itself."""
-    friction_cone = cone(step.cone)
-    if isinstance(friction_cone, CurvedCone):
-        optimum = friction_cone.optimum(step, None)
+    curved = cone(step.cone).curved
+    if curved is not None:
+        optimum = curved.optimum(step, None)
         if optimum is None:
             raise StepNotSolved("none", "no enclosure of the optimum was found", step, 0.0)
     else:
@@ -180,9 +180,9 @@ def _without_compliance(step: StepData) -> tuple[Array, Array]:
 
 def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactForces:
     """The forces of a step by itself, or of a group of one, by one compliance [m/N]."""
-    friction_cone = cone(step.cone)
-    if isinstance(friction_cone, CurvedCone):
-        wrench, delta_q = friction_cone.forces(step, c, near)
+    curved = cone(step.cone).curved
+    if curved is not None:
+        wrench, delta_q = curved.forces(step, c, near)
     else:
         faces = without_warnings(guessed_faces, step, c, near[1])
         p, delta_q = eliminated_optimum(step, c, faces) or defined_optimum(step, c)

@@ -74,7 +74,7 @@ def data_rates(
         stop = places[name].stop
 
     parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
-    torsional = (contacts.rows == 6)[:, None, None]
+    torsional = contacts.torsion[:, None, None]
     by_friction = {
         "dq_dmu_v": parts * np.array([0, 1, 1, 0])[:, None],
         "dq_dmu_omega": parts * np.array([0, 0, 0, 1])[:, None] * torsional,

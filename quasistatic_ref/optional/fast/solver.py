@@ -17,7 +17,7 @@ from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
-from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import BOUNDED
@@ -38,7 +38,7 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     name = fast_backend(name, step.cone)
     if name not in native_backends(step.cone):
         return solver_for(step, name)
-    if isinstance(cone(step.cone), CurvedCone):
+    if cone(step.cone).curved is not None:
         return ConeSolver(step, name)
     large = part("large.sparse_contacts")
     if large is not None and isinstance(step.contacts, large.SparseContacts):

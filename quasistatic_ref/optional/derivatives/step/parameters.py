@@ -95,7 +95,7 @@ def _coefficients(step: StepData, unloaded: Fractions) -> Iterator[Change]:
     rows = cone_function(step.cone)
     coefficients = cone_matrix(step.cone)
     slides = coefficients[:, 1:3].any(axis=1)
-    spins = (coefficients[:, 3] != 0) & (contacts.rows == 6)[:, None]
+    spins = (coefficients[:, 3] != 0) & contacts.torsion[:, None]
     for symbol, mu, by, changes in (
         ("mu_v", contacts.mu_v, rows(none, J_1, J_2, none), step.mask & slides),
         ("mu_omega", contacts.mu_omega, rows(none, none, none, J_w), step.mask & spins),
