@@ -99,6 +99,33 @@ def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
         assert bound - error == 2 * (gap(best[0], lam) + best[1] @ (A @ x - b + v))
 
 
+@pytest.mark.parametrize("seed", sorted({*range(25)} - INFEASIBLE))
+def test_r48_three_residuals_bound_the_error_of_any_answer(seed):
+    """(R48), of any x and lam, some of them negative.
+
+    The first bound is above the squared error by (lam + w)'s* + lam*'(A x - b + v), and below the
+    second, which has norms alone.
+    """
+    rng = np.random.default_rng(seed)
+    step = mixed_step(seed)
+    best, press = optimum(step)
+    H, g, A, b = program(step)
+    slack = A @ best - b
+    for size in (1e-9, 1e-3):
+        x = best + exact(size * rng.normal(size=step.n_v))
+        lam = press + exact(size * step.h * rng.normal(size=len(b)))
+        v, w = np.maximum(b - A @ x, 0), np.maximum(-lam, 0)
+        r = H @ x - g - lam @ A
+        gap = x @ H @ x - g @ x - b @ lam
+        first = gap + press @ v - best @ r + w @ slack
+        error = (x - best) @ H @ (x - best)
+        assert first - error == (lam + w) @ slack + press @ (A @ x - b + v) >= 0
+        sizes = ((press, v), (best, r), (slack, w))
+        assert first <= abs(gap) + sum(
+            abs(one).sum() * max(abs(other), default=0) for one, other in sizes
+        )
+
+
 @pytest.mark.parametrize("value", [0.0, 1.0, -1.0, 0.1, 5e-324])
 def test_a_gap_in_joules_is_never_below_what_it_is(value):
     form = exact_form(grasp_step(np.random.default_rng(0)))

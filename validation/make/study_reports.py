@@ -1,8 +1,8 @@
 """The committed studies made again: ``python -m validation.make.study_reports [NAME...]``.
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
-that the numbers of the committed report are those of the committed rows. ``--report`` runs nothing,
-and reports the rows that are there.
+that the numbers of the committed report are those of the committed rows. ``--report`` runs nothing:
+it judges the claims of the rows that are there again, by today's files of options, and reports them.
 
 ``bunny_torsion`` compares no solvers. It is the grasp with other values, run as by ``run --sweep``,
 but for 3 s whatever h is, and measured from when the grip is closed.
@@ -13,7 +13,11 @@ import tempfile
 import time
 
 from quasistatic_ref.cli.main import main as command
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.study.measuring.judging import judged_again, repacked
 from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.store.store import contents
 from validation.tools.scripts import ROOT, asked
 
 FOLDER = ROOT / "validation" / "studies"
@@ -37,12 +41,17 @@ SWEEPS = [Sweep(name, "bunny_grasp", "bunny", 3.0, 0.7, axes) for name, axes in 
 
 
 def made(name: str, run: bool) -> None:
-    """Run and pack one study, unless its rows are to stay; report it."""
+    """Run and pack one study, or judge the claims of its rows again; report it."""
     out = str(FOLDER / name)
     with tempfile.TemporaryDirectory() as store:
         begun = time.perf_counter()
         if run and name == GRIP:
             run_sweep(SWEEPS, store)
+        if not run and name != GRIP:
+            found = contents(out, every=True)
+            ids = [one["id"] for one in found.problems]
+            problems = set_read(problem_set_folder(CONTACT_QP_2), ids=ids)
+            repacked(judged_again(found, problems), FOLDER / name)
         steps = [] if name == GRIP else [["run", name, "--out", store]]
         steps.append(["pack", store, "--out", out])
         for step in (*(steps if run else []), ["report", out, "--out", out]):

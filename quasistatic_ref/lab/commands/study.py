@@ -11,8 +11,7 @@ from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.commands import study_ask, study_problems
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
-from quasistatic_ref.lab.study.measuring.grade import OUTCOMES
-from quasistatic_ref.lab.study.store.rows import Row, label_of
+from quasistatic_ref.lab.study.store.rows import OUTCOMES, Row, label_of
 from quasistatic_ref.lab.study.store.store import STORE, contents
 
 ACTIONS = {

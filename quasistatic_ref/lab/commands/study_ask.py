@@ -39,6 +39,7 @@ def run_ask(options: argparse.Namespace) -> int:
 
 
 def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
+    from quasistatic_ref.lab.study.calling.promises import promise_words
     from quasistatic_ref.lab.study.report.words import milliseconds, options_words
 
     form = one.problem.form
@@ -54,7 +55,6 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         )
         if holds
     ]
-    promised = f"{one.solver.promises(one.setting):g} digits are promised by an optimal"
     time = "-" if seconds["call"] is None else f"{milliseconds(seconds['call'])} ms"
     if seconds["low"] is not None:
         span = " to ".join(milliseconds(seconds[name]) for name in ("low", "high"))
@@ -67,8 +67,10 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         ("outcome", f"{row['outcome']}; its own status: {row['claimed']}"),
         ("digits", _listed(row["digits"], ".1f")),
         ("residuals", _listed(row["residuals"], ".1e")),
+        ("promised", promise_words(one.solver.promises(one.setting))),
+        ("limits", _listed(row["allowed"], ".1e")),
         ("time", time),
-        ("false claims", ", ".join(false) or f"none ({promised})"),
+        ("false claims", ", ".join(false) or "none"),
     ]  # fmt: skip
 
 

@@ -11,8 +11,8 @@ def run_report(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.page.markdown import markdown_page
     from quasistatic_ref.lab.study.report.report import study_report
 
-    report = study_report(options.store)
     out = options.store / "report" if options.out is None else options.out
+    report = study_report(options.store, out)
     folder = writable_folder(out / "figures")
     inside = {}
     for picture in report.pictures:

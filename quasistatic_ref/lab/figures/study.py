@@ -54,6 +54,25 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
     return figure
 
 
+def kept_digits(data: Mapping[str, Any]) -> Figure:
+    """Digits of kept tolerances, a row a family: from the 5th percentile to the median."""
+    families = list(data["lines"])
+    settings = data["settings"]
+    pen = pens(settings)
+    figure, axes = plt.subplots(figsize=(PAGE, 0.9 + 0.3 * len(families)), layout="constrained")
+    for k, setting in enumerate(settings):
+        dress = pen[setting] | {"markerfacecolor": "white"}
+        for row, family in enumerate(families):
+            low, median = data["lines"][family][2 * k : 2 * k + 2]
+            if median != "-":
+                at = row + 0.18 * (k - (len(settings) - 1) / 2)
+                axes.plot([float(low), float(median)], [at, at], **dress, markevery=[1])
+    axes.set(xlim=(0, 16.5), xlabel=r"correct digits of $\delta q$ [-]", ylim=(len(families), -1))
+    axes.set_yticks(range(len(families)), [family.replace("_", " ") for family in families])
+    _legend(figure, list(settings))
+    return figure
+
+
 def sweep(data: Mapping[str, Any]) -> Figure:
     """Rotation and boundary layer against a parameter, a line a value of the second one."""
     lines = data["lines"]

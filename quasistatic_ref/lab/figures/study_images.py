@@ -7,11 +7,11 @@ from typing import Any
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.lab.figures.study import digits_time, profiles, sweep
+from quasistatic_ref.lab.figures.study import digits_time, kept_digits, profiles, sweep
 from quasistatic_ref.optional.show.figures.style import figure_style
 
 KINDS: dict[str, Callable[[Mapping[str, Any]], Figure]] = {
-    draw.__name__: draw for draw in (profiles, digits_time, sweep)
+    draw.__name__: draw for draw in (profiles, digits_time, kept_digits, sweep)
 }
 
 

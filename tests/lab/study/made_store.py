@@ -44,6 +44,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "digits": {"delta_q": digits, "net_wrench": digits and digits * 0.9,
                    "multipliers": digits and digits * 0.8},
         "residuals": {"primal": 1.23456e-9, "dual": None, "gap": 0.0},
+        "allowed": dict.fromkeys(("primal", "dual", "gap")),  # of digits that were promised
         "seconds": dict.fromkeys(CLOCKS) | own,
         "calls": 5,
         "clock_agrees": chance.random() < 0.99,
@@ -98,7 +99,7 @@ STUDY = {
             "interface": s.split(":")[0],
             "target": s.split(":")[1],
             "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in SETTINGS.items()},
-            "promised": {name: promised for name, (_, promised) in SETTINGS.items()},
+            "promise": {name: {"digits": digits} for name, (_, digits) in SETTINGS.items()},
         }
         for s in SOLVERS
     ],

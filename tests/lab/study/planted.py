@@ -146,4 +146,4 @@ ANY = Solver("any", "callable", "planted_solvers:any_of", {one: {"name": one} fo
 
 def setting(name):
     """The setting of ``ANY`` that is one of the harmless solvers."""
-    return Setting(name, None, 3.0)
+    return Setting(name, None)

@@ -67,7 +67,7 @@ def test_every_command_of_the_page_does_what_it_says(folder, monkeypatch):
     for title in (
         "Each solver",
         "Setting default",
-        "False claims of success",
+        "Claims, natural",
         "How the calls ended",
     ):
         table = report.partition(f"**{title}")[2].partition("\n**")[0]

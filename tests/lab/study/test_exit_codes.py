@@ -9,6 +9,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, claim, hides
 from quasistatic_ref.lab.study.calling.guests import installed_here
 from quasistatic_ref.lab.study.calling.options import option_file, options_at
+from quasistatic_ref.lab.study.calling.promises import RESIDUALS, UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from validation.make import exit_codes
@@ -51,17 +52,34 @@ def test_what_an_interface_hides_is_not_said():
 
 
 @pytest.mark.parametrize("interface", ["native", "qpsolvers", "cvxpy"])
-def test_a_promise_is_half_of_the_digits_of_the_largest_tolerance(interface):
-    """-log10(2 eps) / 2, rounded down to a half: 1e-3 promises 1, 1e-9 promises 4."""
+def test_every_solver_that_takes_an_accuracy_promises_residuals_of_it(interface):
+    """1e-9 is asked for: no residual that the documentation states has a larger absolute part."""
     for name in installed_here(interface):
         solver = Solver(name, interface, name)
         own = option_file(name)
-        assert "accuracy" not in own or own["source"].startswith("https://")
-        if solver.takes(HIGH):
-            assert solver.promises(HIGH) == 4.0
-    assert Solver("osqp", "qpsolvers", "osqp").promises(SETTINGS[0]) == 1.0
-    assert Solver("osqp", "cvxpy", "osqp").promises(SETTINGS[0]) == 2.0  # 1e-5 there
-    assert Solver("osqp", "native", "osqp").promises(Setting("mine", None, 7.0)) == 7.0
+        if "accuracy" not in own:
+            continue
+        assert own["source"].startswith("https://")
+        assert own["promise"]["source"].startswith("https://")
+        promise = solver.promises(HIGH)
+        stated = own.get(interface, {}).get("promise", own["promise"])
+        assert {"primal"} <= stated.keys() <= {"source", *RESIDUALS}
+        for residual in stated.keys() & set(RESIDUALS):
+            if promise[residual] is not None and name != "highs":
+                assert promise[residual]["abs"] in (0.0, 1e-9)
+                assert promise[residual]["rel"] in (0.0, 1e-9)
+
+
+def test_a_promise_is_of_the_defaults_of_an_interface_and_of_what_a_study_says_instead():
+    osqp = {way: Solver("osqp", way, "osqp") for way in ("native", "cvxpy")}
+    absolute = {way: one.promises(SETTINGS[0])["dual"]["abs"] for way, one in osqp.items()}
+    assert absolute == {"native": 1e-3, "cvxpy": 1e-5}
+    assert osqp["native"].promises(Setting("mine", None, 7.0)) == {"digits": 7.0}
+    own = Solver("mine", "callable", "m:f", promised={"high": {"primal": 1e-8, "gap": False}})
+    said = own.promises(HIGH)
+    assert (said["primal"]["abs"], said["gap"]) == (1e-8, None)
+    assert said["dual"]["rel"] == UNSTATED["rel"]  # of which nothing is said
+    assert own.promises(SETTINGS[2])["gap"]["abs"] == SETTINGS[2].accuracy
 
 
 def test_high_sets_what_proves_that_there_is_no_solution_where_the_interface_takes_it():

@@ -1,7 +1,10 @@
 """The report: each number of it is made again from the rows that it names, by plain loops."""
 
 import re
+import sqlite3
+from contextlib import closing
 from html import unescape
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -31,18 +34,83 @@ def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
     assert plain_report.checked(tables, rows, made_store.LIMIT) > 150
 
 
+def counted(rows):
+    """Claims by kind, by plain loops."""
+    kinds = dict.fromkeys(
+        ["rows", "multipliers", "no numbers", "no solution", "kept, no solution", "infeasible"], 0
+    )
+    for row in rows:
+        if row["said_optimal"] and not row["feasible"]:
+            kinds["no solution" if row["wrong"] else "kept, no solution"] += 1
+        elif row["said_optimal"]:
+            kinds["no numbers"] += row["outcome"] == "nan"
+            kinds["multipliers"] += row["wrong_multipliers"]
+            alone = not row["wrong_multipliers"] and row["outcome"] != "nan"
+            kinds["rows"] += row["wrong"] and alone
+        elif row["said_infeasible"]:
+            kinds["infeasible"] += row["wrong"]
+    return [str(count) for count in kinds.values()]
+
+
 def test_false_claims_are_those_of_the_rows(tables, rows):
-    found = plain_report.lines(tables, titled="False claims of success")
+    found = plain_report.lines(tables, titled="Claims, ")
     assert len(found) == 16
     for _, where, columns, (solver, *cells) in found:
         for setting, cell in zip(columns[1:], cells, strict=True):
-            words = f"{where}, label = {solver}, setting = {setting}"
-            own = picked(rows, words)
-            said = [row for row in own if row["said_optimal"]]
-            counts = (sum(row["wrong"] for row in said),
-                      sum(row["wrong"] and row["said_infeasible"] for row in own),
-                      sum(row["wrong_multipliers"] for row in own))  # fmt: skip
-            assert cell == f"{' + '.join(map(str, counts))} / {len(said)}"
+            own = picked(rows, f"{where}, label = {solver}, setting = {setting}")
+            said = sum(row["said_optimal"] for row in own)
+            assert cell == f"{' + '.join(counted(own))} / {said}"
+
+
+def test_the_first_screen_counts_every_solver_on_every_problem(tables, rows):
+    """Its claims are of all problems, its digits and times of half of them."""
+    (_, where, columns, body), *_ = tables
+    shown = {line[0]: dict(zip(columns, line, strict=True)) for line in body}
+    assert sorted(shown) == ["ant", "bee", "cat"]
+    settings = {(line[0], line[1]): line[2] for table in tables if "its own options" in table[2]
+                for line in table[3]}  # fmt: skip
+    for name, line in shown.items():
+        words = f"label = {line['interface']}:{name}"
+        words += f", setting = {settings[name, line['interface']]}"
+        every = picked(rows, f"{where.split(';')[0]}, {words}")
+        called = [row for row in every if row["outcome"] != "not_run_budget"]
+        assert [line[c] for c in columns if c.startswith(("false", "kept"))] == counted(called)
+        failed = [row for row in called if row["feasible"] and not row["said_optimal"]]
+        missed = len(every) - len(called)
+        assert [line["failures"], line["calls not made"]] == [str(len(failed)), str(missed)]
+        possible = [row for row in called if row["feasible"]]
+        half = [r for r in possible if crc32(r["problem"].rpartition("/")[0].encode()) % 2]
+        for least in (3, 6):
+            cell = next(line[c] for c in columns if c.startswith(f">= {least} digits"))
+            share = 100 * sum(delivered(row) >= least for row in half) / len(half)
+            assert agrees(cell.split(" (")[0], share)
+        times = [row["seconds"]["call"] for row in half if row["outcome"] == "solved"]
+        for column, part in (("time, median [ms]", 0.5), ("time, 95 % [ms]", 0.95)):
+            assert agrees(line[column], 1e3 * quantile(times, part))
+        net = [delivered(row, "net_wrench") for row in half if row["outcome"] == "solved"]
+        assert agrees(line["digits of A'lam, median"], quantile(net, 0.5))
+
+
+def test_the_sentences_above_the_first_table_are_counts_of_all_rows(store, report):
+    """Counted by SQL."""
+    with closing(sqlite3.connect(store / "study.sqlite")) as tables:
+
+        def count(where):
+            return tables.execute(f"SELECT count(*) FROM rows WHERE {where}").fetchone()[0]
+
+        said = count("said_optimal AND feasible")
+        false = count("said_optimal AND feasible AND wrong")
+        multipliers = count("said_optimal AND feasible AND wrong AND wrong_multipliers")
+        none = count("said_infeasible")
+        untrue = count("said_infeasible AND wrong")
+    page = markdown_page(report)
+    assert false > multipliers > 0
+    assert (
+        f"Of {said:,} claims of success on problems with a solution {false:,} are false: in "
+        f"{multipliers:,} the dual residual or the gap is larger than promised, in the other "
+        f"{false - multipliers:,} only"
+    ) in page
+    assert f"Of {none:,} claims that there is no solution {untrue:,} are false." in page
 
 
 def test_digits_by_family_are_those_of_the_rows(tables, rows):
@@ -55,16 +123,16 @@ def test_digits_by_family_are_those_of_the_rows(tables, rows):
     assert len(found) == 2 * len(made_store.FAMILIES)
 
 
-def test_the_ten_lines_of_the_report_make_its_first_table_again(store, tmp_path, monkeypatch):
-    """Of every interface: setting, problems, share with 6 digits, mean time, false claims."""
+def test_the_lines_of_the_report_make_its_first_table_again(store, tmp_path, monkeypatch):
+    """Of every interface: setting, problems, digits, mean time, claims by kind."""
     packed(store, tmp_path)
     monkeypatch.chdir(tmp_path)
     page = markdown_page(study_report(tmp_path))
     (program,) = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
-    assert len(program.splitlines()) == 10
     names = {}
     exec(program, names)
-    again = {key[:2]: (key[3], own) for key, own in names["table"].iterrows()}
+    table = names["table"].join(names["claims"])
+    again = {key[:2]: (key[3], own) for key, own in table.iterrows()}
     (_, _, columns, body), *_ = (
         table for table in plain_report.parsed(page) if "its own options" in table[2]
     )
@@ -72,10 +140,13 @@ def test_the_ten_lines_of_the_report_make_its_first_table_again(store, tmp_path,
     for line in body:
         shown = dict(zip(columns, line, strict=True))
         setting, own = again[shown["interface"], shown["solver"]]
-        false = sum(int(shown[f"said {claim}, was wrong"]) for claim in ("optimal", "infeasible"))
-        assert (shown["setting"], false) == (setting, own["false"])
+        assert shown["setting"] == setting
+        for kind in names["kinds"]:
+            column = next(c for c in columns if c.removeprefix("false: ") == kind)
+            assert int(shown[column]) == own[kind]
         assert int(shown["problems"]) == own["problems"]
-        assert agrees(shown[">= 6 digits [%]"], own["six"])
+        assert agrees(shown[columns[columns.index("problems") + 1]].split(" (")[0], own["six"])
+        assert agrees(shown[">= 3 digits [%]"], own["three"])
         mean = next(name for name in columns if name.startswith("time to"))
         assert agrees(shown[mean], 1e3 * own["mean"])
 
@@ -113,7 +184,7 @@ def test_times_are_ranked_on_a_quiet_machine_only(store, tmp_path):
         page, lines = headline(tmp_path / load[:3], rows, machine=machine)
         assert ("Times are not ranked" not in page) == ranked
         name = next(n for n in lines[0] if n.startswith("time to" if ranked else ">= 6"))
-        values = [float(line[name]) for line in lines]
+        values = [float(line[name].split(" (")[0]) for line in lines]
         assert values == sorted(values, reverse=not ranked)
         assert any(picture.kind == "profiles" for picture in study_report(
             tmp_path / load[:3]).pictures) == ranked  # fmt: skip

@@ -174,11 +174,15 @@ def function_reply(function: Callable[..., Any], form: StandardForm, options: Op
     if returned is None or isinstance(returned, str):
         said = "returned None" if returned is None else returned
         return _failed(" ".join(said.split())[:200], seconds)
-    try:
-        x, z = returned
-    except (TypeError, ValueError):
-        x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
+    if not isinstance(returned, tuple | list) or len(returned) != 2:
+        kind = type(returned).__name__
+        kind += f" of {len(returned)}" if isinstance(returned, tuple | list) else ""
+        said = f"returned a {kind} in place of (x, z), which have {len(q)} and {len(h)} numbers"
+        return Reply(np.zeros((0, 0)), None, False, said, call_seconds=seconds)
+    x, z = returned
     lam = None if z is None else _numbers(z)
+    if isinstance(x, str):  # a claim that there is no solution, with what proves it
+        return Reply(None, lam, False, x, call_seconds=seconds)
     return Reply(_numbers(x), lam, True, "returned", call_seconds=seconds)
 
 

@@ -6,13 +6,8 @@ from typing import Any
 
 from quasistatic_ref.lab.study.calling.claims import claim
 from quasistatic_ref.lab.study.calling.guests import EVERY
-from quasistatic_ref.lab.study.calling.options import (
-    digits_of_accuracy,
-    has_accuracy,
-    option_file,
-    options_at,
-    promised_digits,
-)
+from quasistatic_ref.lab.study.calling.options import has_accuracy, option_file, options_at
+from quasistatic_ref.lab.study.calling.promises import RESIDUALS, Promise, promise_of, resolved
 from quasistatic_ref.solve.backends import BACKENDS, Backend
 
 INTERFACES = ("cvxpy", "qpsolvers", "native", "package", "callable", "executable")
@@ -28,8 +23,8 @@ class Setting:
     accuracy : float or None
         Of residuals and gap, in the units of the problem as given [-]; None: the default.
     promised : float or None
-        Correct digits [-] of delta_q that an "optimal" promises; None: those that the tolerances
-        of each solver promise.
+        Correct digits [-] of delta_q that an "optimal" promises; None: residuals, as each solver
+        promises them.
     tuned : bool
         The options that the simulator uses in place of the plain ones.
     """
@@ -62,12 +57,15 @@ class Solver:
         The solver's name there; ``module:function``; or a command with its arguments.
     options : mapping of str to mapping
         Options of its own by setting, in place of ours.
+    promised : mapping of str to number or mapping
+        By setting, what its author promises: digits, or residuals as in ``promises.py``.
     """
 
     name: str
     interface: str
     target: str | tuple[str, ...]
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    promised: Mapping[str, float | Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
@@ -119,14 +117,23 @@ class Solver:
         tuned = option_file(name).get("tuned", {}) if setting.tuned else {}
         return limit | options_at(name, self.interface, accuracy) | tuned
 
-    def promises(self, setting: Setting) -> float:
-        """Correct digits of delta_q that its "optimal" promises at a setting [-]."""
-        if setting.promised is not None:
-            return setting.promised
-        if not self.known:
-            return digits_of_accuracy(setting.accuracy)
+    def promises(self, setting: Setting) -> Promise:
+        """What its "optimal" promises at a setting.
+
+        It is what its author says, else what a study file says of the setting, else what its
+        documentation says of its options.
+        """
+        said = self.promised.get(setting.name, setting.promised)
         options = self.settings_of(setting, 1.0)
-        return promised_digits(str(self.target), self.interface, options)
+        if isinstance(said, int | float):
+            return {"digits": float(said)}
+        if said is not None:
+            return resolved(said, options)
+        if self.known:
+            return promise_of(str(self.target), self.interface, options)
+        return resolved(
+            {} if setting.accuracy is None else dict.fromkeys(RESIDUALS, setting.accuracy), {}
+        )
 
     def claim(self, status: str) -> str:
         """What a status of it claims, as :func:`.claims.claim` says."""

@@ -1,4 +1,4 @@
-"""A reply against the truth: correct digits, residuals, and whether its claim holds.
+"""A reply against the exact answer: correct digits, residuals, and whether its claim holds.
 
 Errors and digits are computed in natural units, whichever units the solver was called in: the
 conversion is lossless, and digits are relative. Residuals are those in the units of the call.
@@ -13,25 +13,31 @@ import numpy as np
 from quasistatic_ref.certify.norm import MOST, EnergyNorm, digits_of_error, energy_norm
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
+from quasistatic_ref.lab.study.calling.promises import UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
+from quasistatic_ref.lab.study.measuring.verdict import (
+    Terms,
+    certificate_holds,
+    judged,
+    largest,
+    terms_of,
+)
 from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
 from quasistatic_ref.lab.study.problems.problem import Answer, Problem
-from quasistatic_ref.lab.study.store.rows import CLOCKS, Row
+from quasistatic_ref.lab.study.store.rows import (
+    CLOCKS,
+    FAILED,
+    NAN,
+    NOT_RUN,
+    SOLVED,
+    TABLES,
+    WRONG_SHAPE,
+)
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
-SOLVED = "solved"
-FAILED = "failed"
-NAN = "nan"
-WRONG_SHAPE = "wrong_shape"
-CRASHED = "crashed"
-TIMEOUT = "timeout"
-MEMORY = "memory"
-NOT_RUN = "not_run_budget"
-REPLIED = (SOLVED, FAILED, NAN, WRONG_SHAPE)
-OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
 SLACK = 1e-13
 """Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
 
@@ -51,6 +57,8 @@ class ProblemForms:
         Of the problem in natural units.
     free : float
         ||H^-1 g||_H in natural units [-].
+    terms : dict of str to mapping
+        By units, what promises are about.
     """
 
     forms: dict[str, StandardForm]
@@ -58,6 +66,7 @@ class ProblemForms:
     answer: Answer
     norm: EnergyNorm
     free: float
+    terms: dict[str, Terms]
 
 
 @lru_cache(maxsize=8)  # of the problem at which all solvers are
@@ -67,9 +76,9 @@ def problem_forms(problem: Problem) -> ProblemForms:
     form = natural.form
     norm = energy_norm(form.H)
     free = float(norm.of_impulses(form.g[None])[0])
-    return ProblemForms(
-        {RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free
-    )
+    raw = problem.form
+    terms = {RAW: terms_of(raw, problem.answer), NATURAL: terms_of(form, natural.answer)}
+    return ProblemForms({RAW: raw, NATURAL: form}, problem.units, natural.answer, norm, free, terms)
 
 
 def grades(
@@ -91,42 +100,25 @@ def grades(
     -------
     dict
     """
-    outcome, x, lam = _usable(ready.forms[units], reply)
+    form = ready.forms[units]
+    outcome, x, lam = _usable(form, reply)
     row = ungraded(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
     with np.errstate(all="ignore"):
         if x is not None:
-            row["residuals"] = _residuals(ready.forms[units], x, lam)
+            row["residuals"] = _residuals(form, x, lam)
             if units == RAW:
                 x = x / (ready.units.size * ready.units.coordinate)
                 lam = None if lam is None else lam * (ready.units.length / ready.units.size)
             if not ready.answer.farkas:
                 row["digits"] = _digits(ready, ready.answer, x, lam)
     row["seconds"] |= {"solver": _finite(reply.own), "setup": _finite(reply.setup)}
-    row |= {"said_optimal": reply.solved, "iterations": reply.iterations}
-    return row_with_verdict(row, solver.claim(reply.status), solver.promises(setting))
-
-
-def row_with_verdict(row: Row, claim: str, promised: float) -> Row:
-    """A row with what is made of its claim and digits: whether the claim is false.
-
-    Parameters
-    ----------
-    row : dict
-    claim : str
-        Of its status, as the table of exit codes has it.
-    promised : float
-        Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
-    """
-    solved = row["said_optimal"]
-    digits = row["digits"]
-    infeasible = not solved and row["outcome"] in REPLIED and claim == INFEASIBLE
-    short = {name: solved and (digits[name] or 0.0) < promised for name in digits}
-    return row | {
-        "said_infeasible": infeasible,
-        "wrong": infeasible or short["delta_q"] if row["feasible"] else solved,
-        "wrong_multipliers": row["feasible"] and digits["multipliers"] is not None
-        and short["multipliers"],
-    }  # fmt: skip
+    said = reply.solved and outcome != WRONG_SHAPE  # a mistake in the use of the interface
+    row |= {"said_optimal": said, "iterations": reply.iterations}
+    claim = solver.claim(reply.status)
+    certified = False
+    if claim == INFEASIBLE and reply.lam is not None and reply.lam.shape == form.b.shape:
+        certified = certificate_holds(form, reply.lam, setting.accuracy or UNSTATED["abs"])
+    return judged(row, claim, solver.promises(setting), ready.terms[units], certified)
 
 
 def ungraded(
@@ -141,8 +133,9 @@ def ungraded(
         "said_infeasible": False,
         "wrong": False,
         "wrong_multipliers": False,
-        "digits": {"delta_q": None, "net_wrench": None, "multipliers": None},
-        "residuals": {"primal": None, "dual": None, "gap": None},
+        "digits": dict.fromkeys(TABLES["digits"]),
+        "residuals": dict.fromkeys(TABLES["residuals"]),
+        "allowed": dict.fromkeys(TABLES["allowed"]),
         "seconds": dict.fromkeys(CLOCKS) | {"call": seconds},
         "calls": 0,
         "clock_agrees": None,
@@ -205,7 +198,10 @@ def _digits_of(size: float, of: ProblemForms, bound: float) -> float:
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:
-    """Primal and dual residual and duality gap, defined as in qpbenchmark, in the call's units."""
+    """Primal and dual residual and duality gap, in the call's units.
+
+    They are those of qpbenchmark, except that a negative multiplier is a dual residual, too.
+    """
     slack = form.A @ x - form.b
     primal = float(np.maximum(-slack, 0.0).max(initial=0.0))
     if lam is None:
@@ -214,7 +210,7 @@ def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, flo
     gap = abs(float(x @ form.H @ x - form.g @ x - form.b @ lam))
     return {
         "primal": _finite(primal),
-        "dual": _finite(float(np.abs(balance).max(initial=0.0))),
+        "dual": _finite(max(largest(balance), largest(np.minimum(lam, 0.0)))),
         "gap": _finite(gap),
     }
 

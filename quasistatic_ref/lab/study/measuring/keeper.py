@@ -14,7 +14,6 @@ import quasistatic_ref
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.measuring.grade import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.study.measuring.messages import (
     HEAD,
     KEPT,
@@ -23,6 +22,7 @@ from quasistatic_ref.lab.study.measuring.messages import (
     Unreadable,
     from_bytes,
 )
+from quasistatic_ref.lab.study.store.rows import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm

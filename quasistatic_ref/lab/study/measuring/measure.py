@@ -22,9 +22,6 @@ from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.grade import (
-    CRASHED,
-    MEMORY,
-    TIMEOUT,
     ProblemForms,
     grades,
     not_run,
@@ -34,7 +31,7 @@ from quasistatic_ref.lab.study.measuring.grade import (
 from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.measuring.messages import Response
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.lab.study.store.rows import CRASHED, MEMORY, TIMEOUT, Row
 from quasistatic_ref.step.data import Array
 
 LONG = 2e-3

@@ -55,8 +55,14 @@ def to_bytes(response: Response, sizes: tuple[int, int]) -> bytes:
         shapes.append(None if array is None else list(array.shape)[:8])
         if array is not None and array.shape == (size,):
             arrays.append(np.ascontiguousarray(array, dtype="<f8").tobytes())
+    status = reply.status
+    wanted = [[size] for size in sizes]
+    if reply.solved and any(s not in (None, w) for s, w in zip(shapes, wanted, strict=True)):
+        status = (
+            f"x and z of shapes {shapes[0]} and {shapes[1]} in place of {wanted[0]} and {wanted[1]}"
+        )
     head = {
-        "shapes": shapes, "solved": bool(reply.solved), "status": reply.status[:1000],
+        "shapes": shapes, "solved": bool(reply.solved), "status": status[:1000],
         "iterations": reply.iterations, "own": reply.own, "setup": reply.setup,
         "times": list(response.times), "crashed": response.crashed,
     }  # fmt: skip

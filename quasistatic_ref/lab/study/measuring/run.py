@@ -111,9 +111,9 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     for s in study.solvers:
         own = {t.name: t for t in study.settings if s.takes(t)}
         options = {name: s.settings_of(t, study.limits.time_limit) for name, t in own.items()}
-        promised = {name: s.promises(t) for name, t in own.items()}
+        promise = {name: s.promises(t) for name, t in own.items()}
         solvers.append({"name": s.name, "interface": s.interface, "target": s.target,
-                        "options": options, "promised": promised})  # fmt: skip
+                        "options": options, "promise": promise})  # fmt: skip
     return {
         "kind": "solvers",
         **asdict(study.limits),

@@ -94,7 +94,7 @@ class Soonest:
     rows : Rows
         Its calls there, on the half that it is judged on.
     missing : int
-        Calls on that half that a budget did not reach.
+        Calls, of all problems, that a budget did not reach.
     limit : float
         Of a call [s].
     """
@@ -134,8 +134,10 @@ class Comparison:
     ----------
     study : mapping
         As a store has it.
+    every : Rows
+        All of its rows.
     first : Rows
-        Of the first repetition.
+        Those of the first repetition.
     rows : Rows
         Those of them on problems that have a solution, if there are any.
     settings : list of str
@@ -146,6 +148,7 @@ class Comparison:
     """
 
     study: Mapping[str, Any]
+    every: Rows
     first: Rows
     rows: Rows
     settings: list[str]
@@ -169,7 +172,12 @@ class Comparison:
         rows = self.rows.at(self.at(setting), label=label)
         rows = rows.at(half=1) or rows
         called = rows.at(called=True) or rows
-        return Soonest(label, setting, called, len(rows) - len(called), self.limit)
+        missing = len(self.first.at(self.at(setting), label=label, called=False))
+        return Soonest(label, setting, called, missing, self.limit)
+
+    def every_call(self, one: Soonest) -> Rows:
+        """The calls at its setting, of all problems, with a solution and without."""
+        return self.first.at(self.at(one.setting), label=one.label, called=True)
 
     def _order(self, one: Soonest) -> tuple[float, str]:
         six = success(one.rows["digits"], WANTED)
@@ -254,4 +262,4 @@ def comparison_of(study: Mapping[str, Any], every: Rows) -> Comparison:
     widest = max(parts, key=lambda key: (len(set(parts[key]["label"])), len(parts[key])))
     base: Where = dict(zip(("units", "warm"), widest, strict=True))
     names = [s["name"] for s in settings]
-    return Comparison(study, first, rows, names, base, noise_of(every))
+    return Comparison(study, every, first, rows, names, base, noise_of(every))

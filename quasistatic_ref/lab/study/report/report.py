@@ -1,5 +1,6 @@
 """The report on a store, as data; drawing and writing it is the command's."""
 
+import os
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
@@ -9,12 +10,14 @@ from quasistatic_ref.lab.study.report.sweep_report import sweep_report
 from quasistatic_ref.lab.study.store.store import UNREADABLE, contents
 
 
-def study_report(folder: str | Path) -> Report:
+def study_report(folder: str | Path, out: str | Path | None = None) -> Report:
     """The report on a store.
 
     Parameters
     ----------
     folder : str or Path
+    out : str or Path, optional
+        Where the report will lie; by default in the folder of the store.
 
     Returns
     -------
@@ -31,7 +34,7 @@ def study_report(folder: str | Path) -> Report:
     try:
         if found.study["kind"] == "sweep":
             return sweep_report(found.study, found.rows)
-        return solver_report(found)
+        return solver_report(found, os.path.relpath(folder, out or folder))
     except UNREADABLE as error:
         words = " ".join(f"holds what no study has written: {type(error).__name__} {error}".split())
         raise InputError(words[:200], file=folder) from error

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, SOLVED
-from quasistatic_ref.lab.study.store.rows import Row, label_of
+from quasistatic_ref.lab.study.store.rows import NOT_RUN, SOLVED, Row, label_of
 
 Where = Mapping[str, str | bool | int]
 """Field -> value: a filter, as the line below each table states it."""

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Section
+from quasistatic_ref.lab.study.measuring.verdict import FACTOR, SPREAD
 from quasistatic_ref.lab.study.report import tables
 from quasistatic_ref.lab.study.report.cheats import cheat_alone
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of
@@ -19,12 +20,14 @@ from quasistatic_ref.lab.study.report.words import filter_words, sentences
 from quasistatic_ref.lab.study.store.store import Contents
 
 
-def solver_report(found: Contents) -> Report:
+def solver_report(found: Contents, store: str = ".") -> Report:
     """The report on a store of solvers.
 
     Parameters
     ----------
     found : Contents
+    store : str
+        Its folder, as seen from that of the report.
 
     Returns
     -------
@@ -42,9 +45,11 @@ def solver_report(found: Contents) -> Report:
             f"{len(facts):,} problems, {len(set(every['way'])):,} pairs of solver and interface, "
             f"{len(found.rows):,} measurements."
         )
-        sections |= {"Who solves what": _one_screen(comparison, found.unreached, head),
-                     **_of_problems(comparison, facts)}  # fmt: skip
-    method = sentences("method", limit=study["time_limit"], shift=1e3 * SHIFT)
+        sections |= {"Who solves what": _one_screen(comparison, found.unreached, head, store),
+                     **_of_problems(comparison, facts, store)}  # fmt: skip
+    method = sentences(
+        "method", limit=study["time_limit"], shift=1e3 * SHIFT, factor=FACTOR, spread=SPREAD
+    )
     places = [*tables.place_tables(study), tables.options_table(study["solvers"])]
     sections |= {
         "Steps in order": tables.sequence_tables(every, facts),
@@ -58,7 +63,9 @@ def solver_report(found: Contents) -> Report:
     return Report(title, tuple(Section(n, tuple(part)) for n, part in sections.items() if part))
 
 
-def _one_screen(comparison: Comparison, unreached: Mapping[str, str], head: str) -> Sequence[Block]:
+def _one_screen(
+    comparison: Comparison, unreached: Mapping[str, str], head: str, store: str
+) -> Sequence[Block]:
     """The table that says most, and the lines that make its numbers again."""
     words = [f"{label} was left out: it {reason}." for label, reason in unreached.items()]
     there = set(comparison.rows.at(comparison.base)["label"])
@@ -72,11 +79,14 @@ def _one_screen(comparison: Comparison, unreached: Mapping[str, str], head: str)
             words.append(f"{one.label} looks as if it {cheat}.")
     times = comparison.busy or comparison.noise.words
     again = (
-        "These lines make the numbers again, from a store that `study pack` wrote, for every "
-        "interface to a solver, as the next table has them with settings and options."
+        "These lines make the numbers again, for every interface to a solver, as the next table "
+        "has them with settings and options: `table` and `claims`. They read the store that "
+        f"`quasistatic-ref study pack {store} --out .` writes."
     )
     table = tables.headline(comparison.fastest(), comparison)
-    return [head, *words, times, table, again, Code(lines_of_pandas(comparison))]
+    every = tables.claims_sentences(comparison.every)
+    return [head, *every, *words, times, *sentences("times"), table, again,
+            Code(lines_of_pandas(comparison))]  # fmt: skip
 
 
 def lines_of_pandas(comparison: Comparison) -> str:
@@ -92,25 +102,54 @@ def lines_of_pandas(comparison: Comparison) -> str:
 
 
 def _of_problems(
-    comparison: Comparison, facts: Sequence[Mapping[str, Any]]
+    comparison: Comparison, facts: Sequence[Mapping[str, Any]], store: str
 ) -> dict[str, Sequence[Block]]:
     """The sections on problems that were solved one at a time."""
     best = [one.label for one in comparison.fastest()]
-    each = [tables.solver_table(comparison, setting) for setting in comparison.settings]
+    each: list[Block] = []
+    for setting in comparison.settings:
+        each += [tables.solver_table(comparison, setting), *_left_out(comparison, setting)]
     profiles = [] if comparison.busy else [_profiles(comparison, best)]
     rows = comparison.rows
     false = [
-        tables.false_claims(rows, comparison.settings, {"units": units, "warm": warm})
+        tables.false_claims(comparison.first, comparison.settings, {"units": units, "warm": warm})
         for units, warm in sorted(rows.groups("units", "warm"))
     ]
+    asked = [one["name"] for one in comparison.study["settings"] if one["accuracy"]]
+    asked = [name for name in comparison.settings if name in asked]
     return {
         "Every interface": [tables.interface_table(comparison)],
         "Accuracy and time": [*profiles, _against_time(comparison, best), *each],
-        "False claims": [tables.claims_sentence(rows), *false, tables.detection(comparison.first)],
-        "Worst problems": tables.worst_problems(comparison, facts, comparison.fastest()),
+        "Claims": [*false, tables.detection(comparison.first)],
+        "Tolerances and digits": _kept(comparison, asked),
+        "Worst problems": tables.worst_problems(comparison, facts, comparison.fastest(), store),
         "By problem family": [tables.family_table(comparison, name) for name in comparison.main],
         "Units, warm starts, interfaces": _contrasts(comparison),
     }
+
+
+def _left_out(comparison: Comparison, setting: str) -> list[str]:
+    """The solvers that a setting means nothing to."""
+    absent = [name for name, options in comparison.options.items() if setting not in options]
+    if not absent:
+        return []
+    return [f"Not called at {setting}, which means nothing to them: {', '.join(absent)}."]
+
+
+def _kept(comparison: Comparison, settings: Sequence[str]) -> list[Block]:
+    """Accuracy against digits, of answers that kept their tolerances."""
+    if not settings:
+        return []
+    rows = comparison.called
+    table = tables.kept_digits(rows, settings)
+    lines = {line[0]: line[1:] for line in table.rows}
+    data = {"settings": settings, "lines": lines} if lines else {}
+    caption = (
+        "Digits of the answers that kept their tolerances, family by family: from the 5th "
+        "percentile to the median (the mark), one line for each accuracy."
+    )
+    kept = {**comparison.base, **tables.KEPT}
+    return [*sentences("digits"), _picture("kept_digits", data, caption, kept, ""), table]
 
 
 def _profiles(comparison: Comparison, best: Sequence[str]) -> Block:

@@ -10,8 +10,8 @@ from quasistatic_ref.certify.norm import digits_of_error
 from quasistatic_ref.lab.page.parts import Block, Table
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, claim
 from quasistatic_ref.lab.study.calling.options import option_file
+from quasistatic_ref.lab.study.calling.promises import promise_words
 from quasistatic_ref.lab.study.calling.sessions import COLD
-from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, OUTCOMES
 from quasistatic_ref.lab.study.report.cheats import cheat_alone, cheat_in_order
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest
 from quasistatic_ref.lab.study.report.rows import Rows, Where
@@ -29,7 +29,7 @@ from quasistatic_ref.lab.study.report.words import (
     options_words,
     tenths,
 )
-from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.lab.study.store.rows import NAN, NOT_RUN, OUTCOMES, SOLVED, Row
 from quasistatic_ref.solve.backends import BACKENDS
 
 LEVELS = (3.0, 6.0, 9.0)
@@ -39,11 +39,15 @@ LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
 WORST_SHOWN = 10
 """How many worst problems of a solver are shown."""
 HALF = "half = 1, or all where a half is empty; calls that a budget did not reach left out"
+ALL = "from the first column of claims on, of all problems"
+KEPT: Where = {"outcome": "solved", "feasible": True, "wrong": False}
 SHARED = "; on the {} on which all these solvers were called"
 FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")
 """Numbers of a problem whose smallest and largest are shown."""
 WAY = ("interface", "solver", "claimed")
 Cell = Callable[[Rows], str]
+Mask = Callable[[Rows], Any]
+"""Rows -> which of them."""
 
 
 def _share(least: float) -> Cell:
@@ -54,8 +58,25 @@ def _median(name: str, words: Callable[[float], str]) -> Cell:
     return lambda rows: words(float(np.median(rows[name])))
 
 
-def _wrong(claim: str) -> Cell:
-    return lambda rows: str(int((rows["wrong"] & rows[f"said_{claim}"]).sum()))
+def _count(mask: Mask) -> Cell:
+    return lambda rows: str(int(mask(rows).sum()))
+
+
+def _rows_alone(rows: Rows) -> Any:
+    """Claims of success that are false by violated rows alone, or by digits that were promised."""
+    others = rows["wrong_multipliers"] | (rows["outcome"] == NAN)
+    return rows["wrong"] & rows["said_optimal"] & rows["feasible"] & ~others
+
+
+def _percentile(name: str, share: float, words: Callable[[float], str]) -> Cell:
+    """A percentile of what is known of a field, over the calls that solved their problem."""
+
+    def cell(rows: Rows) -> str:
+        values = rows.at(solved=True)[name]
+        known = values[np.isfinite(values)]
+        return words(float(np.percentile(known, share))) if len(known) else "-"
+
+    return cell
 
 
 CELLS: dict[str, Cell] = {
@@ -71,7 +92,16 @@ CELLS: dict[str, Cell] = {
     ),
 }
 """The columns of a table of one setting: heading -> what stands there, of one solver's rows."""
-CLAIMS = {f"said {c}, was wrong": _wrong(c) for c in ("optimal", "infeasible")}
+CLAIMS: dict[str, Cell] = {
+    "false: rows": _count(_rows_alone),
+    "false: multipliers": _count(lambda r: r["wrong_multipliers"] & r["feasible"]),
+    "false: no numbers": _count(lambda r: r["said_optimal"] & (r["outcome"] == NAN)),
+    "false: no solution exists": _count(lambda r: r["said_optimal"] & r["wrong"] & ~r["feasible"]),
+    "kept, no solution exists": _count(lambda r: r["said_optimal"] & ~r["wrong"] & ~r["feasible"]),
+    "false: infeasible": _count(lambda r: r["said_infeasible"] & r["wrong"]),
+}
+"""Claims by kind: of success, on problems with a solution (the first three) and without one (the
+next two: beyond the tolerances, and within them), and that there is none."""
 
 
 def solver_table(comparison: Comparison, setting: str) -> Table:
@@ -103,71 +133,72 @@ def same_problems(rows: Rows) -> str:
     return SHARED.format(f"{len(set(rows['unit'])):,} problems")
 
 
+def _shares(own: Rows) -> str:
+    """The share with 6 digits, and its interval."""
+    samples = resampled((own["digits"] >= WANTED).astype(float), own["family"])
+    span = " to ".join(map(tenths, interval(100 * samples)))
+    return f"{_share(WANTED)(own)} ({span})"
+
+
+SCREEN: dict[str, Cell] = {
+    f">= {WANTED:g} digits [%] (95 % of bootstraps)": _shares,
+    ">= 3 digits [%]": _share(3.0),
+    "digits of A'lam, median": _percentile("net", 50, tenths),
+    "time, median [ms]": _percentile("call", 50, milliseconds),
+    "time, 95 % [ms]": _percentile("call", 95, milliseconds),
+    "first call, median [ms]": _percentile("first", 50, milliseconds),
+}
+"""What the first table has of the half on which a solver is judged."""
+OTHERS = ("failures", "calls not made", "looks as if it")
+"""What it has of all problems, besides claims."""
+
+
 def headline(found: Sequence[Soonest], comparison: Comparison) -> Table:
-    """Who solves what share to 6 digits, in what time, with how many false claims."""
+    """Every solver in one row: digits, times, false claims by kind, and what it looks like."""
     heads = solver_headings(comparison.rows)
-    lines = []
-    for one in found:
-        own = one.rows
-        solved = one.rows.at(solved=True)
-        lines.append((
-            *solver_cells(own),
-            f"{_share(WANTED)(own)} ({_shares(own)})",
-            _median_ms(solved["call"]),
-            _median_ms(solved["first"]),
-            str(int(own["wrong"].sum())),
-            str(one.missing),
-        ))  # fmt: skip
-    columns = (
-        *heads, f">= {WANTED:g} digits [%] (95 % of bootstraps)", "time, median [ms]",
-        "first call, median [ms]", "false claims", "not measured",
-    )  # fmt: skip
+    lines = [(*solver_cells(one.rows), *_screen_cells(one, comparison)) for one in found]
+    there = {one.rows.first("solver") for one in found}
+    absent = sorted({str(one["name"]) for one in comparison.study["solvers"]} - there)
+    blank = ["-"] * (len(SCREEN) + len(CLAIMS) + len(OTHERS) + len(heads) - 2)
+    lines += [(name, "never called", *blank) for name in absent]
     title = f"Each solver at the setting that has {WANTED:g} digits soonest on the other half."
-    where = filter_words(comparison.base, f"; {HALF}")
-    return Table(title, where, columns, tuple(lines), len(heads))
+    where = filter_words(comparison.base, f"; {HALF}; {ALL}")
+    return Table(title, where, (*heads, *SCREEN, *CLAIMS, *OTHERS), tuple(lines), len(heads))
+
+
+def _screen_cells(one: Soonest, comparison: Comparison) -> list[str]:
+    every = comparison.every_call(one)
+    failed = len(every.at(feasible=True, said_optimal=False))
+    cells = [cell(one.rows) for cell in SCREEN.values()]
+    cells += [cell(every) for cell in CLAIMS.values()]
+    return [*cells, str(failed), str(one.missing), cheat_alone(every.at(feasible=True)) or "-"]
 
 
 def interface_table(comparison: Comparison) -> Table:
     """Every interface to a solver at its setting, with its options, and all that is known of it."""
     found = comparison.soonest
-    names = (*solver_headings(comparison.rows), "setting", "its own options", "looks as if it")
+    names = (*solver_headings(comparison.rows), "setting", "its own options")
     lines = []
     for one in found:
         own = one.rows
-        families = one.rows["family"]
-        span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
+        span = interval(np.exp(resampled(np.log(one.times + SHIFT), own["family"])) - SHIFT)
         given = options_words(comparison.options[own.first("way")][one.setting], LIMITS)
-        solved = own.at(solved=True)
         lines.append((
-            *solver_cells(own), one.setting, f"`{given}`", cheat_alone(own) or "-",
-            str(len(own)), str(one.missing), *(_share(least)(own) for least in LEVELS),
-            _shares(own), *(cell(own) for cell in CLAIMS.values()),
-            _median_ms(solved["first"]), _median_ms(solved["call"]), milliseconds(one.mean),
+            *solver_cells(own), one.setting, f"`{given}`", str(len(own)),
+            *_screen_cells(one, comparison), milliseconds(one.mean),
             " to ".join(map(milliseconds, span)), _tie(one, found, comparison),
         ))  # fmt: skip
     columns = (
-        *names, "problems", "calls not made", *(f">= {d:g} digits [%]" for d in LEVELS),
-        f"95 % of bootstraps, {WANTED:g} digits", *CLAIMS, "first call, median [ms]",
-        "repeated, median [ms]", f"time to {WANTED:g} digits, shifted geometric mean [ms]",
-        "95 % of bootstraps, mean", "tie with the first",
+        *names, "problems", *SCREEN, *CLAIMS, *OTHERS,
+        f"time to {WANTED:g} digits, shifted geometric mean [ms]", "95 % of bootstraps, mean",
+        "tie with the first",
     )  # fmt: skip
     title = (
         f"Every interface to a solver at the setting that has {WANTED:g} digits soonest on the "
         "other half."
     )
-    where = filter_words(comparison.base, f"; {HALF}")
+    where = filter_words(comparison.base, f"; {HALF}; {ALL}")
     return Table(title, where, columns, tuple(lines), len(names))
-
-
-def _shares(own: Rows) -> str:
-    """The interval of the share with 6 digits."""
-    samples = resampled((own["digits"] >= WANTED).astype(float), own["family"])
-    return " to ".join(map(tenths, interval(100 * samples)))
-
-
-def _median_ms(values: np.ndarray) -> str:
-    median = _median_or_none(values)
-    return "-" if median is None else milliseconds(median)
 
 
 def _tie(one: Soonest, found: Sequence[Soonest], comparison: Comparison) -> str:
@@ -192,34 +223,47 @@ def outcome_table(rows: Rows) -> Table:
     return Table("How the calls ended.", "repetition = 0", head, tuple(lines))
 
 
-def claims_sentence(rows: Rows) -> str:
-    """How many claims were made, and are false."""
-    optimal, infeasible, wrong = (rows[n] for n in ("said_optimal", "said_infeasible", "wrong"))
-    return (
-        f"{int((wrong & optimal).sum()):,} of {int(optimal.sum()):,} claims of success are false, "
-        f"and {int((wrong & infeasible).sum()):,} of {int(infeasible.sum()):,} claims that there "
-        f"is no solution are false; {int(rows['wrong_multipliers'].sum()):,} claims of success "
-        "have wrong multipliers."
-    )
+def claims_sentences(rows: Rows) -> list[str]:
+    """How many claims were made, and are false, on problems with and without a solution."""
+    possible = rows.at(feasible=True, said_optimal=True)
+    impossible = rows.at(feasible=False, said_optimal=True)
+    none = rows.at(said_infeasible=True)
+    by_multipliers = len(possible.at(wrong=True, wrong_multipliers=True))
+    false = len(possible.at(wrong=True))
+    beyond = len(impossible.at(wrong=True))
+    kept = len(rows.at(said_optimal=True, wrong=True).kept(within))
+    return [
+        f"Of {len(possible):,} claims of success on problems with a solution {false:,} are false: "
+        f"in {by_multipliers:,} the dual residual or the gap is larger than promised, in the other "
+        f"{false - by_multipliers:,} only the violation of rows, or there are no numbers.",
+        f"On problems without a solution success was claimed {len(impossible):,} times: "
+        f"{beyond:,} times falsely, and {len(impossible) - beyond:,} times with residuals that "
+        "keep their limits, as they can where a problem is nearly feasible.",
+        f"Of {len(none):,} claims that there is no solution {len(none.at(wrong=True)):,} are "
+        "false.",
+        f"{kept:,} of the false claims of success have all of their residuals within the limits.",
+    ]
+
+
+def within(row: Row) -> bool:
+    """Whether each residual is within its limit, in a row that was judged by residuals."""
+    limits = {name: most for name, most in row["allowed"].items() if most is not None}
+    judged = row["outcome"] == SOLVED and bool(limits)
+    return judged and all((row["residuals"][n] or 0.0) <= most for n, most in limits.items())
 
 
 def false_claims(rows: Rows, settings: Sequence[str], where: Where) -> Table:
-    """What was claimed wrongly: optimal, infeasible, multipliers; of how many claims of success."""
+    """The claims by kind, of how many claims of success, setting by setting."""
     lines = []
     for (label,), part in rows.at(where).groups("label").items():
         cells = []
         for setting in settings:
             own = part.at(setting=setting)
-            wrong = [cell(own) for cell in CLAIMS.values()]
-            words = " + ".join([*wrong, str(int(own["wrong_multipliers"].sum()))])
+            words = " + ".join(cell(own) for cell in CLAIMS.values()) if own else ""
             cells.append(f"{words} / {int(own['said_optimal'].sum())}" if own else "-")
         lines.append((label, *cells))
-    units = where["units"]
     way = "warm" if where["warm"] else "cold"
-    title = (
-        "False claims of success + false claims of infeasibility + wrong multipliers / all claims "
-        f"of success: {units} units, {way}."
-    )
+    title = f"Claims, {where['units']} units, {way}: {' + '.join(CLAIMS)} / all of success."
     return Table(title, filter_words(where), ("solver", *settings), tuple(lines))
 
 
@@ -228,19 +272,36 @@ def detection(rows: Rows) -> Block:
     lines = []
     for key, part in rows.at(feasible=False, called=True).groups("label", "setting").items():
         right = int(part["said_infeasible"].sum())
-        wrong = int(part["said_optimal"].sum())
+        success = int(part["said_optimal"].sum())
         hidden = sum(claim(*(row[n] for n in WAY)) == HIDDEN for row in part)
-        neither = len(part) - right - wrong - hidden
-        lines.append((*key, *map(str, (len(part), right, wrong, neither, hidden))))
+        neither = len(part) - right - success - hidden
+        lines.append((*key, *map(str, (len(part), right, success, neither, hidden))))
     if not lines:
         return "The study contains no problem without a solution."
-    names = ("solver", "setting", "calls", "right", "wrong", "neither", "not said")
+    names = ("solver", "setting", "calls", "infeasible", "success", "neither", "not said")
     title = (
-        "Problems without a solution, as Farkas vectors prove: a call is right if it says "
-        "infeasible, wrong if it says optimal; where an interface has one word for several exit "
-        "codes, what the solver said is not known."
+        "What is said of problems that have no solution, as Farkas vectors prove; where an "
+        "interface has one word for several exit codes, what the solver said is not known."
     )
     return Table(title, "feasible = false", names, tuple(lines), left=2)
+
+
+def kept_digits(rows: Rows, settings: Sequence[str]) -> Table:
+    """Digits of answers that kept their tolerances: they depend on problem and accuracy."""
+    lines = []
+    for (family,), part in rows.at(KEPT).groups("family").items():
+        cells = [words for s in settings for words in _low_and_median(part.at(setting=s)["digits"])]
+        lines.append((family, *cells))
+    columns = [f"{setting}, {of}" for setting in settings for of in ("5th percentile", "median")]
+    title = "Digits of delta_q of the answers that kept their tolerances, of all solvers."
+    return Table(title, filter_words(KEPT), ("family", *columns), tuple(sorted(lines)))
+
+
+def _low_and_median(digits: np.ndarray) -> tuple[str, str]:
+    if not len(digits):
+        return "-", "-"
+    low, median = np.percentile(digits, [5, 50])
+    return tenths(low), tenths(median)
 
 
 def contrast(
@@ -301,7 +362,10 @@ def family_table(comparison: Comparison, setting: str) -> Table:
 
 
 def worst_problems(
-    comparison: Comparison, facts: Sequence[Mapping[str, Any]], ways: Iterable[Soonest]
+    comparison: Comparison,
+    facts: Sequence[Mapping[str, Any]],
+    ways: Iterable[Soonest],
+    store: str,
 ) -> list[Block]:
     """What a solver's author looks at first: a table for each, the most digits missed first.
 
@@ -312,14 +376,15 @@ def worst_problems(
         Of the problems.
     ways : iterable of Soonest
         Solvers, with their interfaces and settings.
+    store : str
+        The folder of the study, as seen from that of the report.
     """
     words = (
         "Each table is of one solver, at the setting and through the interface that deliver 6 "
         "digits soonest. It lists the calls whose answers miss the most of the known digits; of "
         "calls that miss equally many, the slowest come first. The command runs the solver on the "
-        "problem again, with the same options, and prints how wrong the answer is; "
-        "`--store FOLDER` names the folder of this study, which the command needs for problems and "
-        "solvers that only this study has."
+        "problem again, with the same options, and prints how wrong the answer is. Run it in "
+        "the folder of this page."
     )
     known = {fact["id"]: digits_of_error(fact["bound"]) for fact in facts}
 
@@ -335,7 +400,7 @@ def worst_problems(
         worst = sorted(comparison.rows.at(where), key=missed_and_slow)[:WORST_SHOWN]
         lines = tuple(
             (*(row[n] for n in ("problem", "outcome", "claimed")), "yes" if row["wrong"] else "no",
-             f"`{ask_command(row)}`", tenths(row["digits"]), tenths(known[row["problem"]]),
+             f"`{ask_command(row, store)}`", tenths(row["digits"]), tenths(known[row["problem"]]),
              milliseconds(row["seconds"]))
             for row in worst
         )  # fmt: skip
@@ -344,12 +409,13 @@ def worst_problems(
     return [words, *tables]
 
 
-def ask_command(row: Row) -> str:
-    """The command that repeats one measurement."""
+def ask_command(row: Row, store: str) -> str:
+    """The command that repeats one measurement of the study in a folder."""
     words = [row[name] for name in ("problem", "way", "setting")]
     units = [] if row["units"] == "natural" else ["--units", row["units"]]
     start = ["--warm"] if row["warm"] else []
-    return shlex.join(["quasistatic-ref", "study", "ask", *words, *units, *start])
+    return shlex.join(["quasistatic-ref", "study", "ask", *words, *units, *start,
+                       "--store", store])  # fmt: skip
 
 
 def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Block]:
@@ -443,10 +509,10 @@ def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
     rows = tuple(
         (s["name"], s["interface"], setting, f"`{options_words(options)}`",
          option_file(str(s["target"])).get("source", "-"),
-         option_file(str(s["target"])).get("author") or "-", f"{s['promised'][setting]:g}")
+         option_file(str(s["target"])).get("author") or "-", promise_words(s["promise"][setting]))
         for s in solvers
         for setting, options in s["options"].items()
     )  # fmt: skip
     names = ("solver", "interface", "setting", "its own options", "documented at",
-             "its author's note", "digits promised")  # fmt: skip
-    return Table("Options.", "the store, options", names, rows, left=6)
+             "its author's note", "promised")  # fmt: skip
+    return Table("Options.", "the store, options", names, rows, left=7)

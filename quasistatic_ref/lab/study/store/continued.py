@@ -13,7 +13,7 @@ PASSING = ("load",)
 """What is of the moment, and not of the machine."""
 SAME = ("kind", "time_limit", "budget", "warm_up", "memory", "repetitions", "problems", "sweeps")
 """What rows are comparable under, besides settings and options."""
-BY_SETTING = ("options", "promised")
+BY_SETTING = ("options", "promise")
 """What a solver has at each setting."""
 Differs = Callable[[str], InputError]
 """What differs -> the error that says so."""

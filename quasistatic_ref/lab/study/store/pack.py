@@ -30,7 +30,7 @@ def packed(folder: str | Path, out: str | Path) -> Path:
     Parameters
     ----------
     folder : str or Path
-        A store of solvers or of sweeps, not packed.
+        A store of solvers or of sweeps; one that is packed is copied.
     out : str or Path
 
     Returns
@@ -39,6 +39,8 @@ def packed(folder: str | Path, out: str | Path) -> Path:
         What was written. A packed store is not continued: ``study run`` starts a new one.
     """
     contents(folder)  # refuses what no study has written
+    if not (Path(folder) / STORE).exists():
+        return bytes_written(writable_folder(out) / PACKED, (Path(folder) / PACKED).read_bytes())
     with closing(sqlite3.connect(Path(folder) / STORE)) as store:
         tables = {name: _columns(store, name) for name in TABLES}
     return bytes_written(writable_folder(out) / PACKED, packed_tables(tables))

@@ -8,17 +8,28 @@ from typing import Any
 from quasistatic_ref.formats.files import json_text
 
 Row = dict[str, Any]
+SOLVED = "solved"
+FAILED = "failed"
+NAN = "nan"
+WRONG_SHAPE = "wrong_shape"
+CRASHED = "crashed"
+TIMEOUT = "timeout"
+MEMORY = "memory"
+NOT_RUN = "not_run_budget"
+REPLIED = (SOLVED, FAILED, NAN, WRONG_SHAPE)
+OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
 CLOCKS = ("solver", "setup", "call", "low", "high", "first", "warm_up", "start", "spent")
 """Times of a row [s]."""
 TABLES = {
     "digits": ("delta_q", "net_wrench", "multipliers"),
     "residuals": ("primal", "dual", "gap"),
+    "allowed": ("primal", "dual", "gap"),
     "seconds": CLOCKS,
 }
 """Fields that are tables."""
 FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
                 "wrong_multipliers", "clock_agrees", "repeats", "tuned", "present")  # fmt: skip
-JSON = ("facts", "versions", "target", "options", "axes", "fixed", "point", "measures")
+JSON = ("facts", "versions", "target", "options", "promise", "axes", "fixed", "point", "measures")
 KEY = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 MACHINE_DEPENDENT = ("seconds", "calls", "clock_agrees", "memory")

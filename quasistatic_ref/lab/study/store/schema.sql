@@ -18,7 +18,7 @@ CREATE TABLE machines (                          -- '' where results were not me
 CREATE TABLE settings (
   name TEXT PRIMARY KEY CHECK (length(name) <= 1000),
   accuracy REAL CHECK (accuracy > 0 AND accuracy < 1e300), -- null: the solver's own
-  promised REAL CHECK (abs(promised) < 1e300),             -- digits; null: those of each solver
+  promised REAL CHECK (abs(promised) < 1e300),             -- digits; null: what each solver promises
   tuned INTEGER NOT NULL CHECK (tuned IN (0, 1))
 ) STRICT;
 
@@ -35,7 +35,7 @@ CREATE TABLE options (
   solver TEXT NOT NULL,
   setting TEXT NOT NULL REFERENCES settings DEFERRABLE INITIALLY DEFERRED,
   options TEXT NOT NULL CHECK (json_type(options) = 'object'),
-  promised REAL NOT NULL CHECK (abs(promised) < 1e300),    -- digits of delta_q, by an "optimal"
+  promise TEXT NOT NULL CHECK (json_type(promise) = 'object'), -- of residuals, or digits, by an "optimal"
   PRIMARY KEY (interface, solver, setting),
   FOREIGN KEY (interface, solver) REFERENCES solvers DEFERRABLE INITIALLY DEFERRED
 ) STRICT;
@@ -83,6 +83,9 @@ CREATE TABLE rows (                              -- one measurement each
   residuals_primal REAL,
   residuals_dual REAL,
   residuals_gap REAL,
+  allowed_primal REAL,                           -- by the promise; null: it says nothing of them
+  allowed_dual REAL,
+  allowed_gap REAL,
   seconds_solver REAL CHECK (seconds_solver >= 0),
   seconds_setup REAL CHECK (seconds_setup >= 0),
   seconds_call REAL CHECK (seconds_call >= 0),

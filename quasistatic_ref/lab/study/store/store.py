@@ -23,8 +23,8 @@ from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, ne
 
 STORE = "study.sqlite"
 PACKED = "study.json.xz"
-FORMAT, VERSION = "quasistatic-ref/study-store", 4
-"""Versions 1 and 2 were lines of JSON; version 3 had one promise for all solvers at a setting."""
+FORMAT, VERSION = "quasistatic-ref/study-store", 5
+"""Versions 1 and 2 were lines of JSON; versions 3 and 4 judged claims by digits."""
 SCHEMA = (Path(__file__).parent / "schema.sql").read_text("utf-8")
 TABLES = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
                  "sweeps", "rows", "runs")  # fmt: skip
@@ -230,7 +230,7 @@ def about_written(
         put(tables, "solvers", {**names, "target": solver["target"], "present": present})
         for setting, options in solver["options"].items():
             names = {"interface": solver["interface"], "solver": solver["name"]}
-            own = {"options": options, "promised": solver["promised"][setting]}
+            own = {"options": options, "promise": solver["promise"][setting]}
             put(tables, "options", {**names, "setting": setting, **own})
     for name, records in (
         ("settings", study.get("settings", ())),
@@ -371,7 +371,7 @@ def _solver(record: Row, options: Iterable[Row]) -> Row:
     """A solver with its options, and what it promises, by setting."""
     key = record["interface"], record["name"]
     own = [one for one in options if (one["interface"], one["solver"]) == key]
-    parts = {name: {one["setting"]: one[name] for one in own} for name in ("options", "promised")}
+    parts = {name: {one["setting"]: one[name] for one in own} for name in ("options", "promise")}
     return record | parts
 
 

@@ -1,0 +1,193 @@
+"""Whether a claim is false: the residuals of an answer against what its solver promised.
+
+A solver controls residuals, and not digits: an answer that keeps every tolerance may be far from
+the exact one where multipliers are large, (R48). So a claim of success is false if a residual is
+larger than the promise of it, evaluated at the exact answer:
+
+    residual > FACTOR (abs + rel max(terms) + rounding).
+
+At the exact answer, because there every term but ``|lam|`` is unique: a huge x excuses nothing, and
+a store alone suffices to judge its rows again.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
+from quasistatic_ref.lab.study.calling.promises import RESIDUALS, Promise
+from quasistatic_ref.lab.study.problems.problem import Answer
+from quasistatic_ref.lab.study.store.rows import NAN, REPLIED, Row
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+FACTOR = 10.0
+"""By how much a residual may exceed its promise, the same for all solvers. They test residuals of
+variables that they have scaled, before the interface converts the answer, and terms at their own
+answer. In the study `default`, of 29,000 answers by solvers that state all three criteria, 16 lie
+between the promise and 10 times the promise, and the next beyond."""
+SPREAD = 1e3
+"""Multipliers are not unique, and an interior point that ends among many may be far out: Clarabel's
+on narrow/5.29681e-11/203 are 860 times the exact ones. ``|lam|`` counts that much larger."""
+FIGURES = 3
+"""Significant figures in which residuals and limits are compared, those of a packed store."""
+Terms = Mapping[str, float]
+
+
+def terms_of(form: StandardForm, answer: Answer) -> Terms:
+    """The terms that promises name, at the exact answer; without one those of the data alone.
+
+    Parameters
+    ----------
+    form : StandardForm
+    answer : Answer
+        In the same units.
+
+    Returns
+    -------
+    dict of str to float
+        Also the sizes of what each residual sums up, whose rounding is the solver's by no fault.
+    """
+    n, m = len(form.g), len(form.b)
+    x = np.zeros(n) if answer.farkas else answer.x
+    lam = np.zeros(m) if answer.farkas else answer.lam
+    s = form.A @ x - form.b
+    absolute = StandardForm(abs(form.H), abs(form.g), abs(form.A), abs(form.b))
+    primal = absolute.A @ abs(x) + absolute.b
+    dual = absolute.H @ abs(x) + absolute.g + absolute.A.T @ abs(lam)
+    gap = abs(x) @ (absolute.H @ abs(x) + absolute.g) + absolute.b @ abs(lam)
+    rounding = (n + m) * np.finfo(float).eps
+    quadratic = float(x @ form.H @ x)
+    linear = float(form.g @ x)
+    return {
+        "1": 1.0,
+        "m": float(m),
+        "|b|": largest(form.b),
+        "|b|2": float(np.linalg.norm(form.b)),
+        "|g|": largest(form.g),
+        "|g|2": float(np.linalg.norm(form.g)),
+        "|x|2": float(np.linalg.norm(x)),
+        "|s|": largest(s),
+        "|s|2": float(np.linalg.norm(s)),
+        "|lam|2": np.inf if answer.farkas else SPREAD * float(np.linalg.norm(lam)),
+        "|Ax|": largest(form.A @ x),
+        "|Hx|": largest(form.H @ x),
+        "|A'lam|": largest(form.A.T @ lam),
+        "|x'Hx|": quadratic,
+        "|g'x|": abs(linear),
+        "|b'lam|": abs(float(form.b @ lam)),
+        "cost": abs(quadratic / 2 - linear),
+        "primal": rounding * largest(primal),
+        "dual": rounding * largest(dual),
+        "gap": rounding * float(gap),
+        "|x|1": float(abs(x).sum()),
+        "|lam|1": float(abs(lam).sum()),
+    }
+
+
+def largest(values: Array) -> float:
+    """The largest size of an entry; 0 of none."""
+    return float(abs(values).max(initial=0.0))
+
+
+def limits(
+    promise: Promise, terms: Terms, residuals: Mapping[str, Any], feasible: bool
+) -> dict[str, float | None]:
+    """The largest residuals that a promise allows; None where it says nothing.
+
+    Parameters
+    ----------
+    promise : dict
+    terms : mapping
+    residuals : mapping
+        Of the answer: what they add to the gap of a pair that is complementary is no sin.
+    feasible : bool
+        Of a problem without a solution complementarity is not judged.
+    """
+    if "digits" in promise:
+        return dict.fromkeys(RESIDUALS)
+    stated = {name: own for name, own in promise.items() if own}
+    found = {name: _limit(name, own, terms, residuals, feasible) for name, own in stated.items()}
+    return dict.fromkeys(RESIDUALS) | found
+
+
+def _limit(
+    name: str, own: Promise, terms: Terms, residuals: Mapping[str, Any], feasible: bool
+) -> float | None:
+    sums = (sum(terms[term] for term in words.split(" + ")) for words in own["of"])
+    allowed = own["abs"] + own["rel"] * max(sums) + terms[name]
+    if not np.isfinite(allowed) or (own["complementarity"] and not feasible):
+        return None
+    if own["complementarity"]:
+        # x'Hx - g'x - b'lam = x'(Hx - g - A'lam) + lam'(Ax - b)
+        allowed += terms["|x|1"] * (residuals["dual"] or 0.0)
+        allowed += terms["|lam|1"] * (residuals["primal"] or 0.0)
+    return _rounded(FACTOR * allowed)
+
+
+def judged(row: Row, claim: str, promise: Promise, terms: Terms, certified: bool = False) -> Row:
+    """A row with what is made of its claim.
+
+    Parameters
+    ----------
+    row : dict
+    claim : str
+        Of its status, as the table of exit codes has it.
+    promise : dict
+    terms : mapping
+        Of its problem, in its units.
+    certified : bool
+        Whether the certificate that came with a claim of infeasibility holds.
+
+    Returns
+    -------
+    dict
+        ``wrong``: a claim of success of which a residual exceeds its limit, or that has no
+        numbers; a claim that there is no solution where there is one. ``wrong_multipliers``: a
+        claim of success of which the dual residual or the gap exceeds its limit.
+    """
+    solved = row["said_optimal"]
+    feasible = row["feasible"]
+    infeasible = not solved and row["outcome"] in REPLIED and claim == INFEASIBLE
+    allowed = limits(promise, terms, row["residuals"], feasible)
+    over = {name: _over(row["residuals"][name], allowed[name]) for name in RESIDUALS}
+    least = promise.get("digits", -np.inf)
+    short = {name: value is not None and value < least for name, value in row["digits"].items()}
+    wrong = row["outcome"] == NAN or any(over.values()) or short["delta_q"]
+    wrong = wrong or ("digits" in promise and not feasible)
+    multipliers = over["dual"] or over["gap"] or short["multipliers"]
+    return row | {
+        "said_infeasible": infeasible,
+        "wrong": wrong if solved else infeasible and feasible and not certified,
+        "wrong_multipliers": solved and multipliers,
+        "allowed": allowed,
+    }
+
+
+def _over(residual: float | None, allowed: float | None) -> bool:
+    return residual is not None and allowed is not None and _rounded(residual) > allowed
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{FIGURES}g}")
+
+
+def certificate_holds(form: StandardForm, y: Array, accuracy: float) -> bool:
+    """Whether y proves, to an accuracy, that no x has A x >= b: y >= 0, A'y = 0 and b'y > 0.
+
+    Parameters
+    ----------
+    form : StandardForm
+    y : ndarray, shape (m,)
+        In any multiple [-].
+    accuracy : float
+        That was asked for, relative to the largest entry of y [-].
+    """
+    size = largest(y)
+    if not np.isfinite(size) or size == 0:
+        return False
+    tolerance = FACTOR * accuracy
+    y = y / size
+    balanced = largest(form.A.T @ y) <= tolerance
+    return bool(y.min() >= -tolerance and balanced and form.b @ y > 0)
