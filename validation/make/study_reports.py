@@ -1,8 +1,9 @@
 """The committed studies made again: ``python -m validation.make.study_reports [NAME...]``.
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
-that the numbers of the committed report are those of the committed rows. ``--report`` runs nothing:
-it judges the claims of the rows that are there again, by today's files of options, and reports them.
+that the numbers of the committed report are those of the committed rows. ``--report`` runs
+nothing: it judges the claims of the rows that are there again, by today's files of options, and
+reports them.
 
 ``bunny_torsion`` compares no solvers. It is the grasp with other values, run as by ``run --sweep``,
 but for 3 s whatever h is, and measured from when the grip is closed.

@@ -58,7 +58,7 @@ class Solver:
     options : mapping of str to mapping
         Options of its own by setting, in place of ours.
     promised : mapping of str to number or mapping
-        By setting, what its author promises: digits, or residuals as in ``promises.py``.
+        By setting, what its author promises: digits [-], or residuals as in ``promises.py``.
     """
 
     name: str

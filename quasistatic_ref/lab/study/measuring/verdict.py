@@ -87,7 +87,16 @@ def terms_of(form: StandardForm, answer: Answer) -> Terms:
 
 
 def largest(values: Array) -> float:
-    """The largest size of an entry; 0 of none."""
+    """The largest size of an entry; 0 of none.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,) [any]
+
+    Returns
+    -------
+    float [any]
+    """
     return float(abs(values).max(initial=0.0))
 
 
