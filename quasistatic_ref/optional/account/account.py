@@ -1,7 +1,7 @@
 """The account of a run, from its file alone: what each pair, body and joint did, and when."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -11,16 +11,13 @@ from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.model.joints import BASES, JOINTS
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.spans import Span, spans
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, TOUCHES
-
-FLOATING = ["x", "y", "z", "qx", "qy", "qz", "qw"]
-PLANAR = ["x", "y", "cos", "sin"]
-TURN = ["cos", "sin"]
-"""How names of entries of q end, of bases and of joints that turn for ever."""
 
 
 class Loads(NamedTuple):
@@ -98,55 +95,12 @@ class PairAccount(Plain):
 
 
 @dataclass(frozen=True, eq=False)
-class Coordinates(Plain):
-    """A base or a joint, as the file names it.
-
-    Parameters
-    ----------
-    name : str
-    kind : str
-        ``"floating"``, ``"planar"``, ``"continuous"``, or the unit of its coordinate.
-    q, v : slice
-    actuated : bool
-    """
-
-    name: str
-    kind: str
-    q: slice
-    v: slice
-    actuated: bool
-
-    def lengths(self, q: Array) -> Array:
-        """Distance along the world's axes from the first of some q, shape (n, 3) [m]."""
-        count = {"floating": 3, "planar": 2}.get(self.kind, 0)
-        moved = np.zeros((len(q), 3))
-        moved[:, :count] = (q - q[0])[:, self.q][:, :count]
-        return moved
-
-    def angle(self, q: Array, q_0: Array) -> Array:
-        """Angle from q_0 to q, both of shape (n, n_q) [rad]; 0 of a joint that only slides."""
-        a = q[:, self.q]
-        b = q_0[:, self.q]
-        if self.kind == "floating":
-            return _rotation(a[:, 3:], b[:, 3:])
-        if self.kind in ("planar", "continuous"):
-            turn = (a[:, -2] + 1j * a[:, -1]) * (b[:, -2] - 1j * b[:, -1])
-            return np.asarray(np.abs(np.angle(turn)))
-        return np.abs(a - b)[:, 0] if self.kind == "rad" else np.zeros(len(a))
-
-    def distance(self, q: Array, q_0: Array) -> Array:
-        """Distance from q_0 to q, both of shape (n, n_q) [m]."""
-        count = {"floating": 3, "planar": 2, "m": 1}.get(self.kind, 0)
-        return np.asarray(np.linalg.norm((q - q_0)[:, self.q][:, :count], axis=1))
-
-
-@dataclass(frozen=True, eq=False)
 class Motion(Plain):
     """How a body that nothing drives moved, or a joint of it.
 
     Parameters
     ----------
-    of : Coordinates
+    of : Joint
     moved : ndarray, shape (steps + 1, 3)
         From the start, along the world's axes [m]; of a prismatic joint its position, along x.
     turned : ndarray, shape (steps + 1,)
@@ -155,7 +109,7 @@ class Motion(Plain):
         By what it touched, while it did.
     """
 
-    of: Coordinates
+    of: Joint
     moved: Array
     turned: Array
     touched: Mapping[str, list[Span]]
@@ -172,7 +126,7 @@ class Drive(Plain):
 
     Parameters
     ----------
-    of : Coordinates
+    of : Joint
     error : ndarray, shape (steps,)
         Distance from its target at the end of each step [m], of a joint that turns [rad].
     spring : ndarray, shape (steps,), or None
@@ -182,7 +136,7 @@ class Drive(Plain):
         Times [s].
     """
 
-    of: Coordinates
+    of: Joint
     error: Array
     spring: Array | None
     waypoints: tuple[float, ...]
@@ -190,7 +144,7 @@ class Drive(Plain):
     @property
     def unit(self) -> str:
         """Of its error."""
-        return "m" if self.of.kind in ("floating", "planar", "m") else "rad"
+        return "m" if self.of.lengths else "rad"
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,7 +195,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     waypoints = scene.table("waypoints")
     times = {name: tuple(waypoints.sequence(name)) for name in waypoints.names_left()}
     stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
-    every = list(coordinates(header["positions"], header["n_a"]))
+    every = list(joints_of(header["positions"], header["n_a"]))
     missing: list[str] = []
     pairs: tuple[PairAccount, ...] = ()
     if trajectory.steps:
@@ -262,7 +216,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     )
 
 
-def coordinates(positions: list[str], n_a: int) -> Iterator[Coordinates]:
+def joints_of(positions: list[str], n_a: int) -> Iterator[Joint]:
     """The bases and joints of a file, by the names of its entries of q.
 
     Parameters
@@ -270,34 +224,41 @@ def coordinates(positions: list[str], n_a: int) -> Iterator[Coordinates]:
     positions : list of str, length n_q
         Such as ``arm/elbow [rad]`` and ``mug.z [m]``.
     n_a : int
+
+    Raises
+    ------
+    InputError
+        If a name is none of a base or joint.
     """
-    names = [name.partition(" [")[0] for name in positions]
     q = 0
     v = 0
-    while q < len(names):
-        owner, _, _ = names[q].rpartition(".")
-        ends = [name.removeprefix(f"{owner}.") for name in names[q : q + 7]]
-        if ends == FLOATING:
-            one = Coordinates(
-                f"{owner}/base", "floating", slice(q, q + 7), slice(v, v + 6), v < n_a
-            )
-        elif ends[:4] == PLANAR:
-            one = Coordinates(f"{owner}/base", "planar", slice(q, q + 4), slice(v, v + 3), v < n_a)
-        elif ends[:2] == TURN:
-            one = Coordinates(owner, "continuous", slice(q, q + 2), slice(v, v + 1), v < n_a)
-        else:
-            unit = positions[q].rpartition("[")[2].removesuffix("]")
-            one = Coordinates(names[q], unit, slice(q, q + 1), slice(v, v + 1), v < n_a)
-        yield one
-        q = one.q.stop
-        v = one.v.stop
+    while q < len(positions):
+        joint = _first_joint(positions[q:], v < n_a)
+        n_q = len(joint.positions)
+        n_v = len(joint.coordinates)
+        yield replace(joint, q=slice(q, q + n_q), v=slice(v, v + n_v))
+        q += n_q
+        v += n_v
 
 
-def _rotation(a: Array, b: Array) -> Array:
-    """Angle between quaternions x y z w, both of shape (n, 4) [rad], accurate near 0 and pi."""
-    w = np.vecdot(a, b)
-    axial = a[:, 3:] * b[:, :3] - b[:, 3:] * a[:, :3] + np.cross(a[:, :3], b[:, :3])
-    return np.asarray(2 * np.arctan2(np.linalg.norm(axial, axis=1), np.abs(w)))
+def _first_joint(positions: list[str], actuated: bool) -> Joint:
+    """The joint to which the first of some entries of q belong."""
+    entry = positions[0].partition(" [")[0]
+    owner = entry.rpartition(".")[0]
+    for kind in (*BASES.values(), *JOINTS.values()):
+        for name in (owner if "/" in owner else f"{owner}/base", entry):
+            joint = kind(name, actuated, slice(0), slice(0))
+            if list(joint.positions) == positions[: len(joint.positions)]:
+                return joint
+    raise InputError("is no entry of a base or joint", field="positions", value=positions[0])
+
+
+def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
+    """Angle from q_0 to q, both of shape (n, n_q) [rad]; 0 of a joint that only slides."""
+    here = q_0[:, joint.q].tolist()
+    there = q[:, joint.q].tolist()
+    turns = [joint.change(*ends)[joint.lengths :] for ends in zip(here, there, strict=True)]
+    return np.asarray(np.linalg.norm(np.array(turns), axis=1))
 
 
 def _pairs(
@@ -379,11 +340,10 @@ def _touches(run: Trajectory, motion: Array | None) -> Mask:
     return np.asarray(touches | (slack <= TOUCHES))
 
 
-def _motion(joint: Coordinates, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
-    moved = joint.lengths(q)
+def _motion(joint: Joint, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
+    moved = np.zeros((len(q), 3))
+    moved[:, : joint.lengths] = (q - q[0])[:, joint.q][:, : joint.lengths]
     start = np.broadcast_to(q[0], q.shape)
-    if joint.kind == "m":
-        moved[:, 0] = q[:, joint.q][:, 0] - q[0, joint.q][0]
     body = joint.name.partition("/")[0]
     touched: dict[str, Mask] = {}
     for pair in pairs:
@@ -391,16 +351,14 @@ def _motion(joint: Coordinates, q: Array, pairs: tuple[PairAccount, ...]) -> Mot
             if own.partition("/")[0] == body != other.partition("/")[0]:
                 touched[other] = touched.get(other, False) | pair.touches
     on = {other: found for other, holds in touched.items() if (found := spans(holds))}
-    return Motion(joint, moved, joint.angle(q, start), on)
+    return Motion(joint, moved, _angle(joint, q, start), on)
 
 
-def _drive(
-    joint: Coordinates, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]
-) -> Drive:
+def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]) -> Drive:
     target = run["q_bar_a"]
     q = run["q"][1:, : target.shape[1]]
-    angle = joint.angle(q, target)
-    error = angle if joint.kind in ("rad", "continuous") else joint.distance(q, target)
+    away = np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1)
+    error = away if joint.lengths else _angle(joint, q, target)
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
     return Drive(joint, error, spring, waypoints)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.optional.account.account import Account, Drive, Motion, PairAccount
 from quasistatic_ref.optional.account.spans import Span
 from quasistatic_ref.tolerances import BRIEF, SLID
@@ -141,11 +142,11 @@ def short(account: Account) -> Iterator[str]:
 
 def moved(motion: Motion) -> str:
     """How far a free body or a joint of it moved."""
-    if motion.of.kind in ("rad", "continuous"):
+    if not motion.of.lengths:
         return f"{motion.of.name}: turned by at most {degrees(motion.turned.max())}"
     name = motion.of.name.removesuffix("/base")
     way = motion.moved
-    if motion.of.kind == "m":
+    if isinstance(motion.of, Prismatic):
         return f"{name}: moved by {length(way[-1, 0])}"
     along = ", ".join(
         f"{axis} {signed(x)}" for axis, x in zip("xyz", way[-1], strict=True) if abs(x) > 5e-5

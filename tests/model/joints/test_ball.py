@@ -117,6 +117,11 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base, tmp_path):
     run.save(tmp_path / "run.npz")
     kept = trajectory_read(tmp_path / "run.npz")
     assert kept["q"].tobytes() == run["q"].tobytes()
+    (motion,) = kept.account().motions
+    assert motion.of.name == ("arm/base" if base else "arm/ball")
+    ends = Rotation.from_quat(kept["q"][[0, -1]])
+    turned = (ends[0].inv() * ends[1]).magnitude()
+    np.testing.assert_allclose(motion.turned[-1], turned, rtol=0, atol=8 * ROUNDING)
 
 
 @pytest.mark.parametrize("base", [True, False])
