@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from tests.optional.scans.scanned import SOLIDS
+from tests.oracles.scanned import SOLIDS
 
 POINTS, (VOLUME, CENTRE, GYRATION) = SOLIDS["can"](np.random.default_rng(0), 1500)
 """A can about its middle, 115 mm high and 66 mm wide."""

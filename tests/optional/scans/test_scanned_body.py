@@ -10,7 +10,7 @@ from quasistatic_ref.optional.scans.cloud import stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import Solid
 from quasistatic_ref.scenario.scenario import scenario_path
-from tests.optional.scans.scanned import SCANS, SOLIDS, Exact, on_block
+from tests.oracles.scanned import SCANS, SOLIDS, Exact, on_block
 from tests.tolerances import ROUNDING
 
 WITHIN, WITH_HOLES = 0.05, 0.10
