@@ -1,0 +1,51 @@
+"""Each page of docs/ is in the table of contents, with its question; facts are explained once."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = {str(path.relative_to(DOCS)): path.read_text("utf-8") for path in DOCS.rglob("*.md")}
+ROW = re.compile(r"^\| \[[^\]]*\]\(([^)]+)\) \| (.+\?) \|", re.MULTILINE)
+MOST = 104_600
+"""Words of all pages: fewer when pages get shorter, never more."""
+
+EXPLAINED = {
+    "the drag": (r"m ?v ?/ ?h\b", r"from rest", {"course/springs_and_steps.md"}),
+    "free fall": (r"h\^2 ?g", r"from rest|physics says|no velocity", {"derivations.md"}),
+    "80 rows": (r"\b80\b", r"[Tt]en .*six rows|10 x 6|10 contacts", {"theory/errata.md"}),
+}
+"""What: its formula, words that only an explanation needs, the page that explains it."""
+
+
+def paragraphs(text):
+    """Paragraphs and rows of tables, each in one line, without code."""
+    prose = re.sub(r"^( *)```.*?^\1```", "", text, flags=re.MULTILINE | re.DOTALL)
+    return [" ".join(one.split()) for one in re.split(r"\n\n|\n\|", prose)]
+
+
+def test_every_page_has_one_row_with_a_question():
+    rows = ROW.findall(PAGES["contents.md"])
+    listed = [page for page, _ in rows]
+    assert len(set(listed)) == len(listed)
+    lists_of_modules = {page for page in PAGES if page.startswith("api/")} - {"api/index.md"}
+    assert set(listed) == set(PAGES) - lists_of_modules
+    questions = [question for _, question in rows]
+    assert len(set(questions)) == len(questions)
+
+
+def test_the_pages_have_at_most_so_many_words():
+    assert sum(len(text.split()) for text in PAGES.values()) <= MOST
+
+
+@pytest.mark.parametrize("what", EXPLAINED)
+def test_what_is_explained_is_explained_on_one_page(what):
+    formula, words, home = EXPLAINED[what]
+    found = {
+        page
+        for page, text in PAGES.items()
+        for one in paragraphs(text)
+        if re.search(formula, one) and re.search(words, one)
+    }
+    assert found == home
