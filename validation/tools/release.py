@@ -80,6 +80,7 @@ RESULTS = (
             "ordinary_states",
             "proved_problems",
             "pair_distances",
+            "scans",
             "solid_pairs",
             "step_profile",
             "run_hashes",
