@@ -89,7 +89,7 @@ def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimu
         return None
     both = DenseStepInBothUnits(step)
     sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
-    prover = fast.Prover(both, [(Group(*map(np.arange, sizes)), both)])
+    prover = fast.Prover(both, [(Group(*map(np.arange, sizes)), step, both.hessian)])
     pressed = np.zeros(step.m)
     pressed[rows if nearby else []] = 1.0
     prover.optimum(both, pressed, np.zeros(step.m))

@@ -21,7 +21,12 @@ from quasistatic_ref.optional.fast.posed import (
 )
 from quasistatic_ref.optional.fast.rechecked import GROUP, WHOLE, check, is_due
 from quasistatic_ref.solve.solver import NaturalAnswer
-from quasistatic_ref.solve.units import DenseStepInBothUnits, HessianInBothUnits, StepInBothUnits
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    StepInBothUnits,
+    hessian_in_both_units,
+)
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
@@ -89,11 +94,14 @@ class KeptGroup:
         Of its steps; None where the group is the whole step.
     kept : Kept
         Shared by groups of equal constants.
+    key : tuple
+        All that shapes what is kept: the constants, and the number of rows of the user's own.
     """
 
     group: Group
     constant: Constants | None
     kept: Kept
+    key: tuple[Any, ...] = ()
 
     @property
     def coordinates(self) -> Indices | slice:
@@ -130,6 +138,15 @@ class KeptGroup:
         else:
             start = in_c.guess.tolist()
         return group_optimum(whole.si_step, self.group, own.si_step, start)
+
+    def hessian(self, whole: StepInBothUnits) -> HessianInBothUnits:
+        """H of the group, from the `whole` step."""
+        if self.constant is None:
+            return self.in_both_units(whole).hessian
+        known = self.kept.hessian
+        if known is None or known.H is not self.constant.H:
+            self.kept.hessian = known = hessian_in_both_units(self.constant.H)
+        return known
 
     def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
         """The step of the group in its own natural units, from the `whole` step."""
@@ -177,8 +194,9 @@ class Proofs:
     def __init__(self) -> None:
         self.parts: list[KeptGroup] = []
         self._of_parts: Coupling = []
-        self._of_small: Coupling = []
-        self._small: Mask | None = None
+        self._of_groups: Coupling = []
+        self._found: list[Group] = []
+        self._small: Mask | None = None  # contacts of small groups; None if all are
         self.prover: Any = None
 
     def norms(self) -> list[tuple[Indices | slice, EnergyNorm]]:
@@ -237,7 +255,11 @@ class Proofs:
         """What proves all groups of a step in C; None where nothing does."""
         in_c = compiled("certificate")
         if in_c is not None and self.prover is None:
-            groups = [(part.group, part.in_both_units(both)) for part in self.parts]
+            step = both.si_step
+            groups = [
+                (part.group, step if part.constant is None else part.constant, part.hessian(both))
+                for part in self.parts
+            ]
             self.prover = in_c.Prover(both, groups)
         return self.prover
 
@@ -259,17 +281,23 @@ class Proofs:
         """
         if step.n_v <= SMALL:
             return None
-        if not _same(coupling, self._of_small):
-            large = [g.contacts for g in groups(step) if len(g.coordinates) > SMALL]
-            small = np.ones(step.contacts.n_c, dtype=bool)
-            small[[j for contacts in large for j in contacts]] = False
-            self._small = _unless_all(small)
-            self._of_small = coupling
+        self._groups(step, coupling)
         if self._small is None:
             return None
         m = int(step.offsets[-1])
         touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
         return _unless_all(self._small | np.logical_or.reduceat(touching, step.offsets[:-1]))
+
+    def _groups(self, step: StepData, coupling: Coupling) -> list[Group]:
+        """The groups of a step in which all contacts count."""
+        if not _same(coupling, self._of_groups):
+            self._found = groups(step)
+            small = np.ones(step.contacts.n_c, dtype=bool)
+            for group in self._found:
+                small[group.contacts] = len(group.coordinates) <= SMALL
+            self._small = _unless_all(small)
+            self._of_groups = coupling
+        return self._found
 
     def divided(self, step: StepData, near: Mask | None, coupling: Coupling) -> list[KeptGroup]:
         """The groups of a step: those of the last step, if the same couples its coordinates.
@@ -282,10 +310,11 @@ class Proofs:
         coupling : list
             What couples the coordinates if all contacts count.
         """
-        coupling = [*coupling, b"" if near is None else near.tobytes()]
-        if not _same(coupling, self._of_parts):
-            self.parts = _parts(step, near, self.parts)
-            self._of_parts = coupling
+        of = [*coupling, b"" if near is None else near.tobytes()]
+        if not _same(of, self._of_parts):
+            found = self._groups(step, coupling) if near is None else groups(step, near)
+            self.parts = _parts(step, found, self.parts, whole=near is None)
+            self._of_parts = of
             self.prover = None
         return self.parts
 
@@ -314,27 +343,29 @@ def _same(one: list[Any], two: list[Any]) -> bool:
     return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
-def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[KeptGroup]:
-    """The groups of a step; those of equal constants share what is kept, also with the `before`."""
-    found = groups(step, near)
-    if len(found) == 1 and near is None:
+def _parts(
+    step: StepData, found: list[Group], before: list[KeptGroup], *, whole: bool
+) -> list[KeptGroup]:
+    """The groups of a step; those of equal constants share what is kept, also with the `before`.
+
+    They are the `whole` step where all its contacts count.
+    """
+    if len(found) == 1 and whole:
         kept = before[0].kept if len(before) == 1 else Kept()
         return [KeptGroup(found[0], None, kept)]
-    known = {_key(part.constant, part.group): part for part in before if part.constant is not None}
+    known = {part.key: part for part in before}
     parts = []
     for group in found:
         a, u = split(step, group)
         K_q = step.K_q[np.ix_(a, a)]
         M_u = step.inertia(u)
-        rows = step.contacts.rows[group.contacts]
-        constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
-        alike = known.setdefault(_key(constant, group), KeptGroup(group, constant, Kept()))
-        parts.append(KeptGroup(group, alike.constant, alike.kept))
+        counts = step.counts[group.contacts].tobytes()
+        sizes = len(a), len(group.extra_rows)
+        key = (step.h, step.cone, *sizes, K_q.tobytes(), M_u.tobytes(), counts)
+        alike = known.get(key)
+        if alike is None:
+            rows = step.contacts.rows[group.contacts]
+            constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
+            known[key] = alike = KeptGroup(group, constant, Kept(), key)
+        parts.append(KeptGroup(group, alike.constant, alike.kept, key))
     return parts
-
-
-def _key(constant: Constants, group: Group) -> tuple[Any, ...]:
-    """All that shapes what is kept for a group: its constants and its number of rows."""
-    numbers = constant.K_q.tobytes(), constant.M_u.tobytes(), constant.row_layout.counts.tobytes()
-    sizes = len(constant.K_q), len(group.extra_rows)
-    return constant.h, constant.cone, *sizes, *numbers

@@ -10,10 +10,15 @@ import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.rational import dyadic
-from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
+from quasistatic_ref.optional.fast.posed import Constants
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    StepInBothUnits,
+    Units,
+)
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group
@@ -28,17 +33,71 @@ LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
+def _kept(both: StepInBothUnits) -> dict[str, Array]:
+    """J and A as a step keeps them, of any shapes: whole, or without their zeros."""
+    contacts: Any = both.si_step.contacts
+    A: Any = both.si_form.A
+    if isinstance(both, DenseStepInBothUnits):
+        return {"J": contacts.J, "A": A}
+    return {"J": contacts.blocks.J, "A": A.data}
+
+
+class Places:
+    """Where the entries of groups' J and A are among those that steps keep; -1 of a zero.
+
+    Parameters
+    ----------
+    both : StepInBothUnits
+        One of the whole steps.
+    """
+
+    def __init__(self, both: StepInBothUnits) -> None:
+        contacts: Any = both.si_step.contacts
+        self.A: Any = both.si_form.A
+        self.dense = isinstance(both, DenseStepInBothUnits)
+        J = _kept(both)["J"]
+        numbered = np.arange(1.0, J.size + 1).reshape(J.shape)
+        self.J: Any = numbered if self.dense else replace(contacts.blocks, J=numbered)
+
+    def in_J(self, group: Group) -> Indices:
+        """Of its J, shape (n_c, 4, n)."""
+        if self.dense:
+            own = self.J[group.contacts][:, :, group.coordinates]
+        else:
+            own = self.J.columns(group.contacts, group.coordinates)
+        places: Indices = own.astype(np.int64) - 1
+        return places
+
+    def in_A(self, group: Group) -> Indices:
+        """Of its A, shape (m, n)."""
+        A = self.A
+        rows = group.rows
+        if self.dense:
+            places: Indices = rows[:, None] * A.shape[1] + group.coordinates
+            return places
+        own = np.full(A.shape[0], -1)
+        own[rows] = np.arange(len(rows))
+        places = np.full((len(rows), len(group.coordinates)), -1)
+        for i, v in enumerate(group.coordinates.tolist()):
+            entries = np.arange(A.indptr[v], A.indptr[v + 1])
+            row = own[A.indices[entries]]
+            places[row[row >= 0], i] = entries[row >= 0]
+        return places
+
+
 class GroupProof:
     """The proofs of one group of steps that have their H, rows and groups in common.
 
     Parameters
     ----------
     group : Group
-    own : DenseStepInBothUnits
-        The step of the group, in a polyhedral cone, without rows of a user's own, of at most
-        LARGEST coordinates.
-    whole : StepInBothUnits
-        The whole step.
+        Of at most LARGEST coordinates, without rows of a user's own.
+    own : Constants or StepData
+        What its steps, which are in a polyhedral cone, have in common.
+    hessian : HessianInBothUnits
+        Their H.
+    places : Places
+        Of the whole steps.
 
     Attributes
     ----------
@@ -46,35 +105,39 @@ class GroupProof:
         Whether H can be written in fixed point.
     """
 
-    def __init__(self, group: Group, own: DenseStepInBothUnits, whole: StepInBothUnits) -> None:
+    def __init__(
+        self,
+        group: Group,
+        own: Constants | StepData,
+        hessian: HessianInBothUnits,
+        places: Places,
+    ) -> None:
         found = library()
-        step = own.si_step
-        hessian = own.hessian
         self._prove = found.proof
         self._prove_nearby = found.proof_nearby
-        n = step.n_v
-        n_c = step.contacts.n_c
-        m = step.m
-        contact, row = places(step, range(m))
+        n_a = len(own.K_q)
+        n, n_c, m = len(group.coordinates), len(group.contacts), len(group.rows)
+        contact, row = np.divmod(own.row_layout.numbers, own.row_layout.mask.shape[1])
         self.s = s = Structure("proof.h", "Proof")
         self._natural = Structure("natural.c", "Natural")
         s.put(
             {
-                "n_a": step.n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
+                "n_a": n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
                 "answered": 0, "code": NOT_POSED,
                 "coordinates": group.coordinates, "contacts": group.contacts,
-                "in_J": _in_J(whole, group), "in_A": _in_A(whole, group),
+                "in_J": places.in_J(group), "in_A": places.in_A(group),
                 "rows_of_step": group.rows, "natural": self._natural.address,
-                "h": np.array([step.h]), "coordinate": hessian.coordinate,
-                "K_q": step.K_q, "M_u": step.M_u, "inverse": hessian.H_inverse,
+                "h": np.array([own.h]), "coordinate": hessian.coordinate,
+                "K_q": own.K_q, "M_u": own.M_u, "inverse": hessian.H_inverse,
                 "J": np.zeros((n_c, 4, n)), "A": np.zeros((m, n)),
                 "answer": np.zeros(m, np.int64), "guess": np.zeros(m, np.int64),
-                "cone": cone_matrix(step.cone), "integers": _combined(step.cone),
+                "cone": cone_matrix(own.cone), "integers": _combined(own.cone),
                 "contact": contact, "row": row,
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
-                "hessian_values": np.zeros((n, n)), "units": np.zeros(2), **step_arrays(step),
+                "hessian_values": np.zeros((n, n)), "units": np.zeros(2),
                 "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
                 "counts": np.zeros(2, np.int64), "claims": np.zeros(2, np.int64),
+                **step_arrays(n_a, n, n_c, m),
             }
         )  # fmt: skip
         self._natural.put(
@@ -129,8 +192,8 @@ class GroupProof:
         return _optimum(self.s, self.guess.tolist())
 
 
-def step_arrays(step: StepData) -> dict[str, Array]:
-    """Arrays for the data of a step like one, a backend's answer to it, and its optimum.
+def step_arrays(n_a: int, n: int, n_c: int, m: int) -> dict[str, Array]:
+    """Arrays for the data of a step of such sizes, a backend's answer to it, and its optimum.
 
     Returns
     -------
@@ -138,51 +201,14 @@ def step_arrays(step: StepData) -> dict[str, Array]:
         Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...;
         without J and A.
     """
-    n_c = step.contacts.n_c
-    n = step.n_v
-    m = step.m
+    frame = np.zeros((n_c, 4, 4))
+    frame[:, 3, 3] = 1.0
     return {
-        "delta_q_bar_a": np.zeros(step.n_a), "phi": np.zeros(n_c), "least": np.zeros(2),
-        "frame": np.tile(np.diag([0.0, 0.0, 0.0, 1.0]), (n_c, 1, 1)), "mu": np.ones((n_c, 4)),
+        "delta_q_bar_a": np.zeros(n_a), "phi": np.zeros(n_c), "least": np.zeros(2),
+        "frame": frame, "mu": np.ones((n_c, 4)),
         **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
         **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
     }  # fmt: skip
-
-
-def _kept(both: StepInBothUnits) -> dict[str, Array]:
-    """J and A as a step keeps them, of any shapes: whole, or without their zeros."""
-    contacts: Any = both.si_step.contacts
-    A: Any = both.si_form.A
-    if isinstance(both, DenseStepInBothUnits):
-        return {"J": contacts.J, "A": A}
-    return {"J": contacts.blocks.J, "A": A.data}
-
-
-def _in_J(both: StepInBothUnits, group: Group) -> Indices:
-    """Where the entries of a group's J, shape (n_c, 4, n), are among those that are kept."""
-    contacts: Any = both.si_step.contacts
-    J = _kept(both)["J"]
-    numbered = np.arange(1.0, J.size + 1).reshape(J.shape)
-    if isinstance(both, DenseStepInBothUnits):
-        own = numbered[group.contacts][:, :, group.coordinates]
-    else:
-        own = replace(contacts.blocks, J=numbered).columns(group.contacts, group.coordinates)
-    return own.astype(np.int64) - 1
-
-
-def _in_A(both: StepInBothUnits, group: Group) -> Indices:
-    """The same of A, shape (m, n)."""
-    A: Any = both.si_form.A
-    rows = group.rows
-    if isinstance(both, DenseStepInBothUnits):
-        whole: Indices = rows[:, None] * A.shape[1] + group.coordinates
-        return whole
-    at = np.full((len(rows), len(group.coordinates)), -1)
-    for i, v in enumerate(group.coordinates.tolist()):
-        entries = np.arange(A.indptr[v], A.indptr[v + 1])
-        own = np.isin(A.indices[entries], rows)
-        at[np.searchsorted(rows, A.indices[entries[own]]), i] = entries[own]
-    return at
 
 
 def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
@@ -211,8 +237,8 @@ class Prover:
     ----------
     both : StepInBothUnits
         One of them.
-    groups : sequence of (Group, DenseStepInBothUnits)
-        Its groups, each with its own step in natural units.
+    groups : sequence of (Group, Constants or StepData, HessianInBothUnits)
+        Its groups, each with what its steps have in common.
 
     Attributes
     ----------
@@ -221,18 +247,22 @@ class Prover:
     """
 
     def __init__(
-        self, both: StepInBothUnits, groups: Sequence[tuple[Group, DenseStepInBothUnits]]
+        self,
+        both: StepInBothUnits,
+        groups: Sequence[tuple[Group, Constants | StepData, HessianInBothUnits]],
     ) -> None:
+        step = both.si_step
         found = library()
         self._prove = found.groups_proved
-        self.proofs = [group_proof(*each, both) for each in groups]
+        places = Places(both)
+        self.proofs = [group_proof(*each, places) for each in groups]
         addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
         self.s = Structure("groups.c", "Step")
         self.s.put(
             {
                 "groups": len(groups), "group": np.array(addresses, np.int64),
                 "code": np.zeros(len(groups), np.int64), "claims": np.zeros(2, np.int64),
-                **_kept(both), **step_arrays(both.si_step),
+                **_kept(both), **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
             }
         )  # fmt: skip
 
@@ -265,12 +295,12 @@ class Prover:
 
 
 def group_proof(
-    group: Group, own: DenseStepInBothUnits, whole: StepInBothUnits
+    group: Group, own: Constants | StepData, hessian: HessianInBothUnits, places: Places
 ) -> GroupProof | None:
     """The proofs of a group of a step, or None of one that C does not prove."""
-    if own.si_step.extra.names or own.si_step.n_v > LARGEST:
+    if len(group.extra_rows) or len(group.coordinates) > LARGEST:
         return None
-    proof = GroupProof(group, own, whole)
+    proof = GroupProof(group, own, hessian, places)
     return proof if proof.usable else None
 
 

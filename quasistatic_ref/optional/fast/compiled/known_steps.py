@@ -122,7 +122,7 @@ def tried(known: Known) -> Iterator[Tried]:
     step = known.step
     divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
     both = DenseStepInBothUnits(step)
-    prover = Prover(both, divided)
+    prover = Prover(both, [(group, own.si_step, own.hessian) for group, own in divided])
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
