@@ -60,7 +60,7 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
     "world": ({"name": "world"}, "body.name: must be a name other than 'world'"),
     "space": ({"name": "a b"}, "body.name: must not contain"),
     "spherical": ({"base": "spherical"}, r"c.base: is not a base; .* \(got 'spherical"),
-    "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, "c.rpy: must keep the height 0 and"),
+    "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, "c.rpy: moves or turns by z, rx, ry"),
     "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a list'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
     "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),

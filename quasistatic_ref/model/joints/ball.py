@@ -23,13 +23,6 @@ class Ball(TwistJoint):
         """Its entries of q at a pose."""
         return [*quaternion(rpy).tolist()]
 
-    @classmethod
-    def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
-        """Why it cannot be elsewhere than at the start, shape (3,) [m]."""
-        if (xyz == start).all():
-            return None
-        return f"must keep the place {start.tolist()}, because a ball joint turns and does not move"
-
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
         """Its entries of q (+) delta_q."""
         return screw.turned(q, delta_q, screw.half_turn(delta_q))

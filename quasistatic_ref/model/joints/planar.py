@@ -26,16 +26,6 @@ class Planar(TwistJoint):
         """Its entries of q at a pose."""
         return [*xyz[:2].tolist(), *cos_sin(float(rpy[2]))]
 
-    @classmethod
-    def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
-        """Why it cannot be tilted, or higher or lower than at the start, shape (3,) [m]."""
-        if xyz[2] == start[2] and not rpy[:2].any():
-            return None
-        return (
-            f"must keep the height {start[2]:g} and turn only about the vertical, because the base "
-            'is planar; tilt the body in its URDF, or take base = "floating"'
-        )
-
     def moved(self, q: list[float], delta_q: list[float]) -> list[float]:
         """Its entries of q (+) delta_q."""
         x, y, angle = delta_q

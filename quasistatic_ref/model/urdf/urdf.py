@@ -125,8 +125,8 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
 def urdf_model(text: str, base: str) -> Any:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
-    readable, names = _readable(text)
-    model = _with_own_kinds(pin.buildModelFromXML(readable, *root, mimic=True), text)
+    readable, names, own = _readable(text)
+    model = _with_own_joints(pin.buildModelFromXML(readable, *root, mimic=True), own)
     for number in range(1, model.njoints):
         model.names[number] = names.get(model.names[number], model.names[number])
     for frame in model.frames:
@@ -135,19 +135,29 @@ def urdf_model(text: str, base: str) -> Any:
     return model
 
 
-def _readable(text: str) -> tuple[str, dict[str, str]]:
+def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint]]]:
     """A URDF that pinocchio can read, and what its joints are called here, by their names in it.
 
-    Meshes in the text itself are left out, and joints of kinds that URDF does not have float.
-    Joints are numbered where pinocchio, which visits the joints of a link in alphabetical order,
-    would meet a mimic joint before its leader.
+    Meshes in the text itself are left out. Joints are numbered where pinocchio, which visits the
+    joints of a link in alphabetical order, would meet a mimic joint before its leader. The third
+    value has the kinds of joints, by name, that URDF does not have, and that float in its text.
+
+    Raises
+    ------
+    ModelError
+        If there are such joints and mimic joints, whose copies in pinocchio point to the first.
     """
     if not any(word in text for word in ("mimic", "vertex", *OWN)):  # which saves the time of most
-        return text, {}
+        return text, {}, {}
     robot = ElementTree.fromstring(text)
+    own = {}
     for joint in robot.findall("joint"):
-        if joint.get("type") in OWN:
+        kind = OWN.get(joint.attrib["type"])
+        if kind is not None:
+            own[joint.attrib["name"]] = kind
             joint.set("type", "floating")
+    if own and robot.find("joint/mimic") is not None:
+        raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(own)}]")
     for link in robot.findall("link"):
         for collision in link.findall("collision"):
             if any(map(is_inline, collision.findall("geometry/mesh"))):
@@ -161,26 +171,13 @@ def _readable(text: str) -> tuple[str, dict[str, str]]:
             mimic.set(
                 "joint", numbers.get(mimic.get("joint", ""), "")
             )  # a fixed joint's may be none
-    return ElementTree.tostring(robot, encoding="unicode"), names
+    return ElementTree.tostring(robot, encoding="unicode"), names, own
 
 
-def _with_own_kinds(model: Any, text: str) -> Any:
-    """The model of a URDF with its own joints in the place of those that float.
-
-    Raises
-    ------
-    ModelError
-        If there are mimic joints, too: pinocchio's copies of them point to the first model.
-    """
-    if not any(kind in text for kind in OWN):
-        return model
-    robot = ElementTree.fromstring(text)
-    kinds = {joint.attrib["name"]: joint.attrib["type"] for joint in robot.findall("joint")}
-    own = {name: OWN[kind] for name, kind in kinds.items() if kind in OWN}
+def _with_own_joints(model: Any, own: dict[str, type[TwistJoint]]) -> Any:
+    """The model with joints that URDF does not have, by their names, in the place of others."""
     if not own:
         return model
-    if robot.find("joint/mimic") is not None:
-        raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(own)}]")
     made = pin.Model()
     made.appendBodyToJoint(0, model.inertias[0], pin.SE3.Identity())
     for i in range(1, model.njoints):

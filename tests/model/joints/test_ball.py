@@ -163,7 +163,7 @@ def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ModelError, match=r"joint\[ball\]: cannot stand in a file with mimic"):
         System([Body("arm", both)])
     away = [{"t": 0.0, "base": {"xyz": [0, 0, 1], "rpy": [0, 0, 0]}}]
-    with pytest.raises(ScenarioError, match="must keep the place"):
+    with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
         scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
         hanging(True).placed({"arm": {"xyz": [0, 0, 1]}})
