@@ -25,6 +25,7 @@ READS = {
     "array a word": ({"x": ["a"]}, lambda f: f.array("x", (1,)), "t.x: must contain numbers only"),
     "array ragged": ({"x": [[1], [1, 2]]}, lambda f: f.array("x", (2, 2)), "t.x: must"),
     "array too long": ({"x": [1, 2, 3]}, lambda f: f.array("x", (2,)), "t.x: must be 2 numbers"),
+    "array too deep": ({"x": np.zeros((1,) * 40).tolist()}, lambda f: f.array("x", (1,)), "t.x: "),
     "array NaN": ({"x": [float("nan")]}, lambda f: f.array("x", (1,)), "t.x: must contain finite"),
     "sequence a word": ({"x": "ab"}, lambda f: f.sequence("x"), "t.x: must be a list"),
     "table a list": ({"x": []}, lambda f: f.table("x"), "t.x: must be a table"),
