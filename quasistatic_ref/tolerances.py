@@ -51,9 +51,10 @@ much (R43): less than 1e-6. A last bit of phi, 1e-17 m, changes the forces of a 
 weight by 1e-5 of it at h = 10 ms, and by 1e-3 at 1 ms."""
 
 HARDLY_MOVES: Final = 1e-3
-"""Mobility of a side along a direction, relative to its largest [-], up to which loads along it
-count as loads on what else the contact touches. A free body has 1 / m at least, and more than 1000
-times as much only where it is 30 times as far from its centre as its mass is."""
+"""Mobility of a side along a principal direction, relative to its largest [-], below which loads
+along it count less and less as loads of the side: at the square of this not at all. A free body has
+1 / m at least, and more than 1000 times as much only where it is 30 times as far from its centre as
+its mass is."""
 
 BORNE: Final = 1e-4
 """Share of the load [-] that forces of single contacts may leave without a finding."""

@@ -56,11 +56,15 @@ class EnergyNorm:
 
         NaN or infinity where an entry is.
         """
-        columns = np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64)
+        columns = self.moved(P).T
         largest = np.abs(columns).max(axis=0, initial=0.0)
         safe = np.where((largest > 0) & np.isfinite(largest), largest, 1.0)
         lengths: Array = np.linalg.norm(columns / safe, axis=0) * safe
         return lengths
+
+    def moved(self, P: Array) -> Array:
+        """H^-1 p of each row p of P, shape (rows, n_v), in axes in which ||.||_H is the length."""
+        return np.asarray(np.linalg.solve(self.L, (P * self.unit).T).T, dtype=np.float64)
 
 
 class Norm(Protocol):

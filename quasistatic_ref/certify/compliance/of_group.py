@@ -1,22 +1,29 @@
 r"""The compliance of a group: so little that loads are borne, so much that noise does not show.
 
 Each contact of a group touches two of its *sides*: what the actuated coordinates move is one, each
-other body or mechanism another (:func:`~quasistatic_ref.step.groups.sides`). A force of 1 N along
-n, d1 or d2 moves a side by its mobility [m/N],
+other body or mechanism another (:func:`~quasistatic_ref.step.groups.sides`). Forces of 1 N along
+the directions that a contact bears (n; with friction d1 and d2, too) move a side by its mobility
+[m/N], a symmetric matrix of up to 3 x 3:
 
 .. math:: b = J K^{-1} J^T, \qquad K = H / h = K_q \text{ or } M_u / h^2 ,
 
-J being the row of that direction. The compliance of all contacts is a power of two next to
-`COMPLIANCE` times the least of these mobilities: that of the heaviest body or the stiffest spring.
-It follows the units of length, mass and time, the time step and the masses, and (R43) says what
-loads lose by it.
+J being the rows of these directions. The compliance of all contacts is a power of two next to
+`COMPLIANCE` times the least of the mobilities along n, d1 and d2: that of the heaviest body or the
+stiffest spring. It follows the units of length, mass and time, the time step and the masses, and
+(R43) says what loads lose by it.
+
+What a rail or a hinge bears is no load of the side. So an eigenvalue of b that is zero counts as
+the largest of its contact, and a contact at the axis of a hinge as the one that moves most: none
+makes c smaller. :func:`counted` passes from the one to the other without a jump.
 """
 
 import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import sides
 from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 
@@ -30,8 +37,7 @@ LARGEST = 900
 def group_compliance(step: StepData) -> float:
     """The compliance c of the contacts of a step by itself, or of a group of one [m/N].
 
-    A direction in which a side hardly moves, compared with other contacts and directions, is left
-    out: a finger on rails beside its direction, a hinge at its axis.
+    Before it is rounded to a power of two it is continuous in J and H.
 
     Parameters
     ----------
@@ -42,16 +48,34 @@ def group_compliance(step: StepData) -> float:
     StepDataError
         If H, formed without rounding, is not positive definite.
     """
+    contacts = step.contacts
+    borne = cone(step.cone).matrix[:, :3].any(axis=0) & (scaled_by(contacts)[:, :3] > 0)
     least = np.inf
     for side in sides(step):
-        J = frame_jacobian(step.contacts, step.contacts.J[:, :, side])[:3]
+        J = np.stack(frame_jacobian(contacts, contacts.J[:, :, side])[:3], axis=1)
+        J = (borne[:, :, None] * J)[(borne[:, :, None] & (J != 0)).any(axis=(1, 2))]
+        if not len(J):
+            continue
         # LAPACK rounds differently on other processors. That counts where c is as near to one power
         # of two as to the next, and then forces change by what they lose.
-        moves = energy_norm(step.H[np.ix_(side, side)]).of_impulses(np.concatenate(J))
-        moves = moves[moves > np.sqrt(HARDLY_MOVES) * moves.max(initial=0.0)]
-        least = min(least, moves.min(initial=np.inf))
+        norm = energy_norm(step.H[np.ix_(side, side)])
+        moves = norm.moved(J.reshape(-1, len(side))).reshape(J.shape)
+        unit = np.abs(moves).max()
+        moves = moves / unit
+        b, axes = np.linalg.eigh(moves @ moves.transpose(0, 2, 1))  # in units of unit^2 / h
+        along = (axes**2 @ counted(b, b[:, -1:])[:, :, None])[:, :, 0]  # n, d1 and d2
+        least = min(least, unit * np.sqrt(counted(along, along.max()).min()))
     if least == np.inf:
         return NOTHING_MOVES
     # b = h J H^-1 J' = h least^2, which may leave the range of float64 where its logarithm does not
     exponent = round(float(np.log2(COMPLIANCE) + np.log2(step.h) + 2 * np.log2(least)))
     return float(2.0 ** np.clip(exponent, SMALLEST, LARGEST))
+
+
+def counted(b: Array, largest: Array) -> Array:
+    """A mobility b as it is, down to a share `HARDLY_MOVES` of the largest.
+
+    Below, small^2 / b, which grows to the largest again.
+    """
+    small = HARDLY_MOVES * largest
+    return np.where(b >= small, b, small**2 / np.maximum(b, HARDLY_MOVES * small))

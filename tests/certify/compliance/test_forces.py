@@ -21,7 +21,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
-from quasistatic_ref.tolerances import COMPLIANCE
+from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import changed
 from tests.oracles.random_steps import mixed_step
@@ -245,13 +245,37 @@ def test_the_compliance_is_next_to_a_share_of_the_least_mobility():
             assert np.log2(c) == round(np.log2(c))
 
 
-def test_a_direction_in_which_a_side_hardly_moves_does_not_stiffen_its_group():
-    """A slider that moves along a contact, and across it by a rounding error only."""
-    J = np.zeros((1, 4, 1))
-    J[0, :3, 0] = [1.0, 0.0, 1e-17]
-    contacts = contacts_of([0.0], [np.eye(3)], J, 0.5)
-    step = free_step([[1.0]], [0.0], contacts, H)
-    assert abs(np.log2(group_compliance(step) / (COMPLIANCE * H**2))) <= 0.5
+def slider(directions, mu_v=0.5, K=1.0):
+    """One on a rail, which contacts with n = z, d1 = x and d2 = y see move along `directions`."""
+    J = np.zeros((len(directions), 4, 1))
+    J[:, :3, 0] = directions
+    n_c = len(directions)
+    return free_step([[K]], [0.0], contacts_of([0.0] * n_c, [np.eye(3)] * n_c, J, mu_v), H)
+
+
+def test_a_rail_does_not_stiffen_its_group_however_it_is_turned():
+    """Its b = h^2 / m u u' has the mobility h^2 / m along u, and none across, by rounding 1e-34.
+
+    Without friction the contact bears along n alone: b = h^2 / m cos^2 of the angle of u and n.
+    """
+    for angle in np.concatenate([[0.0, 1e-17], np.geomspace(1e-9, 1.5, 200)]):
+        u = [np.sin(angle), 0.0, np.cos(angle)]
+        for mu_v, share in ((0.5, 1.0), (0.0, np.cos(angle) ** 2)):
+            c = group_compliance(slider([u], mu_v))
+            assert abs(np.log2(c / (COMPLIANCE * H**2 * share))) <= 0.5 + ROUNDING
+
+
+def test_the_compliance_changes_by_one_power_of_two_at_a_time():
+    """Of two contacts of a hinge, at 1 m from its axis and at a distance that falls to 1e-12 m.
+
+    Down to a mobility of HARDLY_MOVES of the other's, c follows the second, which bears much; at
+    the axis it bears nothing of the hinge, and c is the first's.
+    """
+    radii = np.geomspace(1.0, 1e-12, 800)  # b falls by 7 % each time
+    c = np.array([group_compliance(slider([X, r * X])) for r in radii])
+    assert set(np.diff(np.log2(c))) == {-1.0, 0.0, 1.0}
+    assert c[0] == c[-1] == group_compliance(slider([X]))
+    assert c.min() == pytest.approx(HARDLY_MOVES * c[0], rel=0.5)
 
 
 def test_noise_of_phi_changes_forces_by_no_more_than_its_length_over_the_compliance():
