@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -89,7 +89,10 @@ def simulator(scene: Scene, certify: str, *, fast: bool = True) -> Simulator:
 
 
 def measured(scene: Scene) -> dict[str, float]:
-    """Medians of its steps without and with a proof, the first with one, and a plain one [s]."""
+    """Medians of its steps without and with a proof, the first with one, and a plain one [s].
+
+    ``alone`` is a first step that is not compared with that of the plain path.
+    """
     warm = simulator(Scene(1, 1, scene.rows, scene.push), "full")
     warm.step(warm.system.q_start, np.zeros(0))  # loads and checks the library
     both = {certify: simulator(scene, certify) for certify in ("off", "full")}
@@ -113,8 +116,15 @@ def measured(scene: Scene) -> dict[str, float]:
             begin = time.process_time()
             one.step(one.system.q_start, np.zeros(0), force)
             plain.append(time.process_time() - begin)
+    again: Any = simulator(scene, "full")
+    again.compared = True  # as if the plain path had agreed
+    begin = time.process_time()
+    again.step(again.system.q_start, np.zeros(0), force)
+    alone = time.process_time() - begin
     off, full = (float(np.median(times[name][BLOCK:])) for name in ("off", "full"))
-    return {"off": off, "full": full, "first": times["full"][0], "plain": min(plain, default=0.0)}
+    first = times["full"][0]
+    least = min(plain, default=0.0)
+    return {"off": off, "full": full, "first": first, "alone": alone, "plain": least}
 
 
 def of_process(scene: Scene, folder: Path) -> dict[str, float]:
@@ -140,28 +150,30 @@ def main() -> None:
         "",
         "Written by `python -m validation.make.ordinary_states` on "
         f"{m['processor']}, {m['cores']} cores, Python {m['python']}. Median processor time of a "
-        "step "
-        "with `fast` [ms], and of the first step with a proof. Cubes of 40 mm; friction holds half "
-        "their weight: those that stick are pushed with a fifth of it, those that slide or are "
-        "pushed askew with 0.7 of it. `ratio`: proved over uncertified. `before`: another "
-        "checkout, in turn. `plain`: how many times longer a proved step takes without `fast`.",
+        "step with `fast` [ms], and of the first step with a proof; `alone`, without its check by "
+        "the plain path. Cubes of 40 mm; friction holds half their weight: those that stick are "
+        "pushed with a fifth of it, those that slide or are pushed askew with 0.7 of it. `ratio`: "
+        "proved over uncertified. `before`: another checkout, in turn. `plain`: how many times "
+        "longer a proved step takes without `fast`.",
         "",
     ]
     rows = []
     for scene in SCENES:
         every = [of_process(scene, folder) for folder in folders]
         now = every[0]
-        cells = [now["off"], now["full"], now["first"]]
-        row = [scene.name, *(f"{1e3 * t:.3f}" for t in cells), f"{now['full'] / now['off']:.1f}"]
+        cells = [now["off"], now["full"], now["first"], now["alone"]]
+        row = [scene.name, *(f"{1e3 * t:.3f}" for t in cells)]
+        row += [f"{now['full'] / now['off']:.1f}", f"{now['alone'] / now['full']:.1f}"]
         for other in every[1:]:
-            row += [f"{1e3 * other[k]:.3f}" for k in ("off", "full", "first")]
-            row.append(f"{other['full'] / other['off']:.1f}")
+            row += [f"{1e3 * other[k]:.3f}" for k in ("off", "full")]
+            row.append(f"{now['full'] / other['off']:.1f}")
         slower = now["plain"] / now["full"]
         row.append(f"{slower:.0f}" if slower else "")
         rows.append(row)
         print(*row, file=sys.stderr, flush=True)
-    head = ["uncertified", "proved", "first", "ratio"]
-    heads = ["scene", *head, *(f"{name} before" for name in head if len(folders) > 1), "plain"]
+    head = ["uncertified", "proved", "first", "alone", "ratio", "alone over proved"]
+    before = ["uncertified before", "proved before", "proved over uncertified before"]
+    heads = ["scene", *head, *(before if len(folders) > 1 else []), "plain"]
     shown("\n".join([*lines, *markdown_table(heads, rows)]), options.out)
 
 

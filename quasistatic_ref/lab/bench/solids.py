@@ -19,7 +19,7 @@ from quasistatic_ref.lab.bench.grasp import bare_daqp
 from quasistatic_ref.lab.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.lab.scenes.systems import on_link, words, world_plane
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.fast.adapters.program import Program, SparseProgram
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.simulator import Simulator
@@ -200,8 +200,10 @@ def _uncertified(scene: Scene) -> dict[str, Job]:
     """Uncertified steps from the scene's start, the bare solver, and MuJoCo where it is there."""
     off = _Run(scene, UNCERTIFIED)
     solver: Any = off.simulator.solver
-    assert isinstance(solver.program, Program)
-    jobs: dict[str, Job] = {UNCERTIFIED: off.step, SOLVER: bare_daqp(solver.program)}
+    program = solver.program
+    if isinstance(program, SparseProgram):
+        program = Program(program.H.toarray(), program.f, program.A.toarray(), program.b)
+    jobs: dict[str, Job] = {UNCERTIFIED: off.step, SOLVER: bare_daqp(program)}
     if find_spec("mujoco") is not None:
         mujoco: Any = import_module("mujoco")
         jobs[MUJOCO] = partial(mujoco.mj_step, *scene.model())
