@@ -381,3 +381,17 @@ SLID: Final = 1e-4
 
 BRIEF: Final = 3
 """Steps [-] for which a change is no event: the nearest points of a pair come and go so often."""
+
+ROUGH: Final = 5.0
+"""Friction coefficient above which a number is none [-]: racing tyres have 1.7."""
+
+SLIPPED: Final = 0.1
+"""Slip of a grip that lost what it held, over the smaller shape of a pair [-]: a body that settles
+between fingers slips by a hundredth of them."""
+
+LAGS: Final = 0.1
+"""Distance of a joint from its last target, over the way that its target went [-], that is none of
+a spring's usual lag."""
+
+STALLED: Final = 0.25
+"""The same distance over the shape that presses [-], of what is to push and not to press."""

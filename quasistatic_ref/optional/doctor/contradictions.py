@@ -22,8 +22,8 @@ WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repea
 """To the faces, edges and corners of a cube [-]."""
 HULL = "hull of its points"
 OUTSIDE = 0.25
-"""How far a centre of mass may be outside of the hull of a cloud, over the cloud's extent [-]: a
-cloud may be a part of a surface."""
+"""How far a centre of mass may be outside of shapes, or of the hull of a cloud, over their extent
+[-]: a cloud may be a part of a surface."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
@@ -61,17 +61,16 @@ def inertia(start: Start) -> Iterator[Said]:
 
 
 def centre(start: Start) -> Iterator[Said]:
-    """Free links whose centre of mass is far outside of the points that they are known by."""
+    """Free links whose centre of mass is far outside of their shapes."""
     for link, name, shapes in _free_links(start):
-        if any(placed.link != link or placed.name != HULL for placed in shapes):
-            continue
         at = start.system.centres[link]
-        away = min(float(placed.shape.signed_distance(at[None])[0][0]) for placed in shapes)
-        extent = max(sizes(shapes))
+        own = [(placed, (at - placed.t) @ placed.R) for placed in shapes]  # in each shape's frame
+        away = min(float(placed.shape.signed_distance(x[None])[0][0]) for placed, x in own)
+        extent = max(sizes(shapes), default=np.inf)
         if away > OUTSIDE * extent:
             yield Said(
-                f"check the centre of mass of {name}, or the origin of its cloud",
-                f"it is {1e3 * away:.3g} mm outside of its points, which are {1e3 * extent:.3g} mm "
+                f"check the centre of mass of {name}, or the origin of its shapes",
+                f"it is {1e3 * away:.3g} mm outside of its shapes, which are {1e3 * extent:.3g} mm "
                 "long; both are in the frame of the link",
                 {"outside_mm": 1e3 * away},
             )

@@ -6,10 +6,14 @@ import numpy as np
 
 from quasistatic_ref.optional.doctor.artifacts import Drag, drags
 from quasistatic_ref.optional.doctor.run import Run, wrenches
-from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.optional.doctor.start import Said, free_bases
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SLOW
 
+ALONG = 0.1
+"""Share of a motion downwards by which a body that settles may move aside [-]."""
+STILL = 1e-9
+"""Motion in a step [m] that is none."""
 SLOWER = 16.0
 """By what M_u is divided, and with it the drag, to see what contacts bear without drag."""
 
@@ -21,7 +25,8 @@ def drag(run: Run) -> Iterator[Said]:
     contacts can bear, and makes the share too small. So the friction is that of the same step with
     M_u / 16 and the same loads.
     """
-    shares = run.noted("pushed")
+    shares = run.noted("pushed").copy()
+    shares[: _settled(run)] = np.nan
     if np.isnan(shares).all() or np.nanmax(shares) <= SLOW / 2:
         return  # what drag adds to friction is a share of itself
     k = int(np.nanargmax(shares))
@@ -43,6 +48,16 @@ def drag(run: Run) -> Iterator[Said]:
         f"the spurious drag m v / h on {on}, is {share:.2g} times {of}, in step {k}",
         numbers,
     )
+
+
+def _settled(run: Run) -> int:
+    """The first step in which a free body moves otherwise than down: none is carried before."""
+    moves = np.full(run.steps, not run.g)
+    for base in free_bases(run.system).values() if run.g else ():
+        moved = np.diff(run["q"][:, base.q][:, :3], axis=0)
+        down = moved @ run.gravity / run.g
+        moves |= np.linalg.norm(moved, axis=1) > (1 + ALONG) * np.maximum(down, 0.0) + STILL
+    return int(moves.argmax()) if moves.any() else run.steps
 
 
 def _without_doing(run: Run, k: int) -> list[Drag]:

@@ -14,7 +14,7 @@ from quasistatic_ref.optional.doctor.artifacts import (
 )
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, findings
+from quasistatic_ref.optional.doctor.table import AFTER, NO_STEPS, OF_SCENE, findings
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.result import StepResult
@@ -59,10 +59,12 @@ class Doctor(Observer):
     def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings."""
         if trajectory.steps:
-            run = Run(recorder, trajectory.arrays)
+            run = Run(recorder, trajectory)
             found = findings((*OF_SCENE, *AFTER), run)
         else:
-            found = findings(OF_SCENE, Start(recorder.simulator, recorder.start))
+            start = Start(recorder.simulator, recorder.start)
+            kinds = OF_SCENE if trajectory.failed else (*OF_SCENE, NO_STEPS)
+            found = findings(kinds, start)
         header = {
             **trajectory.header,
             "quasi_dynamic_number": largest(recorder.noted("Pi")),

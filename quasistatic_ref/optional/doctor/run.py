@@ -1,6 +1,6 @@
 """A run at its end: what findings after the run look at."""
 
-from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,10 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
@@ -25,16 +27,22 @@ class Run(Start):
     Parameters
     ----------
     recorder : Recorder
-    arrays : mapping of str to ndarray
-        Of its trajectory, of whatever shape [of the notation].
+    trajectory : Trajectory
     """
 
-    def __init__(self, recorder: Recorder, arrays: Mapping[str, NDArray[Any]]) -> None:
+    def __init__(self, recorder: Recorder, trajectory: Trajectory) -> None:
         super().__init__(recorder.simulator, recorder.start)
         self.recorder = recorder
-        self.arrays = arrays
-        self.steps = len(arrays["t"])
+        self.trajectory = trajectory
+        self.arrays = trajectory.arrays
+        self.steps = trajectory.steps
+        self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
+
+    @cached_property
+    def task(self) -> Any:
+        """What it was made for, which ``optional/account`` knows."""
+        return needed_part("account.task", "a finding of the task").Task(self, self.trajectory)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]

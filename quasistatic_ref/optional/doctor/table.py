@@ -11,7 +11,9 @@ from quasistatic_ref.optional.doctor import (
     guides,
     leaps,
     left_out,
+    numbers,
     penetration,
+    placed,
     proofs,
     several,
     strays,
@@ -21,7 +23,9 @@ from quasistatic_ref.optional.doctor import (
     units,
     unsupported,
 )
+from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said, Start
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -53,17 +57,40 @@ OF_SCENE = (
     Kind("density", True, contradictions.density),
     Kind("centre of mass", True, contradictions.centre),
     Kind("inertia", True, contradictions.inertia),
+    Kind("no friction coefficient", True, numbers.friction),
+    Kind("no angle", True, numbers.angle),
+    Kind("gravity", True, placed.gravity),
     Kind("unsupported body", True, unsupported.unsupported),
+    Kind("unsupported body", True, placed.nothing_below),
     Kind("initial penetration", True, penetration.penetration),
+    Kind("starts in the air", True, placed.in_the_air),
     Kind("guided friction", True, guides.guided),
     Kind("too few points", True, few_points.few_points),
+    Kind("no count", True, numbers.count),
 )
+OF_TARGETS = (
+    Kind("unit of a target", True, units.far_targets),
+    Kind("target beyond a limit", True, targets.beyond_limits),
+)
+
+
+def of_task() -> tuple[Kind, ...]:
+    """What ``optional/account`` finds of a run's task, where it is there."""
+    task = part("account.task")
+    kinds = () if task is None else task.KINDS
+    return tuple(Kind(name, grave, _of_task(found)) for name, grave, found in kinds)
+
+
+def _of_task(found: Callable[..., Iterator[Said]]) -> Callable[[Run], Iterator[Said]]:
+    return lambda run: found(run.task) if run.complete else iter(())
+
+
 AFTER = (
+    *OF_TARGETS,
+    *of_task(),
     Kind("locked guide", True, guides.locked),
     Kind("sunk contact", True, sunk.sunk),
     Kind("leap", True, leaps.leaps),
-    Kind("unit of a target", True, units.far_targets),
-    Kind("target beyond a limit", True, targets.beyond_limits),
     Kind("joint beyond a limit", True, targets.joints_beyond),
     Kind("half a turn behind", True, targets.half_turns),
     Kind("free fall", True, unsupported.falling),
@@ -74,6 +101,7 @@ AFTER = (
     Kind("exchanged points", False, left_out.exchanged),
     Kind("uncertain forces", False, unborne.unborne),
 )
+NO_STEPS = Kind("no motion", True, numbers.no_steps)
 OF_TIME = (Kind("time of proof", False, proofs.proofs),)
 """Of wall time, which is no part of a trajectory's file."""
 

@@ -1,0 +1,320 @@
+"""Whether a run did what its scene was made for: the findings of the task."""
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.account.account import PairAccount, account_of
+from quasistatic_ref.optional.account.observer import side
+from quasistatic_ref.optional.account.words import amount, length, listed
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.tolerances import LAGS, SLIPPED, STALLED, SUNK
+
+OPPOSITE = -0.5
+"""Cosine of two normals that grip [-]."""
+LOOKED = 8
+"""Steps, spread over a run, in which bodies are looked for that pass through each other."""
+MOST = 300
+"""Pairs of shapes that are looked at."""
+
+
+class Said(NamedTuple):
+    """What a finding says: its sentence is ``remedy: cause``.
+
+    Parameters
+    ----------
+    remedy, cause : str
+    numbers : dict of str to float
+        By names that end in their unit [any unit].
+    """
+
+    remedy: str
+    cause: str
+    numbers: dict[str, float]
+
+
+class Task:
+    """A run, and who was to do what in it.
+
+    Parameters
+    ----------
+    run : Run
+        As the doctor has it.
+    trajectory : Trajectory
+    """
+
+    def __init__(self, run: Any, trajectory: Trajectory) -> None:
+        self.run = run
+        self.trajectory = trajectory
+        self.system = run.system
+        self.pairs: tuple[ContactPair, ...] = run.pairs
+        self.steps = trajectory.steps
+        self.end = trajectory.steps * run.h
+        self.tracks = run.recorder.tracks
+        self.accounts = account_of(trajectory, forces=False).pairs
+        moves = self.system.column_map.of_coordinates(self.system.column_map.moves)[:, 0] != 0
+        self.driven = moves[:, : self.system.n_a].any(axis=1)
+        self.free = moves[:, self.system.n_a :].any(axis=1) & ~self.driven
+
+    @property
+    def finished(self) -> bool:
+        """Whether there are waypoints, and the run goes on to the last of them."""
+        times = [float(track.times[-1]) for track in self.tracks]
+        return bool(times) and max(times) <= self.end + self.run.h / 2
+
+    @cached_property
+    def tables(self) -> dict[str, list[int]]:
+        """The pairs by which something driven acts on something free, by their tables."""
+        found: dict[str, list[int]] = {}
+        for i, pair in enumerate(self.pairs):
+            links = [pair.alpha.link, pair.beta.link]
+            if self.driven[links].any() and self.free[links].any():
+                found.setdefault(self.accounts[i].table, []).append(i)
+        return found
+
+    def idle(self, table: str) -> bool:
+        """Whether no pair of a table ever touched."""
+        return not any(self.accounts[i].touches.any() for i in self.tables[table])
+
+    def size(self, i: int) -> float:
+        """Extent of the smaller shape of a pair [m]."""
+        shapes = (self.pairs[i].alpha.shape, self.pairs[i].beta.shape)
+        return min(float(shape.extent) or np.inf for shape in shapes)
+
+    def held(self, i: int) -> str:
+        """What is free in a pair of :attr:`tables`."""
+        pair = self.pairs[i]
+        return self.accounts[i].alpha if self.free[pair.alpha.link] else self.accounts[i].beta
+
+    def holder(self, i: int) -> str:
+        """What is driven in it."""
+        pair = self.pairs[i]
+        return self.accounts[i].beta if self.free[pair.alpha.link] else self.accounts[i].alpha
+
+
+def late(task: Task) -> Iterator[Said]:
+    """A run that ends before the first waypoint at which something is to have moved."""
+    first: dict[str, float] = {}
+    for track in task.tracks:
+        moved = (track.values != track.values[0]).any(axis=1)
+        if moved.any():
+            first[track.joint.name] = float(track.times[moved.argmax()])
+    if not first or min(first.values()) <= task.end + task.run.h / 2:
+        return
+    joint = min(first, key=first.__getitem__)
+    yield Said(
+        "raise steps or h, or check the times of waypoints, which are in seconds",
+        f"the run ends at {task.end:.4g} s ({task.steps} steps of {task.run.h:g} s), before the "
+        f"first waypoint of {joint}, at {first[joint]:.4g} s",
+        {"end_s": task.end, "waypoint_s": first[joint]},
+    )
+
+
+def still(task: Task) -> Iterator[Said]:
+    """Actuated joints that are to act on something, never reach it, and have nowhere to go."""
+    n = task.system.n_q_a
+    targets = task.trajectory["q_bar_a"]
+    idle = [table for table in task.tables if task.idle(table)]
+    if not n or len(idle) < len(task.tables) or not idle:
+        return
+    if (targets == task.trajectory["q"][0, :n]).all():
+        bodies = sorted({j.name.partition("/")[0] for j in task.system.joints if j.actuated})
+        yield Said(
+            f"add targets, [[bodies.{bodies[0]}.targets]]",
+            f"all targets are where {listed(bodies)} starts, so that nothing is driven, and no "
+            f"pair of contacts.{idle[0]} ever touches",
+            {"steps": task.steps},
+        )
+
+
+def through(task: Task) -> Iterator[Said]:
+    """Bodies that come to be in each other and share no table: of each two the deepest."""
+    system = task.system
+    shapes = {s.name: s for s in system.shapes}
+    shapes |= {s.name: s for pair in task.pairs for s in (pair.alpha, pair.beta)}
+    joined = {frozenset((_who(p.alpha), _who(p.beta))) for p in task.pairs}
+    every = list(shapes.values())
+    made = []
+    for i, a in enumerate(every):
+        for b in every[i + 1 :]:
+            bodies = [system.links[s.link].partition("/")[0] for s in (a, b)]
+            moved = task.driven[[a.link, b.link]] | task.free[[a.link, b.link]]
+            if bodies[0] == bodies[1] or not moved.any() or frozenset((_who(a), _who(b))) in joined:
+                continue
+            try:
+                made.append(ContactPair("unjoined", a, b, 0.0, 0.0, 4, 1, hull=True))
+            except ContactError:
+                continue
+    if len(made) > MOST:
+        return
+    said: dict[frozenset[str], Said] = {}
+    q = task.trajectory["q"]
+    start = _depths(task, made, q[0])
+    for k in np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist():
+        depths = _depths(task, made, q[k])
+        for pair, at_first, depth in zip(made, start, depths, strict=True):
+            sizes = [float(s.shape.extent) or np.inf for s in (pair.alpha, pair.beta)]
+            names = [side(system, s) for s in (pair.alpha, pair.beta)]
+            key = frozenset(name.partition("/")[0] for name in names)
+            found = said.get(key)
+            worse = found is None or found.numbers["depth_mm"] < 1e3 * depth
+            if at_first <= 0 and depth > SUNK * min(sizes) and worse:
+                said[key] = Said(
+                    f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
+                    f"no table joins them, and they pass through each other, {length(depth)} deep "
+                    f"at {k * task.run.h:.2f} s",
+                    {"depth_mm": 1e3 * depth, "step": k - 1},
+                )
+    yield from said.values()
+
+
+def _who(placed: PlacedShape) -> str | int:
+    """What a table joins: a link, or a shape of the world."""
+    return placed.link or placed.name
+
+
+def _depths(task: Task, pairs: list[ContactPair], q: Array) -> list[float]:
+    """How deep shapes are in each other [m], minus their distance; -inf where it is not known."""
+    kinematics = task.system.kinematics(q)
+    found = []
+    for pair in pairs:
+        try:
+            found.append(-float(closest_points([pair], kinematics).phi[0]))
+        except ContactError:
+            found.append(-np.inf)
+    return found
+
+
+def idle(task: Task) -> Iterator[Said]:
+    """Tables by which something driven was to act on something free, and never did."""
+    if not task.finished:
+        return
+    for table, pairs in task.tables.items():
+        others = (other for other in task.tables if other != table)
+        acts = any(
+            not task.idle(other) and task.held(task.tables[other][0]) == task.held(pairs[0])
+            for other in others
+        )
+        if acts or not task.idle(table):
+            continue
+        i = min(pairs, key=lambda i: float(task.accounts[i].phi.min()))
+        near = task.accounts[i]
+        k = int(near.phi.argmin())
+        yield Said(
+            f"check where {task.held(i)} stands and how far {task.holder(i)} moves",
+            f"no pair of contacts.{table} ever touches; the nearest, {near.name}, is "
+            f"{length(near.phi[k])} apart at {task.trajectory['t'][k]:.2f} s",
+            {"least_distance_mm": 1e3 * float(near.phi[k]), "step": k},
+        )
+
+
+def lost(task: Task) -> Iterator[Said]:
+    """Grips, contacts from opposite sides, along which what they hold slips by much."""
+    for table, pairs in task.tables.items():
+        grips = _grips(task, pairs)
+        slips = {i: _slip(task.accounts[i], grips) for i in pairs}
+        worst = max(pairs, key=lambda i: float(slips[i].sum()) / task.size(i))
+        way = float(slips[worst].sum())
+        if not task.finished or way <= SLIPPED * task.size(worst):
+            continue
+        k = int(slips[worst].argmax())
+        on = np.array([name in {task.accounts[i].name for i in pairs} for name in
+                       task.trajectory.pair_names])  # fmt: skip
+        pressed = float(task.run.forces(k)[on, 2].sum())
+        bears = task.pairs[worst].mu_v * pressed
+        body = task.held(worst)
+        weight = task.system.mass(body.partition("/")[0]) * task.run.g
+        yield Said(
+            f"raise mu_v of contacts.{table}, or K_q of what closes it or how far it closes",
+            f"{body} slips by {length(way)} along {task.holder(worst)}; at "
+            f"{task.trajectory['t'][k]:.2f} s the grip presses with {pressed:.3g} N in all, its "
+            f"friction bears {bears:.3g} N, and {body} weighs {weight:.3g} N",
+            {"slip_mm": 1e3 * way, "bears_N": bears, "weight_N": weight, "step": k},
+        )
+
+
+def _grips(task: Task, pairs: list[int]) -> Mask:
+    """Whether two contacts of some pairs that touch face each other, shape (steps,)."""
+    names = {task.accounts[i].name for i in pairs}
+    own = np.flatnonzero([name in names for name in task.trajectory.pair_names])
+    touching = {task.accounts[i].name: task.accounts[i].touches for i in pairs}
+    slots = task.trajectory.pair_names
+    on = np.stack([touching[slots[j]] for j in own], axis=1)
+    sign = {task.accounts[i].name: -1.0 if task.free[task.pairs[i].alpha.link] else 1.0
+            for i in pairs}  # fmt: skip
+    n = task.trajectory["n"][:, own] * np.array([sign[slots[j]] for j in own])[:, None]
+    n = np.where(on[:, :, None], n, 0.0)
+    faces = np.einsum("kix,kjx->kij", n, n).min(axis=(1, 2), initial=0.0)
+    return np.asarray(faces < OPPOSITE)
+
+
+def _slip(pair: PairAccount, grips: Mask) -> Array:
+    """Its slip in the steps of a grip, shape (steps,) [m]; 0 where slips are not known."""
+    return np.zeros(len(grips)) if pair.slip is None else np.where(grips, pair.slip, 0.0)
+
+
+def short(task: Task) -> Iterator[Said]:
+    """Joints that end far from their targets and are not stopped by what they press on."""
+    if not task.finished or not task.steps:
+        return
+    k = task.steps - 1
+    contacts = task.run.contacts(k)
+    n_a = task.system.n_a
+    J_n = frame_jacobian(contacts, contacts.J)[0][:, :n_a]
+    pushes = task.run.forces(k)[:, 2:3] * J_n  # what each contact exerts on each joint
+    q = task.trajectory["q"][-1]
+    lag = task.system.actuated_difference(q, task.trajectory["q_bar_a"][-1])
+    spring = task.run.simulator.K_q @ lag
+    for track in task.tracks:
+        joint = track.joint
+        if joint.v.stop != joint.v.start + 1:
+            continue
+        v = joint.v.start
+        way = float(np.ptp(track.values[:, 0]))
+        error = abs(float(lag[v]))
+        if error <= LAGS * way:
+            continue
+        stopped = -np.sign(lag[v]) * pushes[:, v].sum() > abs(spring[v]) / 2
+        unit = joint.coordinates[0].unit
+        if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
+            continue
+        needed = abs(float(spring[v])) / (LAGS * way)
+        yield Said(
+            f"raise K_q of {joint.name} to {needed:.2g} or more",
+            f"it ends {amount(error, unit)} from its last target, with "
+            f"{abs(spring[v]):.3g} {'N' if unit == 'm' else 'N m'} on its spring",
+            {f"error_{unit}": error, "K_q": needed},
+        )
+
+
+def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
+    """Whether what a contact pushes has not moved, though the target is far inside of it."""
+    name = task.trajectory.pair_names[contact]
+    i = next(i for i, account in enumerate(task.accounts) if account.name == name)
+    pairs = task.tables.get(task.accounts[i].table)
+    if pairs is None or unit != "m" or _grips(task, pairs)[-1]:
+        return False
+    pair = task.pairs[i]
+    link = pair.alpha.link if task.free[pair.alpha.link] else pair.beta.link
+    poses = [task.system.kinematics(task.trajectory["q"][k]).t[link] for k in (0, -1)]
+    moved = float(np.linalg.norm(poses[1] - poses[0]))
+    return error > STALLED * task.size(i) and moved < SUNK * task.size(i)
+
+
+KINDS = (
+    ("late waypoints", True, late),
+    ("no motion", True, still),
+    ("passes through", True, through),
+    ("idle contacts", True, idle),
+    ("lost grip", True, lost),
+    ("far from target", True, short),
+)
+"""Name, whether it is grave, and what finds it; causes come first."""

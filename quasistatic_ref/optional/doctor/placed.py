@@ -1,0 +1,86 @@
+"""Free bodies that nothing bears where they start: gravity leads aside, or there is a gap below."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.optional.doctor.start import (
+    Said,
+    Start,
+    bodies,
+    body,
+    free_bases,
+    least,
+    slices,
+)
+from quasistatic_ref.tolerances import NEAR, SUNK
+
+BEARING = 0.1
+"""Cosine of the steepest surface that may bear a body [-]: 84 degrees."""
+
+
+def gravity(start: Start) -> Iterator[Said]:
+    """A body that starts on the world where gravity does not press it there."""
+    for name, own in _contacts(start):
+        near = [x for x in own if x[1] <= SUNK * least(x[0])]
+        world = [x for x in near if "world" in bodies(start.system, x[0])]
+        if world and len(world) == len(near) and max(up for *_, up in near) < BEARING:
+            pair, _, up = world[0]
+            x, y, z = start.gravity
+            yield Said(
+                "check the direction of gravity",
+                f"it is ({x:g}, {y:g}, {z:g}) m/s^2, and does not press {name} on what it lies on, "
+                f"{pair.name}",
+                {"upwards": up},
+            )
+
+
+def in_the_air(start: Start) -> Iterator[Said]:
+    """A body that touches nothing where it starts, above what is to bear it."""
+    for name, own in _apart(start):
+        below = [x for x in own if x[2] > BEARING]
+        if below:
+            pair, gap, _ = min(below, key=lambda x: x[1])
+            yield Said(
+                f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
+                f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it ({pair.name})",
+                {"gap_mm": 1e3 * gap},
+            )
+
+
+def nothing_below(start: Start) -> Iterator[Said]:
+    """A body that touches nothing where it starts, and of whose tables none is of what is below."""
+    for name, own in _apart(start):
+        if all(up <= BEARING for *_, up in own):
+            pair, gap, _ = min(own, key=lambda x: x[1])
+            yield Said(
+                f"add a table [contacts.NAME] of {name} and what should bear it",
+                f"nothing that may touch {name} is below it; the nearest, by {pair.name}, is "
+                f"{1e3 * gap:.4g} mm away",
+                {"gap_mm": 1e3 * gap},
+            )
+
+
+def _apart(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:
+    """Those of `_contacts` that touch nothing."""
+    for name, own in _contacts(start):
+        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own):
+            yield name, own
+
+
+def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:
+    """Of each free body that weighs anything: its pairs, with their least gap [m] and upwards n."""
+    points = start.points
+    if points is None or not start.g:
+        return
+    up = -start.gravity / start.g
+    for name in free_bases(start.system):
+        own = []
+        for pair, at in slices(start.pairs):
+            if name in bodies(start.system, pair):
+                sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
+                j = at.start + int(np.argmin(points.phi[at]))
+                own.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
+        if own:
+            yield name, own

@@ -1,0 +1,121 @@
+"""Scenes with one mistake each: whether a run's first finding names it.
+
+Three scenes that do what they should (a gripper lifts a can that is known as a cloud, a pusher
+moves a box over a table, a hand turns a knob) are in ``mistakes/``, with sixty mistakes, one at a
+time. ``finding`` and ``words`` say what the first finding has to be, and which words its sentence
+has to hold. They were written before the findings. Every third mistake was held out: it was not run
+before the findings were finished. Run ``python -m validation.make.mistakes [--out FILE]``.
+
+Exit status 1 if fewer than 55 are named, or if one of the scenes without a mistake has a finding.
+"""
+
+import argparse
+import shutil
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.finding import Finding
+
+HERE = Path(__file__).parent / "mistakes"
+SCENES = ("grasp", "push", "turn")
+NEEDED = 55
+RADIUS = 0.033
+HEIGHT = 0.12
+"""Of the can [m]."""
+
+
+def mistakes():
+    """All of them, as the file has them."""
+    return tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
+
+
+def scenes_written(folder):
+    """The scenes and their robots in a folder, and the can's points, from its middle and bottom."""
+    shutil.copytree(HERE, folder, dirs_exist_ok=True)
+    angle = np.arange(24) * 2 * np.pi / 24
+    for name, bottom in (("can.csv", -HEIGHT / 2), ("can_from_its_bottom.csv", 0.0)):
+        points = [
+            (RADIUS * np.cos(a), RADIUS * np.sin(a), z)
+            for z in np.linspace(bottom, bottom + HEIGHT, 13)
+            for a in angle
+        ]
+        np.savetxt(folder / name, points, delimiter=",", fmt="%.9f")
+    return folder
+
+
+def found(scene, edits=()):
+    """What is found in a run of a scene, after edits: file, old text, new text."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = scenes_written(Path(name))
+        for file, old, new in edits:
+            text = (folder / file).read_text("utf-8")
+            if old not in text:
+                raise AssertionError(f"{file} has no {old!r}")
+            (folder / file).write_text(text.replace(old, new), "utf-8")
+        try:
+            return load_scenario(folder / f"{scene}.toml").run(progress=False).findings
+        except RunFailed as failure:
+            error = Finding("the run failed", True, failure.reason, "", {})
+            return (*failure.trajectory.findings, error)
+        except InputError as error:
+            return (Finding("refused", True, str(error), "", {}),)
+
+
+def named(mistake, findings):
+    """Whether the first finding is one that the mistake asks for, with its words."""
+    return (
+        bool(findings)
+        and findings[0].name in mistake["finding"]
+        and all(word in findings[0].sentence for word in mistake["words"])
+    )
+
+
+def main(arguments=None):
+    """Run them, and print a row of each."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seen", action="store_true")
+    parser.add_argument("--held-out", action="store_true")
+    parser.add_argument("--out", type=Path)
+    options = parser.parse_args(arguments)
+    rows = ["| scene | mistake | held out | named | first finding |", "|---|---|---|---|---|"]
+    right = {False: [], True: []}
+    for one in mistakes():
+        if (options.seen and one["held_out"]) or (options.held_out and not one["held_out"]):
+            continue
+        findings = found(one["scene"], one["edits"])
+        good = named(one, findings)
+        right[one["held_out"]].append(good)
+        sentence = findings[0].sentence if findings else "none"
+        words = "yes" if good else "**no**"
+        held = "yes" if one["held_out"] else ""
+        rows.append(f"| {one['scene']} | {one['what']} | {held} | {words} | {sentence} |")
+        print(rows[-1], flush=True)
+    healthy = {scene: found(scene) for scene in SCENES}
+    silent = not any(healthy.values())
+    counts = [f"{sum(x)} of {len(x)} {name}" for name, x in
+              (("seen", right[False]), ("held out", right[True])) if x]  # fmt: skip
+    summary = (
+        f"Named in the first sentence: {' and '.join(counts)}. The scenes without a mistake have "
+        f"{'no finding' if silent else 'findings'}."
+    )
+    print(summary)
+    for scene, findings in healthy.items():
+        for one in findings:
+            print(scene, one)
+    if options.out is not None:
+        made = "Written by `python -m validation.make.mistakes --out FILE`."
+        page = ["# Scenes with one mistake each", "", made, "", summary, "", *rows]
+        options.out.write_text("\n".join(page) + "\n", "utf-8")
+    every = right[False] + right[True]
+    missed = len(every) - sum(every)
+    return 0 if silent and missed <= len(mistakes()) - NEEDED else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
