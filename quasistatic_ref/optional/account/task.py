@@ -20,6 +20,10 @@ from quasistatic_ref.tolerances import LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
+TRIAL = 50
+"""Steps of a run that may be a trial."""
+LONG = 10.0
+"""Time of a first waypoint over that of a run that does not come to it [-]."""
 LOOKED = 8
 """Steps, spread over a run, in which bodies are looked for that pass through each other."""
 MOST = 300
@@ -101,13 +105,16 @@ class Task:
 
 
 def late(task: Task) -> Iterator[Said]:
-    """A run that ends before the first waypoint at which something is to have moved."""
+    """A run that ends long before the first waypoint at which something is to have moved.
+
+    Who tries a scene takes its first steps alone: that is none.
+    """
     first: dict[str, float] = {}
     for track in task.tracks:
         moved = (track.values != track.values[0]).any(axis=1)
         if moved.any():
             first[track.joint.name] = float(track.times[moved.argmax()])
-    if not first or min(first.values()) <= task.end + task.run.h / 2:
+    if not first or task.steps < TRIAL or min(first.values()) < LONG * task.end:
         return
     joint = min(first, key=first.__getitem__)
     yield Said(
@@ -123,7 +130,8 @@ def still(task: Task) -> Iterator[Said]:
     n = task.system.n_q_a
     targets = task.trajectory["q_bar_a"]
     idle = [table for table in task.tables if task.idle(table)]
-    if not n or len(idle) < len(task.tables) or not idle:
+    later = any((track.values != track.values[0]).any() for track in task.tracks)
+    if not n or later or len(idle) < len(task.tables) or not idle:
         return
     if (targets == task.trajectory["q"][0, :n]).all():
         bodies = sorted({j.name.partition("/")[0] for j in task.system.joints if j.actuated})

@@ -100,6 +100,24 @@ found = findings([box(), box(name="other", xyz=(0.3, 0, 0.05))], [("floor", "box
 # %% unsupported body: two boxes touch each other and nothing else
 found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [("box", "top", 0.5, 4)])
 
+# %% starts in the air: 50 mm above its floor
+found = findings([box(xyz=(0, 0, 0.1))], [("floor", "box", 0.5, 4)])
+
+# %% gravity: along y
+found = findings([box()], [("floor", "box", 0.5, 4)], gravity=(0, -9.81, 0))
+
+# %% gravity: upwards
+found = findings([box()], [("floor", "box", 0.5, 4)], gravity=(0, 0, 9.81))
+
+# %% no friction coefficient: 50 per cent
+found = findings([box()], [("floor", "box", 50.0, 4)])
+
+# %% no angle: 90 degrees
+found = findings([box(rpy=(0, 0, 90))], [("floor", "box", 0.5, 4)])
+
+# %% no count: 5000 of the corners of a box
+found = findings([box()], [("floor", "box", 0.5, 5000)])
+
 # %% initial penetration: the origin of a box is its middle, and it was set on the floor
 found = findings([box(xyz=(0, 0, 0.04))], [("floor", "box", 0.5, 4)])
 
