@@ -13,6 +13,7 @@ WORDS, *SCENES = re.split(r"^# %% ", CELLS, flags=re.M)
 OF_TASK = {kind.name for kind in of_task()}
 OF_PAGE = [kind for kind in (*OF_SCENE, *AFTER, *OF_TIME) if kind.name not in OF_TASK]
 GRAVE = {kind.name: kind.grave for kind in OF_PAGE}
+WEIGHTS = GRAVE | {kind.name: kind.grave for kind in of_task()}
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +37,7 @@ def test_a_scene_is_named_with_its_cause(words, scene):
     assert name in [one.name for one in found]
     for one in found:
         assert one.sentence.startswith(one.remedy)
-        assert one.grave is GRAVE[one.name]
+        assert one.grave is WEIGHTS[one.name]
 
 
 def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
