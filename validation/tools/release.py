@@ -108,6 +108,7 @@ RESULTS = (
     to_file("designed_steps"),
     to_file("hostile_files"),
     to_file("kills"),
+    to_file("mistakes"),
     to_file("guests"),
     to_file("environments"),
     to_file("forces_by_hand"),
