@@ -20,6 +20,8 @@ from quasistatic_ref.tolerances import LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
+HELD = 1e-12
+"""What interpolation between equal waypoints leaves [m, rad, -]."""
 TRIAL = 50
 """Steps of a run that may be a trial."""
 LONG = 10.0
@@ -133,7 +135,7 @@ def still(task: Task) -> Iterator[Said]:
     later = any((track.values != track.values[0]).any() for track in task.tracks)
     if not n or later or len(idle) < len(task.tables) or not idle:
         return
-    if (targets == task.trajectory["q"][0, :n]).all():
+    if np.abs(targets - task.trajectory["q"][0, :n]).max() <= HELD:
         bodies = sorted({j.name.partition("/")[0] for j in task.system.joints if j.actuated})
         yield Said(
             f"add targets, [[bodies.{bodies[0]}.targets]]",
