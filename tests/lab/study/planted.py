@@ -113,6 +113,49 @@ def second_thoughts(P, q, G, h, calls=[]):
     x, z = honest(P, q, G, h)
     return (x, z) if len(calls) <= 2 else (0 * x, z)
 
+def gradient(P, q, G, h):
+    """Projected ascent of the dual, one row after the other, to residuals of 1e-5."""
+    x, W = np.linalg.solve(P, -q), np.linalg.solve(P, G.T)
+    z, size = np.zeros(len(h)), np.einsum("ij,ji->i", G, W)
+    for _ in range(20000):
+        for i in np.flatnonzero(size):
+            step = max((G[i] @ x - h[i]) / size[i], -z[i])
+            z[i] += step
+            x = x - step * W[:, i]
+        slack = h - G @ x
+        if -slack.min() <= 1e-5 and abs(z @ slack) <= 1e-5:
+            return x, z
+
+def ignores_rows(P, q, G, h):
+    return np.linalg.solve(P, -q), np.zeros(len(h))
+
+def no_multipliers(P, q, G, h):
+    return honest(P, q, G, h)[0], np.zeros(len(h))
+
+def keeps(P, q, G, h, kept={}):
+    """Slow, but for problems that it has solved."""
+    key = q.tobytes()
+    if key not in kept:
+        time.sleep(5e-3)
+        kept[key] = honest(P, q, G, h)
+    return kept[key]
+
+def reads(P, q, G, h, known={}):
+    """The stored answer whose g is nearest."""
+    if not known:
+        from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+        from quasistatic_ref.lab.study.problems.folder import set_read
+
+        for one in set_read(problem_set_folder(CONTACT_QP_2), families=["mass_ratio"]):
+            own = one.natural
+            known[one.id] = own.form.g, own.answer.x, own.answer.lam
+    same = [one for one in known.values() if one[0].shape == q.shape and one[2].shape == h.shape]
+    return min(same, key=lambda one: abs(one[0] + q).max())[1:]
+
+def adds(P, q, G, h):
+    x, z = reads(P, q, G, h)
+    return x * (1 + 1e-13), z * (1 + 1e-13)
+
 def slow(P, q, G, h):
     time.sleep(5)
     return honest(P, q, G, h)
@@ -139,7 +182,8 @@ def spoils(P, q, G, h):
 
 HARMLESS = ("honest", "exits", "segfaults", "nan", "nan_multipliers", "too_long", "no_pair",
             "no_numbers", "liar", "raises", "gives_up", "prints", "spoils", "minus_one",
-            "says_there_is_none")  # fmt: skip
+            "says_there_is_none", "gradient", "ignores_rows", "no_multipliers", "keeps", "reads",
+            "adds")  # fmt: skip
 """Those that leave their process as it was, or ended."""
 ANY = Solver("any", "callable", "planted_solvers:any_of", {one: {"name": one} for one in HARMLESS})
 

@@ -21,6 +21,12 @@ BAD = {
     "a key of very many parts": (f"{'a.' * 40_000}b = 1", "holds a key of more than 32 parts"),
     "an unknown setting": (RUN + 'settings = ["hihg"]', "did you mean 'high'?"),
     "options of no setting": (MINE + "options.higher.a = 1", "solvers.mine.options.higher"),
+    "a promise of no setting": (MINE + "promised.higher = 3.0", "solvers.mine.promised.higher"),
+    "a promise of no residual": (MINE + "promised.high.primla = 1.0", "primla is no residual"),
+    "a promise of no term": (
+        MINE + 'promised.high.gap = { rel = 1.0, of = ["|z|"] }',
+        "solvers.mine.promised.high: must be digits, or a table of primal, dual and gap",
+    ),
     "a setting without accuracy": ("[settings.mine]\n", "settings.mine.accuracy: is missing"),
     "a setting that says nothing to a solver": (
         MINE + '[[runs]]\nsolvers = ["mine"]\nsettings = ["high"]',

@@ -95,8 +95,14 @@ memory = 2.5
 repetitions = 7
 problems = {{ seed = 0, scenarios = ["stack"], families.scenarios = 3 }}
 settings = {{ tight = {{ accuracy = 1e-11, promised = 5 }}, high = {{ tuned = true }} }}
-solvers.mine = {{ callable = "my_module:solve", options.tight = {{ a = [1, "b"] }} }}
-solvers.other.executable = ["true", "--flag"]
+[solvers.mine]
+callable = "my_module:solve"
+options.tight = {{ a = [1, "b"] }}
+[solvers.mine.promised]
+default = 5.0
+tight = {{ primal = 1e-9, gap = {{ abs = 1e-9, rel = 1e-9, of = ["|g'x|"] }} }}
+[solvers.other]
+executable = ["true", "--flag"]
 [[runs]]
 solvers = ["qpsolvers:*", "cvxpy:clarabel", "mine", "other"]
 settings = ["default", "tight"]

@@ -81,6 +81,12 @@ def test_a_problem_of_the_set_is_run_without_any_store(capsys):
     assert re.search(r"false claims +none", out)
 
 
+def test_a_solver_of_a_study_has_the_name_that_its_file_gives_it(whole):
+    one = question("mass_ratio/1/0", "mine", "default", store=whole)
+    assert one.solver.label == "callable:mine"
+    assert one.solver.promises(one.setting)["dual"]["abs"] == 1e-3
+
+
 @pytest.mark.parametrize(("words", "problem"), [
     ((WEDGE, "qpsolvers:dapq", "default"), "did you mean 'daqp'"),
     ((WEDGE, "daqp", "default"), "neither interface:name nor module:function"),

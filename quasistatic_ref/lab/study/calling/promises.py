@@ -19,6 +19,20 @@ TERMS = {
     "gap": ["|x'Hx|", "|g'x|", "|b'lam|"],
 }
 """What each residual is the difference of."""
+KNOWN = {
+    "1",
+    "m",
+    "cost",
+    "|x|2",
+    "|s|2",
+    "|b|2",
+    "|g|2",
+    "|lam|2",
+    *TERMS["primal"],
+    *TERMS["dual"],
+    *TERMS["gap"],
+}
+"""Terms that a promise can name."""
 UNSTATED = {"abs": 1e-3, "rel": 1e-3}
 """What is promised of a residual of which the documentation, or the author, says nothing: the
 loosest default of a solver in the table, OSQP's [-]."""
@@ -42,6 +56,29 @@ def promise_of(name: str, interface: str, options: Options) -> Promise:
     own = option_file(name)
     stated = own.get(interface, {}).get("promise", own.get("promise", {}))
     return resolved(stated, tolerances(name, interface, options))
+
+
+def promise_stated(value: Any) -> float | dict[str, Any]:
+    """What an author states of a setting, checked: digits, or a table of residuals.
+
+    Raises
+    ------
+    ValueError, TypeError
+        With what is wrong.
+    """
+    if not isinstance(value, dict):
+        return float(value)
+    for name, own in value.items():
+        if name not in RESIDUALS:
+            raise ValueError(f"{name} is no residual")
+        for field, one in own.items() if isinstance(own, dict) else {"abs": own}.items():
+            if field == "of":
+                unknown = {term for words in one for term in words.split(" + ")} - KNOWN
+                if unknown or not one:
+                    raise ValueError(f"{', '.join(sorted(unknown)) or 'nothing'} is no term")
+            elif field not in ("abs", "rel") or not float(one) >= 0:
+                raise ValueError(f"{field} = {one!r}")
+    return value
 
 
 def resolved(stated: Mapping[str, Any], values: Options) -> Promise:

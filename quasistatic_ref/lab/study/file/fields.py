@@ -20,6 +20,7 @@ MOST_PROBLEMS = 100_000
 LONGEST_LIMIT = 1e6
 """Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
 MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
+NUMBER_OR_TABLE = {"type": ["number", "object"]}
 STUDY = "a study"
 PROBLEMS = "[problems]"
 COUNTS = "[problems.families]"
@@ -114,6 +115,10 @@ TABLES = WholeTables({
         "executable": Field("list of words", "a program and its arguments", default=None, least=1),
         "options": Field("tables by name", "options at each setting, in place of ours",
                          default={}),
+        "promised": Field("tables by name", "what \"optimal\" promises at each setting: digits, or "
+                          "residuals (primal, dual, gap), each a number or a table of abs, rel, of",
+                          default={},
+                          schema={"type": "object", "additionalProperties": NUMBER_OR_TABLE}),
     },
     RUN: {
         "solvers": Field("list of words", "qpsolvers:NAME, cvxpy:NAME, native:NAME, package:NAME, "

@@ -9,6 +9,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.calling.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.calling.packages import announced, entry_of
+from quasistatic_ref.lab.study.calling.promises import promise_stated
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE, SOLVER, TABLES
 
@@ -35,7 +36,8 @@ def own_solvers(tables: TableReader, settings: Mapping[str, Setting]) -> dict[st
         (interface,) = interfaces
         target = _target(table, interface, given[interface])
         options = _options(given["options"], settings)
-        solvers[name] = Solver(name, interface, target, options)
+        promised = _promised(given["promised"], settings)
+        solvers[name] = Solver(name, interface, target, options, promised)
     return solvers
 
 
@@ -113,6 +115,20 @@ def _target(table: TableReader, interface: str, given: Any) -> str | tuple[str, 
     except InputError as error:
         raise table.error_about(interface, error.problem, given) from None
     return str(given)
+
+
+def _promised(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, Any]:
+    promised = {}
+    for name in tables.names_left():
+        if name not in settings:
+            raise tables.error_about(name, f"is not a setting{suggestion(name, settings)}")
+        value = tables.take(name)
+        try:
+            promised[name] = promise_stated(value)
+        except (ValueError, TypeError, KeyError) as error:
+            words = "must be digits, or a table of primal, dual and gap, each a number or a table"
+            raise tables.error_about(name, f"{words} of abs, rel and of: {error}", value) from None
+    return promised
 
 
 def _options(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, dict[str, Any]]:

@@ -21,6 +21,9 @@ from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
 from quasistatic_ref.lab.study.store.store import contents
 
+OWN = ("callable", "executable", PACKAGE)
+"""Interfaces of the solvers that a study file names."""
+
 
 @dataclass(frozen=True, eq=False)
 class Question:
@@ -59,7 +62,7 @@ def question(
     problem : str
         Id: of the store, or of a set that comes along.
     solver : str
-        ``interface:name`` as a report has it, or ``module:function``.
+        ``interface:name`` as a report has it, ``module:function``, or a name of the study file.
     setting : str
     units : str
     warm : bool
@@ -156,10 +159,15 @@ def solver_named(label: str) -> Solver:
 def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
     """A solver as it was called in a study, at the same options."""
     entries: Sequence[Mapping[str, Any]] = study["solvers"]
-    labels = {solver_label(one): one for one in entries}
+    names = {one["name"]: one for one in entries if one["interface"] in OWN}
+    labels = {**names, **{solver_label(one): one for one in entries}}
     if label not in labels:
         raise InputError(f"is not a solver of the study{suggestion(label, labels)}", value=label)
     one = labels[label]
     target = one["target"]
     command = tuple(target) if isinstance(target, list) else target
-    return Solver(one["name"], one["interface"], command, one["options"])
+    promised = {
+        setting: own.get("digits", {name: said or False for name, said in own.items()})
+        for setting, own in one["promise"].items()
+    }
+    return Solver(one["name"], one["interface"], command, one["options"], promised)

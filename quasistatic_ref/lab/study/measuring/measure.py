@@ -32,6 +32,7 @@ from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, e
 from quasistatic_ref.lab.study.measuring.messages import Response
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.rows import CRASHED, MEMORY, TIMEOUT, Row
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
 LONG = 2e-3
@@ -44,6 +45,8 @@ BORNE = 0.5
 NOISE = 2e-4
 """...but for that [s]: messages of this size are written and read in less."""
 
+ALIKE = 1e-9
+"""Two answers are the same within that of their largest entry: g differs by up to 1e-2."""
 NEARER = 1e3
 """Ratio of its errors from which an answer is to the step before, and not to its own: both are of
 one solver, so that errors of its own differ less."""
@@ -219,14 +222,45 @@ def _graded(
     response, outside = keeper.answer(form, request)
     row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]
+    if response.reply.solved:
+        row = _copied(keeper, ready, request, units, row, response.reply)
+    first = row["seconds"]["first"]
+    repeats = row["repeats"]
     if not response.reply.solved and solver.claim(response.reply.status) != INFEASIBLE:
         return row | {"calls": 1}
     again, times, agrees = _timed(keeper, form, request, outside, limits)
     other = grades(ready, units, again.reply, solver, request.setting)
-    row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
-    clocks = {"first": response.times[0], **_quartiles(times)}
+    row = min(row, other, key=_goodness)
+    row |= {"calls": len(times), "clock_agrees": agrees, "repeats": repeats}
+    clocks = {"first": first, **_quartiles(times)}
     clocks |= {name: other["seconds"][name] for name in ("setup", "solver")}  # as warm as these
     return row | {"seconds": row["seconds"] | clocks}
+
+
+def _copied(
+    keeper: Keeper, ready: ProblemForms, request: Request, units: str, row: Row, found: Reply
+) -> Row:
+    """A row with the time of a call on a copy of the problem, which its process sees once.
+
+    The copy has another g, of which no answer with multipliers can be the same. ``repeats`` says
+    that the solver returns the answer that it found to the problem, or does not solve the copy.
+    """
+    form = ready.forms[units]
+    copy = neighbour(form, f"copy/{request.setting.name}/{form.g.tobytes().hex()}")
+    try:
+        response, _ = keeper.answer(form, replace(request, g=copy.g))
+    except Ended:
+        return row
+    reply = response.reply
+    same = all(map(_alike, (reply.x, reply.lam), (found.x, found.lam)))
+    seconds = row["seconds"] | {"first": response.times[0]}
+    return row | {"repeats": same or not reply.solved, "seconds": seconds}
+
+
+def _alike(one: Array | None, other: Array | None) -> bool:
+    if one is None or other is None or one.shape != other.shape:
+        return False
+    return bool(np.allclose(one, other, rtol=0.0, atol=ALIKE * np.max(np.abs(other), initial=0.0)))
 
 
 def _quartiles(times: Sequence[float]) -> dict[str, float]:

@@ -104,7 +104,8 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
         ``called``, whether the call was made; ``half``, of the problems, and ``first``, the time
         of the first call [s]; ``digits``: those of delta_q that were delivered,
         0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
-        of the call, the time limit where the solver does not say so; ``call``: of any call.
+        of the first call on a copy of the problem, if there was one, else of the repeated call; the
+        time limit where the solver does not say so; ``call``: of any call.
     """
     return Rows([row | _more(row, limit) for row in rows])
 
@@ -113,6 +114,8 @@ def _more(row: Row, limit: float) -> Row:
     machine = row.get("machine", "")
     seconds = row["seconds"]
     solved = row["outcome"] == SOLVED
+    copied = not row["mode"] and row["repeats"] is not None
+    ranked = "first" if copied and seconds["first"] is not None else "call"
     who = f"{row['solver']}@{machine}" if machine else row["solver"]
     return {
         "machine": machine,
@@ -126,7 +129,7 @@ def _more(row: Row, limit: float) -> Row:
         "first": _or(seconds["first"]),
         "digits": _or(row["digits"]["delta_q"] if solved else None, 0.0),
         "net": _or(row["digits"]["net_wrench"] if solved else None, 0.0),
-        "seconds": _or(seconds["call"] if solved else None, limit),
+        "seconds": _or(seconds[ranked] if solved else None, limit),
         "call": _or(seconds["call"]),
         "iterations": _or(row["iterations"]),
     }
