@@ -31,7 +31,7 @@ from quasistatic_ref.lab.study.measuring.grade import (
 from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.measuring.messages import Response
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.store.rows import CRASHED, MEMORY, TIMEOUT, Row
+from quasistatic_ref.lab.study.store.rows import CRASHED, MEMORY, SOLVED, TIMEOUT, Row
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
@@ -222,7 +222,7 @@ def _graded(
     response, outside = keeper.answer(form, request)
     row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]
-    if response.reply.solved:
+    if row["outcome"] == SOLVED:
         row = _copied(keeper, ready, request, units, row, response.reply)
     first = row["seconds"]["first"]
     repeats = row["repeats"]
@@ -252,7 +252,7 @@ def _copied(
     except Ended:
         return row
     reply = response.reply
-    same = all(map(_alike, (reply.x, reply.lam), (found.x, found.lam)))
+    same = reply.solved and all(map(_alike, (reply.x, reply.lam), (found.x, found.lam)))
     seconds = row["seconds"] | {"first": response.times[0]}
     return row | {"repeats": same or not reply.solved, "seconds": seconds}
 
@@ -260,7 +260,7 @@ def _copied(
 def _alike(one: Array | None, other: Array | None) -> bool:
     if one is None or other is None or one.shape != other.shape:
         return False
-    return bool(np.allclose(one, other, rtol=0.0, atol=ALIKE * np.max(np.abs(other), initial=0.0)))
+    return bool((abs(one - other) <= ALIKE * abs(other).max(initial=0.0)).all())
 
 
 def _quartiles(times: Sequence[float]) -> dict[str, float]:
