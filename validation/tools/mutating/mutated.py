@@ -141,7 +141,7 @@ model/kinematics.py
 model/column_map.py
     system simulator CONTACT
 model/screw.py model/joints/joint.py model/joints/axis_joint.py model/joints/continuous.py
-model/joints/floating.py model/joints/planar.py model/joints/ball.py
+model/joints/floating.py model/joints/planar.py model/joints/ball.py model/joints/twist_joint.py
     screw ball rotation system
 shapes/placed_shape.py
     shapes solid words
