@@ -73,9 +73,10 @@ def group_compliance(step: StepData) -> float:
 
 
 def counted(b: Array, largest: Array) -> Array:
-    """A mobility b as it is, down to a share `HARDLY_MOVES` of the largest.
+    """Mobilities b, shape (k, 3) [-], as they are, down to a share `HARDLY_MOVES` of the largest.
 
-    Below, small^2 / b, which grows to the largest again.
+    Below, small^2 / b, which grows to the largest again; shape (k, 3). `largest` has shape (k, 1),
+    or () for one of all [-].
     """
     small = HARDLY_MOVES * largest
     return np.where(b >= small, b, small**2 / np.maximum(b, HARDLY_MOVES * small))
