@@ -49,8 +49,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--table",
         type=Path,
         metavar="FILE",
-        help="write positions, targets and contacts, a row a step: FILE.csv (extra 'pandas') or "
-        "FILE.parquet (extra 'parquet' as well)",
+        help="write positions, targets and sums of pairs, a row a step: FILE.csv (extra 'pandas') "
+        "or FILE.parquet (extra 'parquet' as well)",
+    )
+    parser.add_argument(
+        "--contacts-table",
+        type=Path,
+        metavar="FILE",
+        help="write the contacts, a row a contact and step, to such a file",
     )
     parser.add_argument(
         "--view",
@@ -75,10 +81,10 @@ def run(options: argparse.Namespace) -> int:
     if options.view:
         viewer = needed_part("show.figures.viewer", "--view")
         viewer.viewer_script()  # so that a missing extra is known before the work, too
-    table = None
-    if options.table is not None:
-        table = needed_part("show.table", "--table")
-        table.check_table_path(options.table)
+    given = {"--table": options.table, "--contacts-table": options.contacts_table}
+    tables = {option: path for option, path in given.items() if path is not None}
+    for option, file in tables.items():
+        needed_part("show.table", option).check_table_path(file, option)
     if options.strict:
         needed_part("doctor.observer", "--strict")
     if options.resume:
@@ -105,8 +111,8 @@ def run(options: argparse.Namespace) -> int:
     view = None
     if viewer is not None:
         view = viewer.view_written(scenario, path.with_suffix(".html"), trajectory)
-    if table is not None:
-        table.table_written(trajectory, options.table)
+    for option, file in tables.items():
+        needed_part("show.table", option).table_written(trajectory, file, option)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
@@ -158,7 +164,7 @@ def run(options: argparse.Namespace) -> int:
             print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
-    written = [str(file) for file in (path, options.table, view) if file is not None]
+    written = [str(file) for file in (path, *tables.values(), view) if file is not None]
     print(f"wrote {' and '.join(written)}")
     return status
 

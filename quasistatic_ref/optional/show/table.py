@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -28,6 +27,13 @@ CONTACT: Final[Mapping[str, tuple[str, ...]]] = {
     **{name: tuple(f"{name}.{axis} [-]" for axis in "xyz") for name in ("n", "d1", "d2")},
 }
 """Columns of a contact, by array."""
+SUMS: Final[Mapping[str, str]] = {
+    "normal": "normal force [N]",
+    "friction": "friction [N]",
+    "torque": "torque [N m]",
+    "share": "share of the limit [-]",
+}
+"""Columns of a pair, by what an account knows of its loads."""
 STEP: Final = {"certificate": "certificate", "worst_residual": "worst residual [-]",
                "digits": "digits [-]"}  # fmt: skip
 """Columns of a step, by array."""
@@ -39,7 +45,7 @@ def data_frame(trajectory: "Trajectory") -> "DataFrame":
 
     ``arm/elbow [rad]`` and ``mug.z [m]`` are positions after the step, ``target arm/elbow [rad]``
     what they were to become, ``delta_q mug/base.z [m]`` the displacement in the step, and
-    ``grip(mug, left)/2.f_n [N]`` belongs to the third contact of that pair.
+    ``grip(mug, left).normal force [N]`` a sum over the contacts of that pair.
 
     Raises
     ------
@@ -95,23 +101,36 @@ def contact_frame(trajectory: "Trajectory") -> "DataFrame":
     return pandas.DataFrame(columns)
 
 
-def table_written(trajectory: "Trajectory", path: Path) -> Path:
-    """Write the wide table as CSV or Parquet, by the name of the file.
+def table_written(trajectory: "Trajectory", path: Path, option: str = "--table") -> Path:
+    """Write a table as CSV or Parquet, by the name of the file.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    path : Path
+    option : str
+        ``--table`` for :func:`data_frame`, ``--contacts-table`` for :func:`contact_frame`.
 
     Raises
     ------
     InputError
         If the name ends otherwise, or what writes it is not installed.
     """
-    check_table_path(path)
-    frame = data_frame(trajectory)
+    check_table_path(path, option)
+    frame = data_frame(trajectory) if option == "--table" else contact_frame(trajectory)
     if path.suffix == ".csv":
         return written_whole(path, lambda file: frame.to_csv(file, mode="wb"))
     return written_whole(path, frame.to_parquet)
 
 
-def check_table_path(path: Path) -> None:
+def check_table_path(path: Path, option: str = "--table") -> None:
     """Refuse the name of a table that cannot be written, before anything is done.
+
+    Parameters
+    ----------
+    path : Path
+    option : str
+        By which it was given.
 
     Raises
     ------
@@ -119,7 +138,7 @@ def check_table_path(path: Path) -> None:
     """
     if path.suffix not in FORMATS:
         problem = f"must end in {' or '.join(FORMATS)}"
-        raise InputError(problem, field="--table", value=str(path))
+        raise InputError(problem, field=option, value=str(path))
     _pandas()
     if path.suffix == ".parquet":
         needed_package("pyarrow", "parquet", "a Parquet file")
@@ -137,12 +156,13 @@ def _wide(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     units = header.get("units", ["m, rad"] * len(header["coordinates"]))
     moves = zip(header["coordinates"], units, trajectory["delta_q"].T, strict=True)
     columns |= {f"delta_q {name} [{unit}]": values for name, unit, values in moves}
-    of_contacts = _of_contacts(trajectory)
-    ends = np.cumsum(cone(header["cone"]).counts(trajectory["rows"]))
-    lam = np.split(trajectory["lam"], ends, axis=1)[:-1]
-    for i, (slot, own) in enumerate(zip(_slots(trajectory), lam, strict=True)):
-        columns |= {f"{slot}.{label}": values[:, i] for label, values in of_contacts.items()}
-        columns |= {f"{slot}.lam_{row} [N s]": values for row, values in enumerate(own.T)}
+    for pair in trajectory.account().pairs if "scene" in header else ():
+        columns[f"{pair.name}.phi [m]"] = pair.phi
+        if pair.slip is not None:
+            columns[f"{pair.name}.slip [m]"] = pair.slip
+        if pair.loads is not None:
+            columns |= {f"{pair.name}.{label}": getattr(pair.loads, name)
+                        for name, label in SUMS.items()}  # fmt: skip
     if header["extra"]:
         extra = zip(header["extra"], trajectory["lam_extra"].T, strict=True)
         columns |= {f"lam of {name}": values for name, values in extra}

@@ -46,18 +46,19 @@ def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(
         "target rail/slide [m]": run.q_bar_a[:, 0],
         "digits [-]": run.digits, "worst residual [-]": run.worst_residual,
     }  # fmt: skip
-    for i, slot in enumerate(run.header["slots"]):
+    for i, slot in enumerate(run.header["slots"]):  # each pair has one contact
+        pair = slot.removesuffix("/0")
+        f = run.forces[:, i]
         expected |= {
-            f"{slot}.phi [m]": run.phi[:, i], f"{slot}.alpha.y [m]": run.alpha[:, i, 1],
-            f"{slot}.n.x [-]": run.n[:, i, 0], f"{slot}.f_n [N]": run.wrench[:, i, 2],
-            f"{slot}.tau_n [N m]": run.wrench[:, i, 3], f"{slot}.point": run.point[:, i],
+            f"{pair}.phi [m]": run.phi[:, i], f"{pair}.normal force [N]": f[:, 2],
+            f"{pair}.friction [N]": np.hypot(f[:, 0], f[:, 1]),
+            f"{pair}.torque [N m]": np.abs(f[:, 3]),
         }  # fmt: skip
-    expected[f"{run.header['slots'][1]}.lam_3 [N s]"] = run.lam[:, 9]
     for name, column in expected.items():
         np.testing.assert_array_equal(table[name], column)
     assert set(table["certificate"]) == {"exact"}
-    # q 10, delta_q 8, q_bar_a 3, phi 2, five vectors of 2 contacts, point 2, wrench 8, lam 10, 3
-    assert table.shape == (5, 10 + 8 + 3 + 2 + 5 * 2 * 3 + 2 + 2 * 4 + 10 + 3)
+    # q 10, delta_q 8, q_bar_a 3; phi, slip, three loads and the share of 2 pairs; 3
+    assert table.shape == (5, 10 + 8 + 3 + 2 * 6 + 3)
 
 
 def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
@@ -91,6 +92,16 @@ def test_run_writes_the_wide_table(tmp_path, scene, capsys, kind, read):
     np.testing.assert_array_equal(found, run.to_pandas()["ball.z [m]"])
 
 
+def test_run_writes_a_row_a_contact_and_step(tmp_path, scene):
+    file = tmp_path / "contacts.csv"
+    arguments = ["run", str(scene), "--fast", "--out", str(tmp_path), "--contacts-table", str(file)]
+    assert main(arguments) == 0
+    run = trajectory_read(tmp_path / f"{scene.stem}.npz")
+    table = exact_csv(file)
+    assert len(table) == run.phi.size
+    np.testing.assert_array_equal(table["phi [m]"].astype(float), run.phi.ravel())
+
+
 def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, capsys):
     assert main(["run", str(scene), "--out", str(tmp_path), "--table", "table.xls"]) == 2
     assert "--table: must end in .csv or .parquet (got 'table.xls')" in capsys.readouterr().err
@@ -99,9 +110,10 @@ def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, caps
 
 def test_files_without_names_have_numbers(run):
     plain = {name: words for name, words in run.header.items()
-             if name not in ("positions", "slots", "units")}  # fmt: skip
+             if name not in ("positions", "slots", "units", "scene")}  # fmt: skip
     table = Trajectory(plain, run.arrays).to_pandas()
-    np.testing.assert_array_equal(table["contact/0.f_n [N]"], run.wrench[:, 0, 2])
+    contacts = Trajectory(plain, run.arrays).contacts_to_pandas()
+    assert list(contacts["pair"][:2]) == ["contact", "contact"]
     np.testing.assert_array_equal(table["q.0 [m, rad]"], run.q[1:, 0])
 
 
