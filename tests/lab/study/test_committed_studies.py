@@ -12,9 +12,11 @@ from quasistatic_ref.lab.study.problems.folder import manifest
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.report.solver_report import solver_report
+from tests.lab.study.plain_report import quantile
 
 STUDIES = Path(__file__).parents[3] / "validation" / "studies"
 DEFAULT = STUDIES / "default"
+PAGE = Path(__file__).parents[3] / "docs" / "solver_study.md"
 MOST = 3 * 2**20
 """Largest study that is kept in the repository [bytes]."""
 
@@ -49,3 +51,28 @@ def test_the_default_study_selects_from_every_family():
     assert study.limits.repetitions >= 5
     trivial = [p for p in problems if p.feasible and not p.answer.x.any()]
     assert len(trivial) <= 0.05 * len(problems)
+
+
+def test_the_page_says_which_accuracy_gave_six_digits_and_whose_claims_are_false(committed):
+    """Its sentences, counted by plain loops: the 5th percentile of answers that kept tolerances."""
+    digits = {}
+    false = {}
+    said = {True: 0, False: 0}
+    for row in committed.rows:
+        if row["said_optimal"]:
+            said[row["feasible"]] += 1
+            key = row["feasible"], row["solver"]
+            false[key] = false.get(key, 0) + row["wrong"]
+        base = (row["units"], row["warm"], row["repetition"]) == ("natural", False, 0)
+        if base and row["outcome"] == "solved" and row["feasible"] and not row["wrong"]:
+            own = digits.setdefault((row["setting"], row["family"]), [])
+            own.append(row["digits"]["delta_q"])
+    low = {key: quantile(own, 0.05) for key, own in digits.items()}
+    six = {s: sum(v >= 6 for (t, _), v in low.items() if t == s) for s in ("mid", "high", "tuned")}
+    assert six == {"mid": 0, "high": 10, "tuned": 16}
+    counts = {key: count for key, count in false.items() if count}
+    assert counts == {(True, "highs"): 358, (True, "osqp"): 8, (True, "quadprog"): 2,
+                      (False, "qoco"): 8, (False, "highs"): 3, (False, "osqp"): 2}  # fmt: skip
+    page = PAGE.read_text("utf-8")
+    assert f"| with a solution, of {said[True]:,} | 2,576 | {358 + 8 + 2} |" in page
+    assert f"| without one, of {said[False]:,} | {said[False]:,} | {8 + 3 + 2} |" in page

@@ -90,8 +90,8 @@ def _one_screen(
 
 
 def lines_of_pandas(comparison: Comparison) -> str:
-    """Ten lines that make the first table again: units, starts and time limit are put in."""
-    text = (Path(__file__).parent / "ten_lines.txt").read_text("utf-8")
+    """The lines that make the first table again: units, starts and time limit are put in."""
+    text = (Path(__file__).parent / "pandas_lines.txt").read_text("utf-8")
     return text.format(
         warm=comparison.base["warm"],
         units=comparison.base["units"],
