@@ -148,6 +148,30 @@ class Drive(Plain):
 
 
 @dataclass(frozen=True, eq=False)
+class Stop(Plain):
+    """A joint at one of its limits, with ``joint_limits = "urdf"``.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``door/hinge at its upper limit``.
+    unit : str
+        Of its force, ``"N"`` or ``"N m"``.
+    force : ndarray, shape (steps,)
+        lam / h of its row [N, N m].
+    """
+
+    name: str
+    unit: str
+    force: Array
+
+    @cached_property
+    def bears(self) -> list[Span]:
+        """When it bore load."""
+        return spans(self.force > BEARS * self.force.max())
+
+
+@dataclass(frozen=True, eq=False)
 class Account(Plain):
     """What happened in a run.
 
@@ -159,6 +183,7 @@ class Account(Plain):
     pairs : tuple of PairAccount
     motions : tuple of Motion
     drives : tuple of Drive
+    stops : tuple of Stop
     missing : tuple of str
         What the record does not hold, in sentences.
     findings : tuple of str
@@ -169,6 +194,7 @@ class Account(Plain):
     pairs: tuple[PairAccount, ...]
     motions: tuple[Motion, ...]
     drives: tuple[Drive, ...]
+    stops: tuple[Stop, ...]
     missing: tuple[str, ...]
     findings: tuple[str, ...]
 
@@ -211,6 +237,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
             for joint in every
             if joint.actuated and trajectory.steps
         ),
+        stops=tuple(_stops(trajectory, {joint.name: joint for joint in every})),
         missing=tuple(missing),
         findings=tuple(str(finding) for finding in trajectory.findings),
     )
@@ -352,6 +379,16 @@ def _motion(joint: Joint, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
                 touched[other] = touched.get(other, False) | pair.touches
     on = {other: found for other, holds in touched.items() if (found := spans(holds))}
     return Motion(joint, moved, _angle(joint, q, start), on)
+
+
+def _stops(run: Trajectory, joints: Mapping[str, Joint]) -> Iterator[Stop]:
+    """The limits that a joint came to; they are rows of an extension, by their names."""
+    for i, name in enumerate(run.header["extra"]):
+        joint, at, end = name.partition(" at its ")
+        if at and end.endswith(" limit") and joint in joints:
+            force = run["lam_extra"][:, i] / float(run.header["h"])
+            if (force > 0).any():
+                yield Stop(name, "N" if joints[joint].lengths else "N m", force)
 
 
 def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]) -> Drive:

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.account import PairAccount, account_of
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length, listed
@@ -16,7 +17,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import LAGS, SLIPPED, STALLED, SUNK
+from quasistatic_ref.tolerances import BEYOND, LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
@@ -290,7 +291,7 @@ def short(task: Task) -> Iterator[Said]:
         v = joint.v.start
         way = float(np.ptp(track.values[:, 0]))
         error = abs(float(lag[v]))
-        if error <= LAGS * way:
+        if not way or error <= LAGS * way or _at_a_stop(task, joint, q):
             continue
         stopped = -np.sign(lag[v]) * pushes[:, v].sum() > abs(spring[v]) / 2
         unit = joint.coordinates[0].unit
@@ -303,6 +304,13 @@ def short(task: Task) -> Iterator[Said]:
             f"{abs(spring[v]):.3g} {'N' if unit == 'm' else 'N m'} on its spring",
             {f"error_{unit}": error, "K_q": needed},
         )
+
+
+def _at_a_stop(task: Task, joint: Joint, q: Array) -> bool:
+    """Whether a joint is at a limit at which it stops, at q, shape (n_q,)."""
+    if joint.limits is None or joint.v.start not in task.run.bounded:
+        return False
+    return bool(abs(q[joint.q] - joint.limits).min() <= BEYOND)
 
 
 def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:

@@ -50,6 +50,7 @@ def events(account: Account) -> list[Event]:
             if pair.slid(span) >= SLID:
                 way = f"slides {length(pair.slid(span))} along {pair.alpha}"
                 found.append((span.first, f"{pair.beta} {way} {_until(span, t)}"))
+    found += [(span.first, stop.name) for stop in account.stops for span in stop.bears]
     said = [Event(float(t[k]), words) for k, words in found]
     return sorted([*said, *_waypoints(account)], key=lambda event: event.t)
 
@@ -115,6 +116,9 @@ def lines(account: Account) -> Iterator[str]:
             yield f"  touches {other} {times(held, account.t)}"
     for drive in account.drives:
         yield driven(drive, account.t)
+    for stop in account.stops:
+        when = times(stop.bears, account.t)
+        yield f"{stop.name} {when}, with at most {stop.force.max():.3g} {stop.unit}"
     for pair in account.pairs:
         yield from _pair(pair, account.t)
     yield from map(str, events(account))
@@ -223,6 +227,10 @@ def tables(account: Account) -> dict[str, Any]:
                 "waypoints_s": list(drive.waypoints),
             }
             for drive in account.drives
+        },
+        "stops": {
+            stop.name: {"bears_s": seconds(stop.bears), "largest_force": float(stop.force.max())}
+            for stop in account.stops
         },
         "pairs": {
             pair.name: {

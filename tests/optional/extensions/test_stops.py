@@ -5,6 +5,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.account.words import lines
 from quasistatic_ref.optional.extensions.stops import urdf_limits
 from quasistatic_ref.step.extension import Extension
 from tests.model.urdf.urdf_texts import joint, link, mimic, robot
@@ -59,14 +60,35 @@ def test_a_drawer_that_is_pushed_stops_at_its_limits(force, fast):
     assert q == (upper if force > 0 else lower)  # all of these forces reach it
 
 
+def test_the_account_of_a_run_has_the_force_of_a_stop():
+    """20 N move 2 kg by 1 mm a step: the second ends at 2 mm, from the third on the stop has them.
+
+    In the second it has 20 N - 2 kg 1 mm / h^2 = 0, up to rounding.
+    """
+    run = pushed_drawer(qr.load_scenario(scene(drawer())), 20.0, 10)
+    (stop,) = run.account().stops
+    assert stop.name == "c/slide at its upper limit"
+    np.testing.assert_allclose(stop.force[2:], 20.0, rtol=ROUNDING, atol=0)
+    said = [*lines(run.account())]
+    assert "c/slide at its upper limit 0.03 to 0.10 s, with at most 20 N" in said
+    assert "0.03 s c/slide at its upper limit" in said
+
+
 def test_an_actuated_joint_presses_against_its_stop():
     """Its spring of 100 N/m towards 5 mm bears 100 N/m (5 mm - 2 mm) = 0.3 N on the stop."""
-    target = [{"t": 0, "slide": 0.005}]
+    target = [{"t": 0, "slide": 0.0}, {"t": 0.01, "slide": 0.005}]
     fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": target}
     run = qr.load_scenario(scene(drawer(), **fields)).run(progress=False)
     np.testing.assert_allclose(run["q"][1:, 0], 0.002, rtol=ROUNDING, atol=0)
     np.testing.assert_allclose(run["lam_extra"][:, 1] / H, 0.3, rtol=ROUNDING, atol=0)
     assert not [one for one in run.findings if "limit" in one.name]
+
+
+def test_a_joint_that_holds_its_place_against_a_load_is_no_error():
+    """A target that does not move has no way of which the error could be a share."""
+    fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": [{"t": 0, "slide": 0.005}]}
+    run = qr.load_scenario(scene(drawer(), **fields)).run(progress=False)
+    assert run["q"][-1, 0] == pytest.approx(0.002, rel=ROUNDING)
 
 
 def test_a_door_that_a_contact_pushes_stops():
