@@ -2,18 +2,17 @@
 
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.account import PairAccount, account_of
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length, listed
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import frame_jacobian
@@ -29,6 +28,8 @@ LONG = 10.0
 """Time of a first waypoint over that of a run that does not come to it [-]."""
 LOOKED = 8
 """Steps, spread over a run, in which bodies are looked for that pass through each other."""
+WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
+"""To the faces, edges and corners of a cube [-]."""
 MOST = 300
 """Pairs of shapes that are looked at."""
 
@@ -160,20 +161,18 @@ def through(task: Task) -> Iterator[Said]:
             moved = task.driven[[a.link, b.link]] | task.free[[a.link, b.link]]
             if bodies[0] == bodies[1] or not moved.any() or frozenset((_who(a), _who(b))) in joined:
                 continue
-            try:
-                made.append(ContactPair("unjoined", a, b, 0.0, 0.0, 4, 1, hull=True))
-            except ContactError:
-                continue
+            made.append((a, b))
     if len(made) > MOST:
         return
+    points = {placed.name: _points(placed) for placed in every}
     said: dict[frozenset[str], Said] = {}
     q = task.trajectory["q"]
-    start = _depths(task, made, q[0])
+    start = _depths(task, made, points, q[0])
     for k in np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist():
-        depths = _depths(task, made, q[k])
+        depths = _depths(task, made, points, q[k])
         for pair, at_first, depth in zip(made, start, depths, strict=True):
-            sizes = [float(s.shape.extent) or np.inf for s in (pair.alpha, pair.beta)]
-            names = [side(system, s) for s in (pair.alpha, pair.beta)]
+            sizes = [float(s.shape.extent) or np.inf for s in pair]
+            names = [side(system, s) for s in pair]
             key = frozenset(name.partition("/")[0] for name in names)
             found = said.get(key)
             worse = found is None or found.numbers["depth_mm"] < 1e3 * depth
@@ -192,16 +191,36 @@ def _who(placed: PlacedShape) -> str | int:
     return placed.link or placed.name
 
 
-def _depths(task: Task, pairs: list[ContactPair], q: Array) -> list[float]:
-    """How deep shapes are in each other [m], minus their distance; -inf where it is not known."""
+def _depths(
+    task: Task,
+    pairs: list[tuple[PlacedShape, PlacedShape]],
+    points: dict[str, Array],
+    q: Array,
+) -> list[float]:
+    """How deep points of one shape are in the other [m], at most; negative where they are apart."""
     kinematics = task.system.kinematics(q)
     found = []
     for pair in pairs:
-        try:
-            found.append(-float(closest_points([pair], kinematics).phi[0]))
-        except ContactError:
-            found.append(-np.inf)
+        depth = -np.inf
+        for of, inside in (pair, pair[::-1]):
+            if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
+                continue
+            x = points[of.name] @ of.R.T + of.t
+            x = x @ kinematics.R[of.link].T + kinematics.t[of.link]
+            x = (x - kinematics.t[inside.link]) @ kinematics.R[inside.link]
+            phi = inside.shape.signed_distance((x - inside.t) @ inside.R)[0]
+            depth = max(depth, -float(phi.min()))
+        found.append(depth)
     return found
+
+
+def _points(placed: PlacedShape) -> Array:
+    """Points of a shape, in its own frame, shape (n, 3) [m]: none of a half-space."""
+    if isinstance(placed.shape, PointCloud):
+        return placed.shape.points
+    if not np.isfinite(placed.shape.extent):
+        return np.zeros((0, 3))
+    return np.array([placed.shape.support_point(way) for way in WAYS])
 
 
 def idle(task: Task) -> Iterator[Said]:
