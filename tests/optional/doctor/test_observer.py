@@ -121,5 +121,4 @@ DRAGS = {"block_push", "block_incline", "panda_push"}
 def test_of_a_scenario_that_comes_along_nothing_grave_is_found(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)
-    uncertain = ["uncertain forces"] * (name == "door")  # its handle is hardly loaded yet
-    assert [found.name for found in run.findings] == ["drag"] * (name in DRAGS) + uncertain
+    assert [found.name for found in run.findings] == ["drag"] * (name in DRAGS)
