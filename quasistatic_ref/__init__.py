@@ -45,6 +45,7 @@ _HOMES = {
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
+    "optional.guests.opinion": "second_opinion",
     "optional.coulomb.fixed_point": "coulomb_step",
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",

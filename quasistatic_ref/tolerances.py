@@ -395,3 +395,27 @@ a spring's usual lag."""
 
 STALLED: Final = 0.25
 """The same distance over the shape that presses [-], of what is to push and not to press."""
+CREEP: Final = 1e-4
+"""Speed up to which a contact of another simulator holds [m/s]: 6 mm in a minute. Friction that is
+regularised yields to any force, so that some speed has to count as none."""
+
+FAST: Final = 0.1
+"""Speed up to which a body creeps [m/s]: that of a fall of 10 ms. MuJoCo's friction yields by
+f R / b, with default softness up to 10 mm/s under the weight of a body, and with a soft one to some
+60 mm/s; what is faster moves by its inertia, of which a step from rest says nothing."""
+
+STEADY: Final = 0.5
+"""Change of a mean velocity from a tenth of a second to the next, over the velocity, up to which a
+body creeps [-]: what falls or swings from rest is three times as fast."""
+
+INSIDE_CONE: Final = 0.98
+"""Share of a contact's limit up to which its friction could bear more [-]: a contact that slides is
+at its limit but for the error of the other solver, some 0.1 %."""
+
+PRESSES: Final = 2.0
+"""Normal forces of another simulator over the exact ones, from which on penetration counts as their
+cause [-]: forces that no load determines differ by some per cent at rest."""
+
+FORCES_AGREE: Final = 0.01
+"""Relative difference of normal forces, up to which they agree [-]; what is less than this part of
+the weight of a model counts as no force."""

@@ -26,6 +26,7 @@ COMMANDS = {
     "account": "say what happened in a run: contacts, bodies and joints, and events in words",
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
+    "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
     "targets": "write targets of joints that move a link along straight lines between poses",
     "extract": "write one step of a trajectory as a step file",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
@@ -34,7 +35,7 @@ COMMANDS = {
     "figures": "make the figures, as PNG and PDF",
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
-    "schema": "print the JSON Schema of scenario or study files, for editors",
+    "schema": "print the JSON Schema of scenario or study files, for editors, or of an opinion",
     "completion": "print a script by which bash, zsh or fish complete these commands",
 }
 SWEEP = "sweep"

@@ -18,6 +18,7 @@ PRINTED = {
     "docs/contributing.md": "tests/meta/test_reading_path.py: the calls of a step",
     "docs/quickstart.md": "tests/quoted.toml: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
+    "docs/guides/does_my_contact_hold.md": "tests/optional/guests/test_opinion.py",
     "docs/guides/run_a_study.md": "below",
     "docs/findings.md": "tests/optional/doctor/test_observer.py and test_findings.py",
 }

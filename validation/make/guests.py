@@ -4,7 +4,8 @@ Each MJCF file of ``PACKAGES`` that loads and has coordinates settles in MuJoCo,
 keyframe if it has one. ``mujoco_step`` makes a step of its state, and ``solve_step`` answers it.
 pip installs the packages into F, or a temporary folder, without what they need: of them only the
 models are read. Of each answer, all forces are added up once more from MuJoCo's arrays.
-Exit status 1 if one is not in balance, or more than a tenth of the models are refused.
+Exit status 1 if one is not in balance, more than a tenth of the models are refused, or the second
+opinion finds something in one of HEALTHY.
 """
 
 import copy
@@ -25,7 +26,11 @@ from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.optional.guests import touches
+from quasistatic_ref.optional.guests.findings import Finding
 from quasistatic_ref.optional.guests.mujoco import Coordinates, mujoco_step
+from quasistatic_ref.optional.guests.opinion import second_opinion
+from quasistatic_ref.optional.guests.still import still
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
@@ -49,12 +54,22 @@ AGREES = 0.01
 """Relative difference of sums of normal forces, up to which they agree."""
 FAR = 1e6
 """Margins of limits [m, rad], at which MuJoCo has rows for all of them."""
+OBJECTS = "metaworld/assets/objects"
+HEALTHY = (
+    f"{OBJECTS}/assembly_peg.xml", f"{OBJECTS}/block.xml", f"{OBJECTS}/box.xml",
+    f"{OBJECTS}/club.xml", f"{OBJECTS}/hammer.xml", f"{OBJECTS}/mug.xml",
+    f"{OBJECTS}/peg_insert.xml", f"{OBJECTS}/soccer_ball.xml", f"{OBJECTS}/stick.xml",
+    "gymnasium_robotics/envs/assets/adroit_hand/adroit_hammer.xml",
+)  # fmt: skip
+"""Scenes in which nothing is wrong, chosen before there were findings."""
+MOST_WORDS = 3
+"""Findings of a model that the table names."""
 
 
 HEAD = (
     "model", "n_v", "contacts", "limits", "equalities", "cone", "answer", "fastest", "speed",
     "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "MuJoCo off", "said",
-    "why they differ",
+    "why they differ", "second opinion",
 )  # fmt: skip
 PAGE = """# States of others as steps
 
@@ -80,6 +95,11 @@ norm of H^-1; how many sentences say what is left out; why sums of forces differ
   balance does not determine; MuJoCo's are those of its springs where bodies are in each other;
 - "damping": MuJoCo's forces are in balance to 1 % with the damping of a slow motion, not without;
 - "no balance": they are not in balance with it either, so that the state still moves.
+
+The last column is what `second_opinion` finds in the same state: bodies that creep, slide, turn or
+rest in MuJoCo alone, and the depth of those that are pushed apart by more than their loads. {found}
+models have a finding; the {healthy} that were chosen as healthy before there were findings have
+{ill}.
 
 {table}
 """
@@ -108,6 +128,7 @@ class Found:
     cone: str = ""
     refused: str = ""
     left_out: tuple[str, ...] = ()
+    opinion: str = ""
 
     @property
     def rests(self) -> bool:
@@ -141,7 +162,7 @@ def imbalance(model: Any, data: Any, coordinates: Coordinates, answer: StepSolut
     mujoco.mj_forward(wide, rest)
     push = np.zeros(model.nv)
     for called, (f_1, f_2, f_n, tau) in zip(step.contacts.name, answer.wrench, strict=True):
-        touch = rest.contact[number(called)]
+        touch = rest.contact[touches.number(called)]
         n, d1, d2 = touch.frame.reshape(3, 3)
         force = f_n * n + f_1 * d1 + f_2 * d2
         for geom, side in zip(touch.geom, (-1.0, 1.0), strict=True):
@@ -189,9 +210,24 @@ def own_imbalance(model: Any, data: Any, step: StepData, T: Array) -> tuple[floa
     return left[0], left[1]
 
 
-def number(called: str) -> int:
-    """MuJoCo's number of a contact, by its name."""
-    return int(called.partition(":")[0])
+def opinion(model: Any, data: Any) -> str:
+    """What the second opinion finds, in short."""
+    try:
+        found = second_opinion(model, data).findings
+    except QuasistaticError as error:
+        return f"none: {type(error).__name__}"
+    words = list(dict.fromkeys(f"{f.body} {f.kind}" + size_words(f) for f in found))
+    more = [f"and {len(words) - MOST_WORDS} more"] if len(words) > MOST_WORDS else []
+    return "; ".join([*words[:MOST_WORDS], *more])
+
+
+def size_words(finding: Finding) -> str:
+    """How much, where it is a speed or a depth."""
+    units = {"m": ("mm", 1e3), "m/s": ("mm/s", 1e3), "rad/s": ("rad/s", 1.0)}
+    if finding.kind not in ("creeps", "penetrates"):
+        return ""
+    unit, size = units[finding.unit]
+    return f" {size * finding.number:.3g} {unit}"
 
 
 def census(path: Path, root: Path) -> Found | None:
@@ -212,11 +248,8 @@ def census(path: Path, root: Path) -> Found | None:
     found.equalities = int(data.ne)
     found.fastest = float(np.abs(data.qvel).max())
     found.deepest = float(max((c.includemargin - c.dist for c in data.contact), default=0.0))
-    forces = np.zeros((data.ncon, 6))
-    for i in range(data.ncon):
-        mujoco.mj_contactForce(model, data, i, forces[i])
-    forces[:, 0] += data.contact.adhesion  # which MuJoCo takes off them
-    found.theirs = float(forces[:, 0].sum())
+    forces = touches.forces(still(model, data), data)[:, 2]
+    found.theirs = float(forces.sum())
     start = time.perf_counter()
     try:
         step, coordinates = mujoco_step(model, data, H)
@@ -230,8 +263,9 @@ def census(path: Path, root: Path) -> Found | None:
     found.kind = answer.certificate.kind
     found.off = imbalance(model, data, coordinates, answer)
     found.speed = float(np.abs(coordinates.T @ answer.delta_q).max() / H)
-    kept = [number(called) for called in step.contacts.name]
-    found.theirs_left_out = found.theirs - float(forces[kept, 0].sum())
+    kept = [touches.number(called) for called in step.contacts.name]
+    found.theirs_left_out = found.theirs - float(forces[kept].sum())
+    found.opinion = opinion(model, data)
     found.theirs_off = own_imbalance(model, data, step, coordinates.T)
     try:
         found.ours = float(answer.forces[:, 2].sum())
@@ -267,7 +301,7 @@ def page(every: list[Found]) -> str:
         (f.path, f.n_v, f.contacts, f.limits, f.equalities, f.cone, f.kind or f.refused,
          f"{f.fastest:.1e}", f"{f.speed:.1e}", f"{1e3 * f.deepest:.3g}", f"{f.theirs:.4g}",
          f"{f.ours:.4g}{'*' * f.several}", f"{f.off:.0e}", f"{f.theirs_off[0]:.0e}",
-         len(f.left_out), differs(f))
+         len(f.left_out), differs(f), f.opinion)
         for f in every
     ]  # fmt: skip
     kinds = Counter(f.kind for f in answered)
@@ -286,6 +320,9 @@ def page(every: list[Found]) -> str:
         longest=max(seconds),
         balanced=sum(f.off <= BALANCED for f in answered),
         limit=BALANCED,
+        found=sum(bool(f.opinion) for f in every),
+        healthy=len(HEALTHY),
+        ill=sum(bool(f.opinion) for f in every if f.path in HEALTHY) or "none",
         table="\n".join(markdown_table(HEAD, rows, 1)),
     )
 
@@ -304,7 +341,8 @@ def main() -> int:
     shown(page(every), options.out)
     refused = sum(bool(found.refused) for found in every)
     unbalanced = sum(found.off > BALANCED for found in every)
-    return int(refused > len(every) / 10 or unbalanced > 0)
+    ill = [found.path for found in every if found.path in HEALTHY and found.opinion]
+    return int(refused > len(every) / 10 or unbalanced > 0 or bool(ill))
 
 
 if __name__ == "__main__":

@@ -28,8 +28,9 @@ def shell_lines(markdown: str) -> tuple[str, ...]:
 
 WALK = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
 """From a URDF to a picture: the page of which a newcomer types every command."""
-WALK_FILES = dict(FILE.findall(WALK))
-"""Its files, by the captions that name them."""
+OPINION = (ROOT / "docs" / "guides" / "does_my_contact_hold.md").read_text("utf-8")
+WALK_FILES = dict(FILE.findall(WALK + OPINION))
+"""Their files, by the captions that name them."""
 
 ROBOTS = (
     "quasistatic-ref run panda_push --set steps=20 --json",
@@ -42,7 +43,10 @@ TARGETS = (
     f"quasistatic-ref targets {MODELS}/arm_push/arm_push.toml --link arm/tip "
     f"--poses {MODELS}/arm_push/poses/line.toml",
 )
-ENGINES = ("quasistatic-ref validate mujoco_rows",)
+ENGINES = (
+    "quasistatic-ref validate mujoco_rows",
+    "quasistatic-ref opinion block.xml --tolerance 0.01 --out opinion",
+)
 FAST = (
     'python -c "import os, sys; '
     "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "

@@ -1,4 +1,4 @@
-"""``schema``: the JSON Schema of scenario or study files, for editors."""
+"""``schema``: the JSON Schema of scenario or study files, for editors, and of an opinion."""
 
 import argparse
 import json
@@ -7,6 +7,7 @@ from typing import Any
 
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.file.fields import study_schema
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     CONTACT,
@@ -39,14 +40,20 @@ def scenario_schema() -> dict[str, Any]:
     return json_schema("A scenario", TABLES, RULES, TOP)
 
 
-SCHEMAS = {"scenario": scenario_schema, "study": study_schema}
+def opinion_schema() -> dict[str, Any]:
+    """The JSON Schema of a second opinion."""
+    fields = needed_part("guests.opinion_fields", "opinion")
+    return json_schema("A second opinion", fields.TABLES, {}, fields.TOP)
+
+
+SCHEMAS = {"scenario": scenario_schema, "study": study_schema, "opinion": opinion_schema}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.add_argument(
         "file", nargs="?", choices=tuple(SCHEMAS), default="scenario", metavar="KIND",
-        help="scenario (default) or study",
+        help="scenario (default), study or opinion",
     )  # fmt: skip
 
 

@@ -141,7 +141,7 @@ def mujoco_step(
     )
     left_out = (
         *of_state.left_out, *held.left_out, *free_limits, *free_contacts, *touches.words(state),
-        *touches.deep(state, step), *velocity_words(data),
+        *touches.deep_words(state, step), *velocity_words(data),
     )  # fmt: skip
     step, dofs, rubbed = with_friction(step, state, tied)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)

@@ -110,8 +110,17 @@ class Still:
 
     def words(self, kind: str, i: int) -> str:
         """An element in words, such as ``joint[knee]``; by its number if it has no name."""
+        return f"{kind}[{self.name(kind, i) or i}]"
+
+    def called(self, kind: str, i: int) -> str:
+        """The name of an element, or its words."""
+        return self.name(kind, i) or self.words(kind, i)
+
+    def name(self, kind: str, i: int) -> str | None:
+        """The name of an element, if it has one."""
         number = getattr(self.mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
-        return f"{kind}[{self.mujoco.mj_id2name(self.model, number, i) or i}]"
+        name: str | None = self.mujoco.mj_id2name(self.model, number, i)
+        return name
 
     def disables(self, what: str) -> bool:
         """Whether the model switches something off, by the name of MuJoCo's flag."""

@@ -46,10 +46,8 @@ def gap(touch: Any) -> float:
 
 def geoms(state: Still, touch: Any) -> str:
     """The geoms of a contact, or the bodies of those without names."""
-    model = state.model
-    number = state.mujoco.mjtObj.mjOBJ_GEOM
-    named = (state.mujoco.mj_id2name(model, number, g) or state.words("body", model.geom_bodyid[g])
-             for g in touch.geom)  # fmt: skip
+    bodies = state.model.geom_bodyid
+    named = (state.name("geom", g) or state.words("body", bodies[g]) for g in touch.geom)
     return "/".join(named)
 
 
@@ -137,8 +135,32 @@ def words(state: Still) -> Iterator[str]:
             yield f"contact[{called}]: rolling friction, for which there is no row"
 
 
-def deep(state: Still, step: StepData) -> Iterator[str]:
+def forces(state: Still, data: Any) -> Array:
+    """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of all its contacts in a state, (ncon, 4) [N, N m].
+
+    They include what balances adhesion, which MuJoCo takes off them.
+    """
+    its = np.zeros((data.ncon, 6))
+    for i in range(data.ncon):
+        state.mujoco.mj_contactForce(state.model, data, i, its[i])
+    its[:, 0] += data.contact.adhesion
+    return its[:, [1, 2, 0, 3]]
+
+
+def number(called: str) -> int:
+    """MuJoCo's number of a contact, by its name."""
+    return int(called.partition(":")[0])
+
+
+def deep_words(state: Still, step: StepData) -> Iterator[str]:
     """Contacts that are deep, and what keeps them there."""
+    for called, depth, reason in deep(state, step):
+        by = f"its bodies penetrate by {1e3 * depth:.3g} mm"
+        yield f"contact[{called}]: {by}; what keeps them there: {reason}"
+
+
+def deep(state: Still, step: StepData) -> Iterator[tuple[str, float, str]]:
+    """The name, depth [m] and reason of each contact that is deep."""
     deep_ones = [(called, touch) for called, touch in found(state) if gap(touch) < -DEEP]
     if not deep_ones:
         return
@@ -163,5 +185,4 @@ def deep(state: Still, step: StepData) -> Iterator[str]:
             reason = "a servo, a spring or the load"
         else:
             reason = "the load"
-        by = f"its bodies penetrate by {-1e3 * gap(touch):.3g} mm"
-        yield f"contact[{called}]: {by}; what keeps them there: {reason}"
+        yield called, -gap(touch), reason

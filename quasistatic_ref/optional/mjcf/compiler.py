@@ -31,12 +31,20 @@ MEMORY = 2 * 2**30
 """Largest memory of it [bytes]."""
 ARENA = 2**20
 """Memory for contacts [bytes], of which none are computed here; by default it may be GiBs."""
+SIMULATED = "simulated"
+"""The argument by which a model keeps its memory for contacts."""
 LARGEST_MODEL = 256 * 2**20
 """Largest model as a binary file [bytes]."""
 
 
-def compiled(fence: Fence) -> tuple[Any, list[str]]:
+def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
     """The model of a file as MuJoCo compiles it, and what of the file is ignored.
+
+    Parameters
+    ----------
+    fence : Fence
+    simulated : bool
+        Whether MuJoCo is to simulate it: the model then has its own memory for contacts.
 
     Returns
     -------
@@ -52,7 +60,7 @@ def compiled(fence: Fence) -> tuple[Any, list[str]]:
     """
     mujoco: Any = import_module("mujoco")
     try:
-        line, _, binary = printed(fence.path.resolve()).partition(b"\n")
+        line, _, binary = printed(fence.path.resolve(), simulated).partition(b"\n")
     except subprocess.TimeoutExpired:
         raise fence.too_much(f"takes MuJoCo longer than {PATIENCE} s by the clock") from None
     except subprocess.CalledProcessError as ended:
@@ -67,10 +75,11 @@ def compiled(fence: Fence) -> tuple[Any, list[str]]:
     return mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary}), said["ignored"]
 
 
-def printed(path: Path) -> bytes:
+def printed(path: Path, simulated: bool = False) -> bytes:
     """The answer of a process of its own."""
+    more = [SIMULATED] if simulated else []
     return subprocess.run(
-        [sys.executable, "-P", "-W", "ignore", "-m", MODULE, str(path), str(SECONDS)],
+        [sys.executable, "-P", "-W", "ignore", "-m", MODULE, str(path), str(SECONDS), *more],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
@@ -81,23 +90,23 @@ def printed(path: Path) -> bytes:
     ).stdout
 
 
-def answer(path: Path) -> bytes:
+def answer(path: Path, *simulated: str) -> bytes:
     """A line that says what is ignored, and the model; or a line that says why there is none."""
     mujoco: Any = import_module("mujoco")
     # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
     mujoco.set_mju_user_warning(lambda text: None)
     try:
-        return _compiled(mujoco, path)
+        return _compiled(mujoco, path, SIMULATED in simulated)
     except ValueError as error:
         return _line({"refused": str(error)})
 
 
-def _compiled(mujoco: Any, path: Path) -> bytes:
+def _compiled(mujoco: Any, path: Path, simulated: bool) -> bytes:
     spec = mujoco.MjSpec.from_file(str(path))
     threads = spec.compiler.usethread
     memory = spec.memory
     spec.compiler.usethread = False
-    spec.memory = ARENA
+    spec.memory = memory if simulated else ARENA
     model = spec.compile()
     sizes = {
         "bodies": (model.nbody, MOST_LINKS),
@@ -129,4 +138,4 @@ def _limit(seconds: int) -> None:
 
 if __name__ == "__main__":
     _limit(int(sys.argv[2]))
-    sys.stdout.buffer.write(answer(Path(sys.argv[1])))
+    sys.stdout.buffer.write(answer(Path(sys.argv[1]), *sys.argv[3:]))

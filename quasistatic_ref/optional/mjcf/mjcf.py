@@ -73,7 +73,7 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
     (('world', 'b/ball'), [0.0, 0.3])
     """
     with about_file(path):
-        model, ignored = _compiled(Path(path), roots)
+        model, ignored = compiled_model(Path(path), roots)
         names = Names.of(model)
         root = _root(model, names, base)
         robot = Element("robot", name="mjcf", version="1.1")
@@ -90,12 +90,20 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
         return text
 
 
-def _compiled(path: Path, roots: Sequence[str | Path]) -> tuple[Any, list[str]]:
-    """What MuJoCo makes of a file, and what of it is ignored."""
+def compiled_model(
+    path: Path, roots: Sequence[str | Path], simulated: bool = False
+) -> tuple[Any, list[str]]:
+    """What MuJoCo makes of a file, and what of it is ignored; the arguments of ``compiled``.
+
+    Raises
+    ------
+    ModelError
+        As of :func:`mjcf_urdf`, but for what a URDF cannot say.
+    """
     try:
-        return compiled(Fence(path, roots))
+        return compiled(Fence(path, roots), simulated)
     except ImportError:
-        problem = "mjcf needs MuJoCo: pip install 'quasistatic-ref[engines]'"
+        problem = "MJCF needs MuJoCo: pip install 'quasistatic-ref[engines]'"
         raise ModelError(problem) from None
 
 

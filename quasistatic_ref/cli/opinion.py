@@ -1,0 +1,81 @@
+"""``opinion SCENE.xml``: do the contacts of a MuJoCo scene hold? MuJoCo's answer and the exact one.
+
+Exit status 0 if nothing is found, 1 if something is, 2 if the scene is refused.
+"""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.parts import needed_package, needed_part
+from quasistatic_ref.tolerances import CREEP
+
+SETTLE = 2.0
+"""Time for which a scene settles by default [s]."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    parser.epilog = "exit status: 0 no finding, 1 a finding, 2 the scene is refused"
+    scene = parser.add_argument("scene", type=Path, help="an MJCF file (.xml)")
+    shared.completed(scene, lambda: (), ".xml")
+    parser.add_argument(
+        "--settle", type=float, default=SETTLE, metavar="SECONDS",
+        help=f"how long MuJoCo simulates the scene before it is asked (default: {SETTLE:g})",
+    )  # fmt: skip
+    parser.add_argument("--keyframe", metavar="NAME", help="begin in a keyframe of the model")
+    parser.add_argument(
+        "--control", action="append", default=[], metavar="ACTUATOR=VALUE",
+        help="the control of an actuator; others are those of the keyframe, or zero",
+    )  # fmt: skip
+    parser.add_argument(
+        "--tolerance", type=float, default=CREEP, metavar="M/S",
+        help=f"speed up to which a contact holds [m/s] (default: {CREEP:g})",
+    )  # fmt: skip
+    shared.add(parser, "--root", "--out", "--json")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print both answers, and what is found."""
+    guests = needed_part("guests.opinion", "opinion")
+    mjcf = needed_part("mjcf.mjcf", "opinion")
+    control = controls(options.control)
+    with about_file(options.scene):
+        model, _ = mjcf.compiled_model(options.scene, options.roots, simulated=True)
+        mujoco = needed_package("mujoco", "engines", "opinion")
+        mujoco.set_mju_user_warning(lambda text: None)  # or it writes a file where it is called
+        settled = needed_part("guests.settled", "opinion").settled
+        data = settled(model, options.settle, options.keyframe, control)
+        opinion = guests.second_opinion(model, data, options.tolerance)
+    if options.json:
+        shared.print_json(opinion.record)
+    else:
+        print(opinion)
+    if options.out is not None:
+        drawn = needed_part("show.figures.opinion", "--out").opinion_figure(opinion)
+        write = needed_part("show.figures.style", "--out").figure_written
+        paths = write(drawn, options.out, "opinion")
+        paths += [text_written(options.out / "opinion.json", json_text(opinion.record) + "\n")]
+        shared.progress_line(options, f"wrote {', '.join(map(str, paths))}")
+    return int(bool(opinion.findings))
+
+
+def controls(given: Sequence[str]) -> dict[str, float]:
+    """Controls by the names of their actuators, from ACTUATOR=VALUE.
+
+    Raises
+    ------
+    InputError
+        If one is not of this form.
+    """
+    found = {}
+    for words in given:
+        name, _, value = words.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise InputError("must be ACTUATOR=VALUE", field="--control", value=words) from None
+    return found

@@ -1,0 +1,68 @@
+"""The fields of a second opinion in JSON, from which its schema is made."""
+
+from quasistatic_ref.formats.declared import Field, Tables
+
+TOP, CONTACT, BODY, FINDING = "opinion", "contact", "body", "finding"
+BEARING, MOTION = "bearing", "motion"
+NULL = {"anyOf": [{"$ref": f"#/definitions/{BEARING}"}, {"type": "null"}]}
+
+TABLES = Tables({
+    TOP: {
+        "format": Field("text", "what it is", choices=("quasistatic-ref/opinion",)),
+        "version": Field("integer", "of this schema", choices=(1,)),
+        "h": Field("number", "time step of the exact answer: MuJoCo's own", "s", above=0),
+        "tolerance": Field("number", "speed up to which a contact holds", "m/s", above=0),
+        "certificate": Field("text", "proof of the exact answer",
+                             choices=("exact", "enclosure", "residual")),
+        "contacts": Field("list of tables", "all contacts of MuJoCo", of=CONTACT),
+        "bodies": Field("list of tables", "bodies that touch and can move", of=BODY),
+        "findings": Field("list of tables", "what is found; exit status 1 if any", of=FINDING),
+        "left_out": Field("list of words", "what the exact answer does not have"),
+    },
+    CONTACT: {
+        "name": Field("text", "MuJoCo's number and geoms"),
+        "bodies": Field("list of words", "the two bodies; world for what cannot move"),
+        "depth": Field("number", "by how much they penetrate", "m"),
+        "mu_v": Field("number", "friction", "-", least=0),
+        "mu_omega": Field("number", "torsional friction", "m", least=0),
+        "mujoco": Field("table", "MuJoCo's answer", of=BEARING),
+        "exact": Field("a table or null", "null where joints or equalities bear any force",
+                       schema=NULL),
+    },
+    BEARING: {
+        "normal": Field("number", "normal force", "N"),
+        "friction": Field("number", "friction force", "N", least=0),
+        "torque": Field("number", "torque about the normal", "N m", least=0),
+        "share": Field("number", "of what friction may be at this normal force", "-", least=0),
+        "slip": Field("number", "speed of one surface along the other", "m/s", least=0),
+        "spin": Field("number", "rate about the normal", "rad/s", least=0),
+    },
+    BODY: {
+        "name": Field("text", "MuJoCo's name"),
+        "size": Field("number", "its farthest point from its centre of mass", "m", least=0),
+        "rests": Field("boolean", "whether MuJoCo has it at rest in the state itself"),
+        "steady": Field("boolean", "whether MuJoCo's motion of it stays as it is"),
+        "free": Field("boolean", "whether nothing but contacts holds it"),
+        "asked": Field("number", "the friction that balances its loads", "N", least=0),
+        "bears": Field("number", "the sum of mu_v times normal force", "N"),
+        "torque": Field("number", "moment that nothing balances", "N m"),
+        "mujoco": Field("table", "MuJoCo's answer, a mean over 0.1 s", of=MOTION),
+        "exact": Field("table", "the exact answer, one step from rest", of=MOTION),
+    },
+    MOTION: {
+        "speed": Field("number", "of the centre of mass", "m/s", least=0),
+        "turn": Field("number", "rate of rotation", "rad/s", least=0),
+        "sinks": Field("number", "speed along gravity", "m/s"),
+    },
+    FINDING: {
+        "kind": Field("text", "what is found",
+                      choices=("creeps", "slides", "turns", "moves", "penetrates")),
+        "body": Field("text", "the body that moves or is pushed"),
+        "contacts": Field("list of words", "its contacts", least=1),
+        "number": Field("number", "speed, share that is borne, torsional friction or depth"),
+        "unit": Field("text", "of the number"),
+        "remedy": Field("text", "the option or element that changes it"),
+        "sentence": Field("text", "all of it in words"),
+    },
+})  # fmt: skip
+"""Fields by the kind of object."""

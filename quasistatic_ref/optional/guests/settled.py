@@ -1,0 +1,115 @@
+"""A state that MuJoCo's own simulation comes to, and how fast it still moves there."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.parts import needed_package
+from quasistatic_ref.step.arrays import Array
+
+UNSTABLE = ("mjWARN_BADQPOS", "mjWARN_BADQVEL", "mjWARN_BADQACC")
+"""Warnings after which MuJoCo begins anew, from the model's first state."""
+
+
+def settled(
+    model: Any,
+    seconds: float,
+    keyframe: str | int | None = None,
+    control: Mapping[str, float] | None = None,
+) -> Any:
+    """MuJoCo's state after a while.
+
+    Parameters
+    ----------
+    model : mujoco.MjModel
+    seconds : float
+        How long it settles [s].
+    keyframe : str or int, optional
+        Where it begins, by name or number: `qpos0` by default.
+    control : mapping of str to float, optional
+        Controls of actuators by name or number [the actuator's unit]; the others are those of the
+        keyframe, or zero.
+
+    Returns
+    -------
+    mujoco.MjData
+
+    Raises
+    ------
+    InputError
+        If there is no such keyframe or actuator, or the time is negative.
+    ModelError
+        If the simulation is unstable.
+    """
+    mujoco = needed_package("mujoco", "engines", "settled")
+    data = mujoco.MjData(model)
+    if not 0 <= seconds < np.inf:
+        raise InputError("must be zero or more seconds", field="settle", value=seconds)
+    if keyframe is not None:
+        mujoco.mj_resetDataKeyframe(model, data, _number(mujoco, model, "KEY", keyframe))
+    for name, value in (control or {}).items():
+        data.ctrl[_number(mujoco, model, "ACTUATOR", name)] = value
+    run(model, data, seconds)
+    return data
+
+
+def velocities(model: Any, data: Any, seconds: float) -> tuple[Array, Array]:
+    """MuJoCo's mean velocity over the next seconds [s], and over as many after them, (nv,) each.
+
+    The controls stay those of `data`.
+
+    Raises
+    ------
+    ModelError
+        If the simulation is unstable.
+    """
+    mujoco = needed_package("mujoco", "engines", "velocities")
+    now = copy.copy(data)
+    means = np.zeros((2, model.nv))
+    for mean in means:
+        before = copy.copy(now)
+        run(model, now, max(seconds, model.opt.timestep))
+        took = now.time - before.time
+        mujoco.mj_differentiatePos(model, mean, took, before.qpos, now.qpos)
+    return means[0], means[1]
+
+
+def run(model: Any, data: Any, seconds: float) -> None:
+    """Let MuJoCo's state run for some seconds [s], in whole time steps.
+
+    Raises
+    ------
+    ModelError
+        If the simulation is unstable.
+    """
+    mujoco = needed_package("mujoco", "engines", "run")
+    before = _resets(mujoco, data)
+    for _ in range(round(seconds / model.opt.timestep)):
+        mujoco.mj_step(model, data)
+    if _resets(mujoco, data) > before:
+        problem = "is too large: MuJoCo's simulation is unstable, and began anew"
+        raise ModelError(problem, field="option.timestep", value=model.opt.timestep)
+
+
+def _resets(mujoco: Any, data: Any) -> int:
+    """How often MuJoCo began anew."""
+    return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)
+
+
+def _number(mujoco: Any, model: Any, kind: str, name: str | int) -> int:
+    """The number of a keyframe or actuator, by its name or number."""
+    count = {"KEY": model.nkey, "ACTUATOR": model.nu}[kind]
+    of = getattr(mujoco.mjtObj, f"mjOBJ_{kind}")
+    names = [mujoco.mj_id2name(model, of, i) or str(i) for i in range(count)]
+    if str(name) in names:
+        return names.index(str(name))
+    if str(name).isdecimal() and int(name) < count:
+        return int(name)
+    what = {"KEY": "keyframe", "ACTUATOR": "actuator"}[kind]
+    raise InputError(f"is not in the model{suggestion(str(name), names)}", field=what, value=name)
