@@ -12,25 +12,28 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from quasistatic_ref.certify.exact import group_optimum, joined_optimum
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step
 from validation.tools.scripts import asked
 
 SEEDS = 3000
-EACH = 6
+EACH = 3
 """Steps of one kind: of equal family, size and outcomes of proofs."""
 MOST = 320
+CONES = ("pyramid", "frictionless", "facets-8")
 
 
 def optimum_of(step: StepData) -> dict[str, Any] | None:
@@ -46,6 +49,27 @@ def optimum_of(step: StepData) -> dict[str, Any] | None:
     return {name: found[name] for name in stored}
 
 
+def varied_step(seed: int) -> StepData:
+    """A designed step, in one of three cones; with coordinates of other units in every second."""
+    step = designed_step(seed)
+    if seed // 4 % 2:
+        units = 2.0 ** np.random.default_rng(seed).integers(-40, 40, step.n_v)
+        of_a = units[: step.n_a]
+        of_u = units[step.n_a :]
+        contacts = step.contacts
+        extra = step.extra
+        step = step.replace(
+            K_q=step.K_q * of_a * of_a[:, None],
+            M_u=step.M_u * of_u * of_u[:, None],
+            tau_a=step.tau_a * of_a,
+            tau_u=step.tau_u * of_u,
+            delta_q_bar_a=step.delta_q_bar_a / of_a,
+            contacts=replace(contacts, J=contacts.J * units),
+            extra=Extra(extra.names, extra.A * units, extra.b),
+        )
+    return step.replace(cone=CONES[seed // 8 % 3])
+
+
 def main() -> int:
     """Write the file."""
     options = asked(__doc__, out=Path)
@@ -56,13 +80,13 @@ def main() -> int:
     kinds: Counter[Any] = Counter()
     lines = []
     for seed in range(SEEDS):
-        step = designed_step(seed)
+        step = varied_step(seed)
         optimum = optimum_of(step)
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
         outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "")))
-        kind = seed % 4, step.n_v, len(divided), "".join(sorted(set(outcomes)))
+        kind = seed % 4, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         if kinds[kind] == EACH or (optimum is not None and not set("or") & set(outcomes)):
             continue
         kinds[kind] += 1

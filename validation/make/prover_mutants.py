@@ -14,7 +14,6 @@ import json
 import os
 import re
 import resource
-import signal
 import subprocess
 import sys
 import tempfile
@@ -36,8 +35,8 @@ FILES = (
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
 """Of each file, lines that are not refused, and why these mutants change no answer."""
 COMPILERS = "compilers"
-SECONDS = 20
-"""A mutant that takes longer does not end, and is refused."""
+SECONDS = 8
+"""A mutant that takes longer of the processor does not end, and is refused."""
 BYTES = 4 << 30
 """Of memory, lest a mutant takes all."""
 OTHER = {
@@ -226,7 +225,7 @@ def tested(file: Path) -> str:
     if not child:
         os.close(reading)
         resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
-        signal.alarm(SECONDS)
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
         try:
             found = selftest.refusal(str(file)) or ""
         except BaseException as failure:  # whatever ends the process is no pass

@@ -7,6 +7,7 @@ no solution. ``validation/make/known_steps.py`` makes the file from the core's e
 import gzip
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -100,6 +101,8 @@ class Tried(NamedTuple):
     code : int
         The outcome, as in proof.h.
     found : ExactOptimum or None
+    whole : ExactOptimum or None
+        Of the step, where all groups are proved on what the guess leads to.
     units : ndarray, shape (2,), or None
         Natural length and size that the library found [m per (N m s)^0.5, (N m s)^0.5]; None where
         it did not pose the step.
@@ -113,6 +116,7 @@ class Tried(NamedTuple):
     changed: bool
     code: int
     found: ExactOptimum | None
+    whole: ExactOptimum | None
     units: Array | None
     of: DenseStepInBothUnits
 
@@ -126,7 +130,7 @@ def tried(known: Known) -> Iterator[Tried]:
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
-        prover.optimum(both, lam, np.zeros(step.m))
+        whole = prover.optimum(both, lam, np.zeros(step.m))
         for number, (group, own) in enumerate(divided):
             proof = prover.proofs[number]
             changed = bool((lam != right)[group.rows].any())
@@ -138,7 +142,7 @@ def tried(known: Known) -> Iterator[Tried]:
                 units = proof.s["units"].copy()
                 found = proof.on(guess, own.units)
                 code = proof.code
-            yield Tried(group, number, words, changed, code, found, units, own)
+            yield Tried(group, number, words, changed, code, found, whole, units, own)
 
 
 def letter(code: int) -> str:
@@ -156,6 +160,8 @@ def wrong(known: Known) -> str | None:
             return f"a guess {one.guess} is not decided"
         if one.code == REFUTED and not one.changed:
             return "the right guess is refuted"
+        if one.whole is not None and not same(one.whole, known.optimum, one.guess == RIGHT):
+            return f"the optimum that a guess {one.guess} leads to is wrong"
         if one.found is None:
             continue
         if one.changed:
@@ -186,3 +192,55 @@ def different(one: Tried, optimum: dict[str, Any]) -> str | None:
         return "the smallest slack"
     degeneracy = [found.multipliers_unique, found.differentiable]
     return None if degeneracy == optimum["degeneracy"][one.number] else "degeneracy"
+
+
+def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) -> bool:
+    """Whether the optimum of a step is the stored one: of multipliers only on the right guess."""
+    if optimum is None:
+        return False
+    every = np.array(optimum["degeneracy"])
+    slack = found.slack[found.slack > 0].tolist()
+    least = min(slack, default=None) if found.differentiable else 0.0
+    claims = [found.multipliers_unique, found.differentiable, found.smallest_inactive_slack]
+    lam = found.lam[found.lam > 0].tolist()
+    names = ["delta_q", "net", "slack"] + ["lam"] * on_right
+    return (
+        all(
+            getattr(found, name).tobytes() == np.array(optimum[name], dtype=np.float64).tobytes()
+            for name in names
+        )
+        and claims == [*every.all(axis=0).tolist(), least]
+        and found.smallest_active_multiplier == min(lam, default=None)
+    )
+
+
+def stale(known: Known) -> str | None:
+    """What of other data a library takes for that of a step, in words; None if nothing.
+
+    The same object proves a step in which one kind of data differs, and then the step itself.
+    """
+    step = known.step
+    divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
+    both = DenseStepInBothUnits(step)
+    lam = guesses(step, known.optimum).get(RIGHT)
+    contacts = step.contacts
+    if lam is None or Prover(step, divided).optimum(both, lam, np.zeros(step.m)) is None:
+        return None
+    prover = Prover(step, divided)
+    pushed = np.linspace(1.0, 2.0, step.n_v)
+    others = {
+        "a target": step.replace(delta_q_bar_a=step.delta_q_bar_a + pushed[: step.n_a]),
+        "a load": step.replace(tau_a=step.tau_a + pushed[: step.n_a]),
+        "a weight": step.replace(tau_u=step.tau_u + pushed[step.n_a :]),
+        "a gap": step.replace(contacts=replace(contacts, phi=contacts.phi + 2.0**-10)),
+        "a tangent": step.replace(contacts=replace(contacts, d1=contacts.d2, d2=-contacts.d1)),
+        "a normal": step.replace(contacts=replace(contacts, n=-contacts.n, d1=-contacts.d1)),
+        "a Jacobian": step.replace(contacts=replace(contacts, J=2 * contacts.J)),
+        "a friction": step.replace(contacts=replace(contacts, mu_v=2 * contacts.mu_v)),
+    }
+    for words, other in others.items():
+        prover.optimum(DenseStepInBothUnits(other), lam, np.zeros(step.m))
+        found = prover.optimum(both, lam, np.zeros(step.m))
+        if found is None or not same(found, known.optimum, True):
+            return f"{words} of another step is taken for its own"
+    return None

@@ -33,7 +33,9 @@ from quasistatic_ref.optional.fast.compiled.cache import Cache, CompileError
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
-TESTED_BY = ("selftest.py", "known_steps.py", "known_steps.jsonl.gz")
+TESTED_BY = (
+    "selftest.py", "known_functions.py", "known_pairs.py", "known_steps.py", "known_steps.jsonl.gz",
+)  # fmt: skip
 SELFTEST = "quasistatic_ref.optional.fast.compiled.selftest"
 CONSTANTS = {
     **{

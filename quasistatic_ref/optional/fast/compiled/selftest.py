@@ -1,13 +1,16 @@
 """Whether a compiled library is right: ``python -m ....selftest LIBRARY``, in a process of its own.
 
-Three things are tried, and the first that is wrong is said on standard error, with exit status 1:
+Four things are tried, and the first that is wrong is said on standard error, with exit status 1:
 
 1. float64. A compiler may be told to change bits (``-ffast-math`` and its parts), by its command or
    by a wrapper. The library does each operation on numbers for which a change shows, and the bits
    must be those of Python, which must still be the same once the library is loaded.
 2. Integers of fixed point, on which proofs stand. Products, sums, carries, quotients and roundings
    of numbers of all sizes must have the digits that Python's integers have.
-3. The prover. Steps whose exact optima are stored are proved on right and wrong guesses.
+3. Functions that are tried alone: which rows others combine, bounds from an inverse, and closest
+   points (``known_functions.py``, ``known_pairs.py``).
+4. The prover. Steps whose exact optima are stored are proved on right and wrong guesses, and again
+   after other data.
 """
 
 import ctypes
@@ -18,7 +21,9 @@ from fractions import Fraction
 
 from quasistatic_ref.optional.fast.compiled import library as compiled
 from quasistatic_ref.optional.fast.compiled.cache import CompileError
-from quasistatic_ref.optional.fast.compiled.known_steps import known_steps, wrong
+from quasistatic_ref.optional.fast.compiled.known_functions import wrong_bound, wrong_span
+from quasistatic_ref.optional.fast.compiled.known_pairs import wrong_points
+from quasistatic_ref.optional.fast.compiled.known_steps import known_steps, stale, wrong
 
 COUNT = 61
 """Of roots that are summed: no multiple of the length of a vector register."""
@@ -38,6 +43,8 @@ DIGITS = 20
 FRACTION = 16
 GRID = 440
 """Of fixed_point.h and proof.h: bits of a digit, digits, those behind the point, and where cut."""
+AGAIN = range(0, 60, 2)
+"""Known steps that are proved again, after other data."""
 ZERO = Fraction(0)
 TERMS = 6
 """Products in a sum. Fewer than three, and no carry goes beyond a digit."""
@@ -224,7 +231,7 @@ def wrong_bits(library: ctypes.CDLL, right: list[str]) -> str | None:
 def wrong_proof() -> str | None:
     """The first proof of a stored step that is wrong, in words."""
     for k, known in enumerate(known_steps()):
-        found = wrong(known)
+        found = wrong(known) or (stale(known) if k in AGAIN else None)
         if found is not None:
             return f"its proofs are wrong: of known step {k}, {found}"
     return None
@@ -238,8 +245,14 @@ def refusal(file: str) -> str | None:
         library = compiled.library()
     except CompileError as failure:
         return f"it cannot be loaded: {failure}"
-    found = wrong_bits(library, right) or wrong_digits(library)
-    return wrong_proof() if found is None else found
+    return (
+        wrong_bits(library, right)
+        or wrong_digits(library)
+        or wrong_span(library)
+        or wrong_bound(library)
+        or wrong_points()
+        or wrong_proof()
+    )
 
 
 if __name__ == "__main__":
