@@ -35,7 +35,7 @@ SECONDS = 10.0
 """Of the processor, of a process and its children, that a file may take [s]."""
 MEMORY = 2.0
 """More than before [GiB]."""
-HANGING = 90
+HANGING = 300
 """A file that takes so long hangs: this machine may be busy [s]."""
 COLUMNS = ("files", "accepted", "refused", "faults", "slowest [s]", "most memory [GiB]")
 STRACE = (

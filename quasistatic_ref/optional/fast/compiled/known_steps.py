@@ -198,18 +198,18 @@ def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) ->
     """Whether the optimum of a step is the stored one: of multipliers only on the right guess."""
     if optimum is None:
         return False
-    every = np.array(optimum["degeneracy"])
+    degeneracy: list[list[bool]] = optimum["degeneracy"]
     slack = found.slack[found.slack > 0].tolist()
     least = min(slack, default=None) if found.differentiable else 0.0
     claims = [found.multipliers_unique, found.differentiable, found.smallest_inactive_slack]
     lam = found.lam[found.lam > 0].tolist()
-    names = ["delta_q", "net", "slack"] + ["lam"] * on_right
+    names = ("delta_q", "net", "slack", "lam") if on_right else ("delta_q", "net", "slack")
     return (
         all(
             getattr(found, name).tobytes() == np.array(optimum[name], dtype=np.float64).tobytes()
             for name in names
         )
-        and claims == [*every.all(axis=0).tolist(), least]
+        and claims == [*map(all, zip(*degeneracy, strict=True)), least]
         and found.smallest_active_multiplier == min(lam, default=None)
     )
 
