@@ -1,5 +1,6 @@
 """Files, written whole or not at all, and read with plain errors."""
 
+import glob
 import io
 import json
 import os
@@ -9,6 +10,8 @@ import sys
 import tempfile
 import tomllib
 from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
@@ -29,6 +32,10 @@ _DEEP_KEY = re.compile(
     rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
 )
 
+PARTIAL = ".partial"
+"""End of the names of files that are being written."""
+NO_WAITING = getattr(os, "O_NONBLOCK", 0)
+"""For a pipe in the place of a file."""
 STREAM = re.compile(r"/(dev|proc/\d+(/task/\d+)?)/fd/\d+")
 """Names of open streams: of this process (macOS has /dev/fd), and of others."""
 
@@ -100,9 +107,11 @@ def _descriptor(path: Path) -> Path | None:
 
 
 def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
-    """Write a regular file whole."""
+    """Write a regular file whole, and remove what killed processes have left of it."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    for left in target.parent.glob(f".{glob.escape(target.name)}.*{PARTIAL}"):
+        _remove_left(left)
+    descriptor, temporary = _made(target)
     try:
         with os.fdopen(descriptor, "wb") as file:
             write(file)
@@ -112,6 +121,38 @@ def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
         os.replace(temporary, target)
     finally:
         Path(temporary).unlink(missing_ok=True)
+
+
+def _made(target: Path) -> tuple[int, str]:
+    """A temporary file that is held while it is open: its descriptor, and its name."""
+    while True:
+        descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
+        if _held(descriptor, otherwise=True) and Path(temporary).exists():
+            return descriptor, temporary
+        os.close(descriptor)  # another process has removed it, before it was held
+
+
+def _remove_left(temporary: Path) -> None:
+    """Remove a temporary file that no process holds."""
+    with suppress(OSError):
+        descriptor = os.open(temporary, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | NO_WAITING)
+        try:
+            if _held(descriptor, otherwise=False):
+                temporary.unlink(missing_ok=True)
+        finally:
+            os.close(descriptor)
+
+
+def _held(descriptor: int, otherwise: bool) -> bool:
+    """Hold an open file until it is closed; whether this process does, or `otherwise`."""
+    try:
+        fcntl: Any = import_module("fcntl")
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except (ImportError, OSError):  # Windows, and file systems without locks
+        return otherwise
+    return True
 
 
 def _resolved(path: Path) -> Path:

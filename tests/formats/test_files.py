@@ -4,6 +4,8 @@ import json
 import math
 import os
 import stat
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -25,6 +27,41 @@ def test_a_file_is_replaced_whole(tmp_path):
     text_written(path, "short")
     assert path.read_text() == "short"
     assert os.listdir(tmp_path) == ["t.txt"]
+
+
+def killed(process):
+    process.kill()
+    process.stdout.close()
+    process.wait()
+
+
+def test_what_killed_processes_left_of_a_file_is_removed_and_nothing_else(tmp_path):
+    """A process is killed while it writes, another one still writes: the next removes the first."""
+    path = tmp_path / "[t].txt"
+    script = (
+        "import sys, time\nfrom quasistatic_ref.formats.files import written_whole\n"
+        "written_whole(sys.argv[1], lambda file: (print(flush=True), time.sleep(99)))"
+    )
+    writing = [
+        subprocess.Popen([sys.executable, "-c", script, str(path)], stdout=subprocess.PIPE)
+        for _ in "ab"
+    ]
+    for process in writing:
+        process.stdout.readline()
+    begun = [name for name in os.listdir(tmp_path) if name.endswith(".partial")]
+    assert len(begun) == 2
+    killed(writing[0])
+    others = (".[t].txt.bak", ".other.txt.12345678.partial", ".t.txt.12345678.partial")
+    for name in others:
+        (tmp_path / name).touch()
+    os.mkfifo(tmp_path / ".[t].txt.a_pipe.partial")
+    text_written(path, "whole")
+    left = {*os.listdir(tmp_path)} - {*others, ".[t].txt.a_pipe.partial"}
+    assert left - {*begun} == {"[t].txt"}
+    assert len(left & {*begun}) == 1
+    killed(writing[1])
+    text_written(path, "whole")
+    assert not {*begun} & {*os.listdir(tmp_path)}
 
 
 def test_a_file_has_the_permissions_of_any_other(tmp_path):

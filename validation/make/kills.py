@@ -41,8 +41,8 @@ MOST = 5
 """Commands after the first one that a folder may need."""
 CASES = 2
 """Of each layer of the vectors."""
-RUN = ["run", "sphere_spin", "--set", "steps=40", "--save-every", "0"]
-SWEEP = [*RUN[:3], "steps=10", "--jobs", "1", "--sweep", "h=0.02,0.01"]
+RUN = ["run", "sphere_spin", "--set", "steps=15", "--save-every", "0"]
+SWEEP = [*RUN[:3], "steps=4", "--jobs", "1", "--sweep", "h=0.02,0.01"]
 SWEEP += ["--sweep", "contacts.floor.mu_omega=0,0.01"]
 STUDY = """format = "quasistatic-ref/study"
 version = 1
@@ -101,13 +101,9 @@ def ended(child: int) -> int:
 
 
 def digest(folder: Path) -> dict[str, object]:
-    """What a folder holds that is not a time, by the names of files.
-
-    Files whose names begin with a dot are of writes that were cut: each is written under such a
-    name, and then renamed.
-    """
+    """What a folder holds that is not a time, by the names of files: nothing half written."""
     found: dict[str, object] = {}
-    for path in sorted(folder.rglob("[!.]*")):
+    for path in sorted(folder.rglob("*")):
         if not path.is_file():
             continue
         name = path.relative_to(folder).as_posix()
