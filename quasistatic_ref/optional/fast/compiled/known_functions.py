@@ -8,9 +8,9 @@ import ctypes
 from typing import Any
 
 import numpy as np
-from flint import fmpz_mat
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.step.arrays import Array, Indices
 
@@ -63,7 +63,7 @@ def wrong_span(library: ctypes.CDLL) -> str | None:
 
     A row is an integer vector: how it combines the gap, the slips and the spin of its contact. With
     a friction of zero a slip or a spin is none. Spins that are equal or opposite, with one
-    coefficient, are one. A row is combined if the rank does not grow.
+    coefficient, are one. A row is combined if its vector is, by those of the working set.
     """
     library.unspanned.restype = ctypes.c_int64
     rng = np.random.default_rng(1)
@@ -84,10 +84,10 @@ def wrong_span(library: ctypes.CDLL) -> str | None:
         idle: list[int] = []
         for r in rows.tolist():
             small = len(working) < MOST_HELD and abs(vectors[r]).max() < 8
-            free = fmpz_mat(vectors[[*working, r]].tolist()).rank() == len(working) + 1
+            free = not follow(vectors[working].tolist(), [vectors[r].tolist()])[0]
             (working if small and free else idle).append(r)
-        held = vectors[working].tolist()
-        right = [r for r in idle if fmpz_mat([*held, vectors[r].tolist()]).rank() > len(working)]
+        implied = follow(vectors[working].tolist(), vectors[idle].tolist())
+        right = [r for r, one in zip(idle, implied, strict=True) if not one]
         s = Structure("proof.h", "Proof")
         s.put(
             {
