@@ -224,9 +224,9 @@ def stale(known: Known) -> str | None:
     both = DenseStepInBothUnits(step)
     lam = guesses(step, known.optimum).get(RIGHT)
     contacts = step.contacts
-    if lam is None or Prover(step, divided).optimum(both, lam, np.zeros(step.m)) is None:
+    if lam is None or Prover(both, divided).optimum(both, lam, np.zeros(step.m)) is None:
         return None
-    prover = Prover(step, divided)
+    prover = Prover(both, divided)
     pushed = np.linspace(1.0, 2.0, step.n_v)
     others = {
         "a target": step.replace(delta_q_bar_a=step.delta_q_bar_a + pushed[: step.n_a]),
