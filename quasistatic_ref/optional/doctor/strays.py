@@ -13,13 +13,15 @@ SHOWN = 3
 
 def strays(start: Start) -> Iterator[Said]:
     """Clouds with points that no gap of a few spacings joins to the others."""
-    scans = part("scans.cloud")
+    clouds = {
+        id(p.shape): (p.shape, body(start.system, p.link))
+        for p in start.sides
+        if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MOST
+    }
+    scans = part("scans.cloud") if clouds else None  # it loads SciPy, which takes a second
     if scans is None:
         return
-    clouds = {id(p.shape): (p.shape, body(start.system, p.link)) for p in start.sides}
     for shape, name in clouds.values():
-        if not (isinstance(shape, PointCloud) and FEWEST <= len(shape.points) <= MOST):
-            continue
         found = shape.points[scans.stray(shape.points)]
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.scene import Scene
 from tests.model.urdf.urdf_texts import written
-from validation.make.mjcf import CURVED, SAME, differences, random_models
+from validation.make.mjcf import CURVED, SAME, WORDS, differences, random_models
 
 ARM = """<mujoco>
   <compiler angle="degree" eulerseq="zyx" autolimits="true"/>
@@ -76,6 +76,46 @@ def test_everything_is_where_mujoco_has_it(arm):
     assert (found.n_v, found.shapes) == (5, 5)
     assert max(found[3:8]) < SAME
     assert found.curved < CURVED
+
+
+HALF = 2**-0.5
+ELSEWHERE = {
+    "refpos": ('refpos="0.3 0 0"', "", "wedge.obj", (-0.1, 0.1, 0.1)),
+    "refquat": (f'refquat="{HALF} 0 0 {HALF}"', "", "wedge.obj", (0.1, 0.0, 0.1)),
+    "strippath": ("", 'strippath="true"', "deep/wedge.obj", (0.2, 0.1, 0.1)),
+    "meshdir": ("", 'meshdir="deep"', "wedge.obj", (0.4, 0.1, 0.1)),
+}
+
+
+@pytest.mark.parametrize(("mesh", "compiler", "file", "reach"), ELSEWHERE.values(), ids=ELSEWHERE)
+@pytest.mark.parametrize("attached", [False, True])
+@pytest.mark.usefixtures("in_this_process")
+def test_a_mesh_is_where_and_what_the_format_says(tmp_path, mesh, compiler, file, reach, attached):
+    """How far it reaches along x, y and z; the wedge in the folder `deep` is twice as long.
+
+    Vertices v become R(refquat)' (v - refpos): a quarter turn about z leads x to -y, and y to x.
+    """
+    geom = '<body name="b"><geom name="pad" type="mesh" mesh="wedge"/></body>'
+    asset = f'<asset><mesh name="wedge" file="{file}" {mesh}/></asset>'
+    own = f"<mujoco><compiler {compiler}/>{asset}<worldbody>{geom}</worldbody></mujoco>"
+    folder = tmp_path / "child" if attached else tmp_path
+    (folder / "deep").mkdir(parents=True)
+    written(folder, WEDGE, "wedge.obj")
+    written(folder / "deep", WEDGE.replace("v 0.2", "v 0.4"), "wedge.obj")
+    path = written(folder, own, "own.xml")
+    if attached:  # beside the outer model, files of the same names are three times as long
+        (tmp_path / "deep").mkdir()
+        for place in (tmp_path, tmp_path / "deep"):
+            written(place, WEDGE.replace("v 0.2", "v 0.6"), "wedge.obj")
+        parts = '<asset><model name="m" file="child/own.xml"/></asset>'
+        world = '<frame><attach model="m" body="b" prefix="p"/></frame>'
+        strip = compiler if "strippath" in compiler else ""
+        outer = f"<mujoco><compiler {strip}/>{parts}<worldbody>{world}</worldbody></mujoco>"
+        path = written(tmp_path, outer, "outer.xml")
+    system = System([Body("a", mjcf_urdf(path))])
+    (placed,) = system.shapes
+    found = placed.shape.support_value(placed.R) + placed.t  # along x, y and z of the body
+    np.testing.assert_allclose(found, reach, rtol=0, atol=WORDS)
 
 
 @pytest.mark.usefixtures("in_this_process")
