@@ -14,6 +14,7 @@ import json
 import os
 import re
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -37,6 +38,8 @@ REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
 COMPILERS = "compilers"
 SECONDS = 8
 """A mutant that takes longer of the processor does not end, and is refused."""
+PATIENCE = 120
+"""The same by the clock [s]: a mutant may sleep."""
 BYTES = 4 << 30
 """Of memory, lest a mutant takes all."""
 OTHER = {
@@ -226,6 +229,7 @@ def tested(file: Path) -> str:
         os.close(reading)
         resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        signal.alarm(PATIENCE)
         try:
             found = selftest.refusal(str(file)) or ""
         except BaseException as failure:  # whatever ends the process is no pass

@@ -220,7 +220,8 @@ def stale(known: Known) -> str | None:
     The same object proves a step in which one kind of data differs, and then the step itself.
     """
     step = known.step
-    divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
+    in_both_units = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
+    divided = [(group, own.si_step, own.hessian) for group, own in in_both_units]
     both = DenseStepInBothUnits(step)
     lam = guesses(step, known.optimum).get(RIGHT)
     contacts = step.contacts
