@@ -9,7 +9,6 @@ from quasistatic_ref.optional.show.figures.style import scaled
 
 RADIUS = 20.0  # mm, of the first body
 ANGLE = np.radians(30)  # of n against the vertical
-GAPS = {"apart": 10.0, "overlapping": -10.0}  # mm
 N = np.array([np.sin(ANGLE), np.cos(ANGLE)])
 D1 = np.array([np.cos(ANGLE), -np.sin(ANGLE)])
 BLACK, BLUE, ORANGE = "black", "#0072B2", "#D55E00"
@@ -35,11 +34,12 @@ def arrow(axes, start, way, name, colour, offset):
     axes.text(*(tip + offset), name, color=colour, ha="center", va="center")
 
 
-def figure(ax=None):
-    """A panel for each sign of phi."""
-    made, row = panels(6.3, 3.6, columns=len(GAPS), within=ax, sharey=True)
+def figure(ax=None, *, gap=10.0):
+    """A panel for each sign of phi, whose size is the gap [mm]."""
+    gaps = {"apart": gap, "overlapping": -gap}
+    made, row = panels(6.3, 3.6, columns=len(gaps), within=ax, sharey=True)
     turn = -np.degrees(ANGLE)
-    for axes, (name, phi) in zip(row, GAPS.items(), strict=True):
+    for axes, (name, phi) in zip(row, gaps.items(), strict=True):
         alpha, beta = points(phi)
         axes.add_patch(Circle((0, 0), RADIUS, facecolor="0.85", edgecolor="0.4"))
         corner = beta - 45 * D1

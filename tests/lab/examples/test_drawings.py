@@ -45,7 +45,7 @@ def test_the_gap_of_the_sliding_block_is_that_of_r8_and_closes():
     assert abs(np.diff(places[62:, 0])).max() == 0.0
 
 
-@pytest.mark.parametrize("phi", contact_geometry.GAPS.values())
+@pytest.mark.parametrize("phi", [10.0, -10.0])
 def test_beta_is_phi_along_n_from_alpha_and_the_ball_touches_at_alpha(phi):
     alpha, beta = contact_geometry.points(phi)
     np.testing.assert_allclose(beta - alpha, phi * contact_geometry.N, rtol=ROUNDING, atol=ROUNDING)

@@ -257,7 +257,7 @@ REFUSED = {
     ),
     "a tilted planar base": (
         PUSHED, "support =", TILTED,
-        r'^.*: bodies.l.pose.rpy: must be \[0, 0, yaw\].*or take base = "floating"',
+        r'^.*: bodies.l.pose.rpy: moves or turns by z, rx, ry, which.*or take base = "floating"',
     ),
     "no weight": (
         PUSHED, "h = 0.01", "h = 0.01\ngravity = [0, 0, 0]", "gravity that presses it down",
