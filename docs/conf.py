@@ -112,7 +112,7 @@ PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
 CLOSED_FORMS = (
     "derivations", "certificates", "cones", "sensitivity", "derivatives", "distances",
-    "extensions", "time_step", "proofs",
+    "extensions", "time_step", "proofs", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")

@@ -25,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Write the files, say on standard error what was done, and print the scenario's tables."""
+    """Write the files, say on standard error what was done, and print a scenario."""
     made = needed_part("scans.body", "body").scanned_body(
         options.scan,
         mass=options.mass,
@@ -38,5 +38,5 @@ def run(options: argparse.Namespace) -> int:
         print(f"wrote {file}", file=sys.stderr)
     for note in made.notes:
         print(f"{made.name}: {note}", file=sys.stderr)
-    print(made.table(), end="")
+    print(made.scenario(), end="")
     return 0

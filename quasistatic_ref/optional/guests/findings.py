@@ -122,7 +122,7 @@ def _creep(contact: Contact, body: Body) -> float:
 def _creeps(body: Body, through: Sequence[Contact], slower: str) -> Finding:
     speed, unit, words = _fast(body, body.size * body.mujoco.turn > body.mujoco.speed)
     bears = f"{body.bears:.3g} N and {body.asked:.3g} N is"
-    if unit == "rad/s":
+    if any(c.mu_omega and c.mujoco.spin * body.size > c.mujoco.slip for c in through):
         most = sum(c.mu_omega * c.exact.normal for c in through if c.exact)
         bears = f"{1e3 * most:.3g} N mm of torque and {_torque(through):.3g} N mm is"
     could = f"{words}, where its contacts could bear {bears} asked for"

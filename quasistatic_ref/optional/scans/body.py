@@ -80,9 +80,14 @@ class ScannedBody(Plain):
         """Of the scan's origin where its lowest point is on a floor at z = 0 [m]."""
         return -float(self.points[:, 2].min())
 
-    def table(self) -> str:
-        """Tables of a scenario for it, which stands on a floor as it was scanned."""
+    def scenario(self) -> str:
+        """A scenario (TOML) in which it stands on a floor as it was scanned."""
         return (
+            'format = "quasistatic-ref/scenario"\n'
+            "version = 1\n"
+            "h = 0.02 # a guess\n"
+            "steps = 50\n"
+            "\n"
             f"[bodies.{self.name}]\n"
             f'urdf = "{self.name}.urdf"\n'
             f'base = "floating"\n'

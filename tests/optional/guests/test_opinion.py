@@ -220,3 +220,16 @@ def test_a_simulation_that_is_unstable_is_refused() -> None:
     text = SCENES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
         asked(text, 20, "grip")
+
+
+def test_a_body_that_slips_because_it_turns_is_asked_for_a_force() -> None:
+    """A capsule on its end, held by a soft weld: its one contact has no torque to bear."""
+    text = """<mujoco><worldbody>
+    <geom type="plane" size="1 1 .1"/>
+    <body name="box" pos="0 0 0.051"><freejoint/>
+      <geom type="box" size=".05 .05 .05" mass="0.5"/></body>
+    <body name="cap" pos="0.3 0 0.12"><freejoint/>
+      <geom type="capsule" size=".03 .1" mass="0.2" friction="0.1"/></body></worldbody>
+    <equality><weld body1="box" body2="cap"/></equality></mujoco>"""
+    (finding,) = [one for one in asked(text, 2).findings if one.kind == "creeps"]
+    assert "N mm" not in finding.sentence
