@@ -62,10 +62,10 @@ def figure(ax=None, *, gap=10.0):
                 markersize=scaled(9),
                 markerfacecolor="none",
             )
-        axes.text(*(beta + 10 * D1 - 6 * N), r"$d_2$", color=ORANGE, ha="center", va="center")
-        axes.text(0, -8, "first body", ha="center", va="center")
+        axes.text(*(beta + 15 * D1 - 5 * N), r"$d_2$", color=ORANGE, ha="center", va="center")
+        axes.text(0, -27, "first body", ha="center", va="center")
         axes.text(*(beta + 27 * N - 12 * D1), "second body", color=BLUE, ha="center", va="center")
-        axes.set(xlim=(-38, 62), ylim=(-24, 72), aspect="equal", xticks=[], yticks=[])
+        axes.set(xlim=(-41, 63), ylim=(-34, 70), aspect="equal", xticks=[], yticks=[])
         axes.grid(visible=False)
         sign = ">" if phi > 0 else "<"
         labelled(axes, title=rf"{name}: $\phi$ {sign} 0", key=False)
