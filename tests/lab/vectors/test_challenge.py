@@ -115,6 +115,28 @@ def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, cap
     assert main(["vectors", "challenge", "--command", right, *again, "--quiet"]) == 0
 
 
+SEEN_BY_FEW = {
+    "springs one by one": ("step", """step.py:
+- K_q = np.array(case["K_q"]).reshape(n_a, n_a)
++ K_q = np.diag(np.diag(np.array(case["K_q"]).reshape(n_a, n_a)))"""),
+    "the last of equal axes": ("step", """candidates.py:
+- i = int(np.argmin(np.abs(n)))
++ i = 2 - int(np.argmin(np.abs(n)[::-1]))"""),
+    "the later of equal distances": ("selection", """candidates.py:
+- order = np.argsort(phi, kind="stable")
++ order = np.lexsort((-np.arange(len(phi)), phi))"""),
+    "a normal from inside in the frame of the box": ("distance", """distance.py:
+- return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n
++ return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n if phi > 0 else n"""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("layer", "patch"), SEEN_BY_FEW.values(), ids=SEEN_BY_FEW)
+def test_a_bug_that_shows_in_special_cases_alone_is_found(layer, patch):
+    outcome = challenge(program(patch), layers=[layer], cases=120, first=True)
+    assert outcome.findings
+
+
 def test_serving_answers_each_line_and_survives_what_is_no_case():
     case, _ = fresh_case("rows", (0, 0, 0), EASY)
     lines = [json.dumps({"id": "a", "layer": "rows", "input": case}), "no JSON", "[]",

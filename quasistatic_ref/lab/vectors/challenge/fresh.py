@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_frames
 from quasistatic_ref.lab.scenes.at_random import random_step as random_program
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, repeated
@@ -247,8 +248,8 @@ def _jacobian(rng: Rng, level: int) -> Json:
     count = 1 if level == EASY else int(rng.integers(1, 4))
     names = [body["name"] for body in tree["bodies"]]
     contacts = []
-    for frame in random_frames(rng, count):
-        d1, d2, n = frame.tolist()
+    for axes in random_frames(rng, count):
+        d1, d2, n = axes.tolist()
         bodies = {"alpha_body": [None, *names][int(rng.integers(len(names)))]}
         point = {side: few_digits(rng.uniform(-1, 1, 3)) for side in ("alpha", "beta")}
         contacts.append({**bodies, "beta_body": names[-1], "n": n, "d1": d1, "d2": d2, **point})
@@ -291,10 +292,24 @@ def _distance(rng: Rng, level: int) -> Json:
         sides[1] = {"kind": "cloud", "points": points}
     sides = sides[:: 1 if rng.integers(2) else -1]
     places = [random_pose(rng, 0.6) for _ in sides]
+    if level != EASY and rng.integers(6) == 0:  # a small ball inside of a turned box
+        sides, places = _inside(rng, places[0])
     if level == HARD and rng.integers(4) == 0:
         places = [{**place, "xyz": few_digits(1e4 * np.array(place["xyz"]))} for place in places]
     named = zip(("alpha", "beta"), sides, places, strict=True)
     return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
+
+
+def _inside(rng: Rng, place: Json) -> tuple[list[Json], list[Json]]:
+    """A ball whose centre is in a box: the normal is that of the nearest face."""
+    size = np.array(SHAPES["box"]["size"])
+    R, t = frame(place)
+    centre = R @ (size * rng.uniform(-0.45, 0.45, 3)) + t
+    ball = {"kind": "sphere", "radius": float(rng.choice([0.0, 0.05]))}
+    sides = [{"kind": "box", **SHAPES["box"]}, ball]
+    places = [place, {**random_pose(rng), "xyz": few_digits(centre)}]
+    turn = 1 if rng.integers(2) else -1
+    return sides[::turn], places[::turn]
 
 
 def _step(rng: Rng, level: int) -> Json:

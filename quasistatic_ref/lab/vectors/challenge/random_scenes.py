@@ -47,14 +47,13 @@ def random_scene(rng: Rng, hard: bool) -> Json:
     bodies = {"bodies": tree}
     q = random_q(rng, bodies)
     places, n_a, _ = slices(bodies)
-    stiff = few_digits(rng.uniform(5, 500, n_a), 0)
     n_q_a = max((i.stop for i, k in places.values() if k.stop <= n_a), default=0)
     case = scene(
         tree,
         {},
         q,
         pairs=[],
-        K_q=np.diag(stiff).tolist(),
+        K_q=_stiffness(rng, n_a),
         q_bar_a=few_digits(np.array(q[:n_q_a]) + rng.uniform(-0.02, 0.02, n_q_a)),
         cone=str(rng.choice(CONES)),
         gravity=GRAVITY if rng.integers(2) else few_digits(rng.uniform(-10, 10, 3), 1),
@@ -73,6 +72,16 @@ def random_scene(rng: Rng, hard: bool) -> Json:
     return case
 
 
+def _stiffness(rng: Rng, n_a: int) -> Json:
+    """Springs of each joint alone, or a symmetric matrix: diagonally dominant, hence definite."""
+    stiff = np.diag(np.round(rng.uniform(5, 500, n_a)))
+    if n_a > 1 and rng.integers(3):
+        between = np.triu(np.round(rng.uniform(-50, 50, (n_a, n_a))), 1)
+        between += between.T
+        stiff += between + np.diag(abs(between).sum(axis=1))
+    return stiff.tolist()
+
+
 def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
     friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
     rows = int(rng.choice([4, 6, 6]))
@@ -83,6 +92,8 @@ def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
 def _plane(rng: Rng, through: list[float], depth: float) -> Json:
     """A half-space whose surface is `depth` [m] below a point; its normal has any length."""
     normal = np.array(few_digits(rng.uniform([-1.0, -1.0, -0.5], [1.0, 1.0, 1.5]), 2))
+    if rng.integers(4) == 0:  # d1 is the first of equal axes
+        normal = rng.permutation([normal[0], normal[0], 2 * abs(normal[0]) + 0.25])
     length = float(np.linalg.norm(normal))
     offset = few_digits([normal @ np.array(through) - length * depth], 5)[0]
     return {"kind": "halfspace", "normal": normal.tolist(), "offset": offset}

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.lab.vectors.check.compare import (
     CONTACT,
     NO_NUMBERS,
@@ -27,6 +28,8 @@ from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 
 IN_PART = ("step", "derivative")
 """Layers whose answers may leave fields out; nothing is said of these."""
+CLAIMS = ("farkas", "delta_q", "lam")
+"""Fields of which some cases of a quadratic program ask for one part, and some for the other."""
 CONTRADICTION = 1e-14
 """Slack below zero, relative to the terms of its row, that float64 takes for none."""
 
@@ -47,8 +50,31 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     Returns
     -------
     Verdict
-        Its id is empty.
+        Its id is empty. Fields that the layer does not ask for are named, and not looked at.
     """
+    asked, extra = _asked(layer, record, answer)
+    return replace(_verdict(layer, case, record, asked), extra=extra)
+
+
+def _asked(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[str, ...]]:
+    """An answer without the fields that its layer never asks for, and their names."""
+    if not isinstance(answer, dict):
+        return answer, ()
+    claims = CLAIMS if layer in ("qp", "step") else ()
+    numbers = FIELDS.values() if layer == "derivative" else ()
+    known = {*record["output"], *OPTIONAL.get(layer, ()), *NO_NUMBERS, *claims, *numbers}
+    extra = [name for name in answer if name not in known]
+    kept = {name: value for name, value in answer.items() if name in known}
+    contacts = kept.get("contacts")
+    if isinstance(contacts, list) and all(isinstance(one, dict) for one in contacts):
+        beyond = {name: None for one in contacts for name in one if name not in CONTACT}
+        extra += [f"contacts.{name}" for name in beyond]
+        kept["contacts"] = [{k: v for k, v in one.items() if k in CONTACT} for one in contacts]
+    return kept, tuple(one_line(name) for name in extra)
+
+
+def _verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
+    """The verdict on the fields that a layer asks for."""
     if layer == "derivative":
         if verdict := existence_verdict(record, answer):
             return verdict
@@ -107,9 +133,9 @@ def verdict_to_digits(
         return verdict
     loose = case_verdict(layer, case, loosened(record, digits), answer)
     if loose.verdict == FAILED:
-        return verdict
+        return loose
     right = acceptable(f"right to {digits:g} digits", loose.digits)
-    return replace(right, without=loose.without, loose=True)
+    return replace(right, without=loose.without, extra=loose.extra, loose=True)
 
 
 def absent(expected: Json, answer: Json) -> tuple[str, ...]:

@@ -60,18 +60,25 @@ def _far(failing: Failing) -> bool:
     return any(d.error > ANOTHER * d.tolerance for d in failing.values())
 
 
-def another_tie(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
-    """Other indices among equal distances."""
-    if not record["flags"].get("tie", False):
-        return plain_failure(failing)
+def other_choice(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
+    """Other indices: right only to fewer digits, among distances that these do not tell apart."""
+    unit = record.get("rounding", 0.0)
     for phi, chosen, wanted in zip(
         case["phi"], answer["indices"], record["output"]["indices"], strict=True
     ):
-        if not all(isinstance(i, int) and 0 <= i < len(phi) for i in chosen):
-            return failure("indices", f"indices must be whole numbers from 0 to {len(phi) - 1}")
-        if len(set(chosen)) < len(chosen) or [phi[i] for i in chosen] != [phi[i] for i in wanted]:
+        last = max([len(phi) - 1, *wanted])  # places after those of phi fill the number
+        if not all(isinstance(i, int) and 0 <= i <= last for i in chosen):
+            return failure("indices", f"indices must be whole numbers from 0 to {last}")
+        room = unit * max(map(abs, phi), default=0.0)
+        pairs = [(i, j) for i, j in zip(chosen, wanted, strict=True) if i != j]
+        known = all(max(pair) < len(phi) for pair in pairs)
+        if len(set(chosen)) < len(chosen) or not known:
             return plain_failure(failing)
-    return acceptable("another choice among equal distances")
+        if any(abs(phi[i] - phi[j]) > room for i, j in pairs):
+            return plain_failure(failing)
+    if not unit:
+        return failure("indices", "indices: equal distances stand in the order of their places")
+    return acceptable("another choice among distances that are equal to so many digits")
 
 
 def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
@@ -142,7 +149,7 @@ def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) ->
 
 FREEDOMS: dict[str, Callable[[Json, Json, Json, Failing], Verdict]] = {
     "distance": another_witness,
-    "selection": another_tie,
+    "selection": other_choice,
     "qp": other_multipliers,
     "step": other_step,
 }

@@ -12,7 +12,7 @@ def loosened(record: Json, digits: float) -> Json:
 
     Every tolerance is what float64's would be with that unit of rounding, 10^-digits in the place
     of 1e-16 (of derivatives: of 1e-9), and at least 10^-digits of the largest number of its field.
-    Whole numbers stay.
+    Whole numbers stay, but for distances that these digits do not tell apart.
 
     Parameters
     ----------
@@ -35,5 +35,5 @@ def loosened(record: Json, digits: float) -> Json:
             flags["unique_multipliers"] = flags["unique_multipliers"] and known
     if "farkas" in record["output"]:
         wide["farkas"] = {"absolute": max(tolerance_of(record["tolerance"], "farkas"), unit)}
-    small = {"negligible": max(NEGLIGIBLE, unit)}
+    small = {"negligible": max(NEGLIGIBLE, unit), "rounding": unit}
     return {**record, "tolerance": {**record["tolerance"], **wide}, "flags": flags, **small}

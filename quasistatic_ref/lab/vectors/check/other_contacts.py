@@ -21,7 +21,8 @@ from quasistatic_ref.lab.vectors.layers.step import of_pair, shape_pose, step_ou
 from quasistatic_ref.step.data import Array
 
 TIED = 1e-9
-"""Components of n that are that near to each other are the same to one who computes n."""
+"""Components of n that are that near to each other may be exchanged by rounding, unless the n that
+is answered has them equal: d1 is a function of it."""
 
 
 def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
@@ -78,10 +79,12 @@ def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
     )
     if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * room):
         return problem
-    axis = int(np.abs(n).argmin())
-    near = np.flatnonzero(np.abs(n) <= abs(n[axis]) + TIED)
+    sizes = np.abs(n)
+    near = np.flatnonzero(sizes <= sizes.min() + TIED)
+    if (sizes[near] == sizes.min()).all():
+        near = near[:1]
     if not any(np.abs(d1 - _projected(int(i), n)).max() <= 4 * room for i in near):
-        return "d1 is not the projection of the axis farthest from n"
+        return "d1 is not the projection of the axis farthest from n, the first of equals"
     return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * room else "d2 is not n x d1"
 
 

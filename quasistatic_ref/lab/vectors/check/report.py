@@ -153,6 +153,14 @@ class LayerReport:
         return f"{self.layer}: {count}: nothing is said of {names}" if partial else ""
 
     @property
+    def unasked(self) -> str:
+        """One sentence on fields that the layer does not ask for; empty if there are none."""
+        extra = [v for v in self.verdicts if v.extra]
+        names = ", ".join(dict.fromkeys(name for v in extra for name in v.extra))
+        count = f"{len(extra)} of {len(self.verdicts)} answers have fields"
+        return f"{self.layer}: {count} that are not looked at: {names}" if extra else ""
+
+    @property
     def row(self) -> tuple[str, ...]:
         """Its line of the table."""
         counts = (str(self.count(v)) for v in (PASSED, ACCEPTABLE, FAILED, MISSING))
@@ -225,8 +233,7 @@ class Report:
                     f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
                     f"{m.sentence}"
                 )
-            if layer.partial:
-                said.append(layer.partial)
+            said += [words for words in (layer.partial, layer.unasked) if words]
         if self.scope:
             said.append(f"only cases of its scope were looked at: {self.scope}")
         if self.digits is not None:

@@ -16,7 +16,8 @@ from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from quasistatic_ref.step.data import Array
 
 TILTED = 1e-9
-"""Sine of an angle: that between a half-space's normal and a direction of float64 is 1e-16."""
+"""Sine of an angle: that between a half-space's normal and a direction of float64 is 1e-16. To
+fewer digits the tolerance of n is larger, and takes its place."""
 
 
 def witness_problem(
@@ -49,8 +50,8 @@ def witness_problem(
             return f"{name} is outside its shape"
         if shape["kind"] == "halfspace":
             normal = frame(pose)[0] @ shape["normal"]
-            tilted = np.linalg.norm(np.cross(direction, normal)) > TILTED * np.linalg.norm(normal)
-            ends = not tilted and direction @ normal > 0
+            sine = np.linalg.norm(np.cross(direction, normal)) / np.linalg.norm(normal)
+            ends = sine <= max(TILTED, tolerance) and direction @ normal > 0
             short = -_phi(ball, at(*point), shape, pose) if ends else np.inf
         else:
             beyond = {"kind": "halfspace", "normal": list(-direction), "offset": -direction @ point}

@@ -72,6 +72,8 @@ class Verdict:
         Fewest correct digits of a field that was compared number by number.
     without : tuple of str
         Fields of a whole step that are not answered, of which nothing is said.
+    extra : tuple of str
+        Fields of the answer that its layer does not ask for, and that are not looked at.
     loose : bool
         Whether it is acceptable only because fewer digits than float64's are required.
     """
@@ -82,6 +84,7 @@ class Verdict:
     field: str = ""
     digits: float | None = None
     without: tuple[str, ...] = ()
+    extra: tuple[str, ...] = ()
     loose: bool = False
 
     @property

@@ -121,7 +121,7 @@ def _unsaid(conformance: Conformance) -> Iterator[Block]:
     silent = [layer.layer for layer in report.layers if not layer.present]
     if silent:
         yield f"Layers that are not answered: {', '.join(silent)}."
-    said = [layer.partial for layer in report.layers if layer.partial]
+    said = [words for layer in report.layers for words in (layer.partial, layer.unasked) if words]
     yield from (f"{words}." for words in said)
     if report.digits is not None:
         yield (
