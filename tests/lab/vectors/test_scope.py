@@ -21,10 +21,20 @@ shapes = ["box", "halfspace"]
 cones = ["pyramid"]
 farkas = false
 """
-FLOATS = f"""{HEAD}name = "float32"
+FLOATS = f"""{HEAD}name = "single"
 layers = ["selection", "jacobian", "rows", "wrench", "integrate"]
+arithmetic = "float32"
 digits = 4
 """
+COULOMB = f"""{HEAD}name = "boxes"
+law = "coulomb"
+shapes = ["box", "halfspace"]
+pairs = ["halfspace-box"]
+arithmetic = "float32"
+digits = 4
+"""
+"""A simulator of boxes on the ground that rounds to 24 bits, and has no relaxation."""
+LAW = "Coulomb's law (kinematics, contacts, H and g)"
 
 
 @pytest.fixture
@@ -49,19 +59,53 @@ def cut_down(folder, scope, change=lambda output: output):
     return folder
 
 
-@pytest.mark.parametrize(("text", "change", "words"), [
-    (BOXES, lambda output: output, "boxes and half-spaces: all of 6 layers: "),
-    (FLOATS, in_float32, "float32: all of 5 layers: "),
+@pytest.mark.parametrize(("text", "change", "words", "layers"), [
+    (BOXES, lambda output: output, "box and halfspace, cone pyramid, no Farkas vectors", 6),
+    (FLOATS, in_float32, "float32, to 4 digits", 5),
+    (COULOMB, in_float32, f"box on halfspace, {LAW}, float32, to 4 digits", 5),
 ])  # fmt: skip
-def test_a_program_that_does_what_it_says_has_a_badge(scope, tmp_path, text, change, words):
+def test_a_program_that_does_what_it_says_has_a_badge(scope, tmp_path, text, change, words, layers):
     own = scope(text)
     found = conformance(cut_down(tmp_path / "answers", own, change), VECTORS, scope=own)
-    assert found.report.ok
-    assert found.message.startswith(words)
-    assert found.message.endswith(" to 4 digits") == (own.digits == 4)
+    assert found.report.ok, found.report.sentences
+    assert found.message.startswith(f"{words}: all of {layers} layers: ")
     assert colour(found) == GREEN
     whole = conformance(tmp_path / "answers", VECTORS)
     assert colour(whole) in (RED, AMBER)
+
+
+def test_a_scope_of_the_names_words_are_those_of_its_fields(scope):
+    """The name is free text; a badge has the words of what is compared."""
+    assert scope(f'{HEAD}name = "complete Coulomb LCP simulator"').words == ""
+    assert scope(f'{HEAD}name = "all"\nrows = [4]\nlayers = ["rows"]').words == "without torsion"
+
+
+def test_a_scope_of_few_cases_is_called_that(scope, tmp_path):
+    own = scope(f'{HEAD}name = "all"\nlayers = ["distance"]\npairs = ["cone-box"]')
+    found = conformance(cut_down(tmp_path / "answers", own), VECTORS, scope=own)
+    assert 0 < len(found.layers[0].verdicts) < 5
+    assert found.message.endswith(", few cases of distance")
+    assert colour(found) == AMBER
+
+
+def test_what_an_answer_has_beyond_its_law_is_not_compared(scope, tmp_path):
+    """A step under Coulomb's law, and contacts that are wrong all the same."""
+    own = scope(COULOMB)
+
+    def changed(output):
+        return {**output, "delta_q": [1.0], "lam": None} if "H" in output else output
+
+    folder = cut_down(tmp_path / "answers", own, changed)
+    assert conformance(folder, VECTORS, scope=own).report.ok
+
+    def wrong(output):
+        if not output.get("contacts"):
+            return output
+        first, *rest = output["contacts"]
+        return {**output, "contacts": [{**first, "phi": first["phi"] + 0.1}, *rest]}
+
+    folder = cut_down(tmp_path / "wrong", own, wrong)
+    assert not conformance(folder, VECTORS, scope=own).report.ok
 
 
 def test_what_is_missing_within_the_scope_is_missing(scope, tmp_path):
@@ -78,6 +122,10 @@ def test_what_is_missing_within_the_scope_is_missing(scope, tmp_path):
     (BOXES.replace('"pyramid"', '"pyramyd"'), "pyramid"),
     (FLOATS.replace("digits = 4", "digits = 17"), "at most 16"),
     (FLOATS + "shape = []", "unknown"),
+    (FLOATS + 'law = "coulomb"', "cannot be compared under Coulomb's law"),
+    (FLOATS + "rows = [5]", r"must be \[4\], \[6\] or \[4, 6\]"),
+    (FLOATS + 'pairs = ["box-bxo"]', "did you mean 'box'"),
+    (FLOATS.replace("float32", "float16"), "float32"),
 ])  # fmt: skip
 def test_a_scope_that_cannot_be_is_refused_in_a_sentence(scope, text, problem):
     with pytest.raises(InputError, match=problem) as refused:

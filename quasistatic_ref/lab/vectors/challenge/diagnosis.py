@@ -166,7 +166,9 @@ class Diagnosis:
         with np.errstate(all="ignore"):  # answers may be any numbers
             whole = Case(id, "", case)
             said = self.program.said
-            return answer_judged(layer, whole, record, reply.output, said, self._digits)
+            return answer_judged(
+                layer, whole, record, reply.output, said, self._digits, self._scope
+            )
 
     def _trouble(self, kind: str, layer: str, id: str, said: str, case: Json) -> None:
         """A finding without an answer: once by layer and kind, its case made smaller."""

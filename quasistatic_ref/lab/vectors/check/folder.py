@@ -1,6 +1,7 @@
 """``vectors check``: a folder of answers against the reference vectors, layer by layer."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -79,9 +80,10 @@ def check_answers(
         cases = _named(inputs_read(vectors, name), only, name)
         within = [one for one in cases if scope.holds(name, one.input, records[one.id])]
         if within:
-            report = layer_report(name, within, records, found[name], digits)
+            report = layer_report(name, within, records, found[name], digits, scope)
             reports.append(report.required() if layers is not None else report)
-    return Report(str(folder), tuple(reports), digits, scope.name)
+    own = None if scope is WHOLE else replace(scope, digits=digits)
+    return Report(str(folder), tuple(reports), digits, own)
 
 
 def _named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
@@ -103,6 +105,7 @@ def layer_report(
     expected: dict[str, Json],
     answers: Answers,
     digits: float | None = None,
+    scope: Scope = WHOLE,
 ) -> LayerReport:
     """The verdicts on all answers of one layer, and the mistake behind those that fail.
 
@@ -115,6 +118,8 @@ def layer_report(
     answers : Answers
     digits : float, optional
         [-] An answer that is right to so many digits is acceptable.
+    scope : Scope
+        What of each answer is compared.
     """
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
@@ -124,7 +129,8 @@ def layer_report(
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
             continue
-        one = answer_judged(layer, case, record, answers.outputs[case.id], answers, digits)
+        given = answers.outputs[case.id]
+        one = answer_judged(layer, case, record, given, answers, digits, scope)
         verdict = one.verdict
         verdicts.append(verdict)
         (failed if verdict.verdict == FAILED else right).append(one)
@@ -149,6 +155,7 @@ def answer_judged(
     given: Json,
     answers: Answers,
     digits: float | None = None,
+    scope: Scope = WHOLE,
 ) -> Failed:
     """One answer, in the package's conventions, and its verdict.
 
@@ -163,10 +170,14 @@ def answer_judged(
     answers : Answers
     digits : float, optional
         [-].
+    scope : Scope
+        What of the answer is compared.
     """
+    given = scope.part(layer, given)
     try:
         output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
-        verdict = verdict_to_digits(layer, case.input, record, output, digits).named(case.id)
+        verdict = verdict_to_digits(layer, case.input, record, output, digits)
+        verdict = scope.of_part(layer, verdict).named(case.id)
     except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
         output = given

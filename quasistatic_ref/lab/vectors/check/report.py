@@ -2,9 +2,12 @@
 
 from dataclasses import asdict, dataclass, replace
 
+from quasistatic_ref.lab.vectors.check.scope import Scope
 from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
+FEW = 5
+"""Cases of a layer below which a scope is said to be one of few cases."""
 HEADER = ("layer", PASSED, ACCEPTABLE, FAILED, MISSING, "worst digits", "first failure")
 
 
@@ -197,14 +200,20 @@ class Report:
     layers : tuple of LayerReport
     digits : float, optional
         [-] To how many digits an answer is acceptable.
-    scope : str
-        What was looked at; empty: everything.
+    scope : Scope, optional
+        What was looked at; by default everything.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
     digits: float | None = None
-    scope: str = ""
+    scope: Scope | None = None
+
+    @property
+    def few(self) -> tuple[str, ...]:
+        """Layers of a scope of which hardly any case is within it."""
+        small = (one.layer for one in self.layers if len(one.verdicts) < FEW)
+        return tuple(small) if self.scope else ()
 
     @property
     def ok(self) -> bool:
@@ -235,7 +244,10 @@ class Report:
                 )
             said += [words for words in (layer.partial, layer.unasked) if words]
         if self.scope:
-            said.append(f"only cases of its scope were looked at: {self.scope}")
+            words = f": {self.scope.words}" if self.scope.words else ""
+            said.append(f"only cases of the scope {self.scope.name!r} were looked at{words}")
+        if self.few:
+            said.append(f"fewer than {FEW} cases are within the scope in {', '.join(self.few)}")
         if self.digits is not None:
             said.append(f"acceptable are answers that are right to {self.digits:g} digits")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
@@ -252,6 +264,6 @@ class Report:
             "answers": self.answers,
             "ok": self.ok,
             "digits": self.digits,
-            "scope": self.scope or None,
+            "scope": self.scope and {"name": self.scope.name, "words": self.scope.words},
             "layers": [layer.record for layer in self.layers],
         }

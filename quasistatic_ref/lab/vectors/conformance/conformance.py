@@ -48,11 +48,11 @@ class Conformance:
     def message(self) -> str:
         """What was passed, e.g. ``2 of 8 layers: rows 62/62, qp 137/137 to 6 digits``.
 
-        Within a declared scope it begins with the scope's name, and a digit that was declared
+        Within a declared scope it begins with what the scope holds, and a digit that was declared
         makes an answer no less whole.
         """
         if self.report.scope:
-            return f"{self.report.scope}: {self._within}"
+            return f"{self.report.scope.words or 'everything'}: {self._within}"
         if all(one.whole for one in self.layers):
             cases = sum(len(one.verdicts) for one in self.layers)
             return f"all {len(self.layers)} layers: {cases}/{cases}"
@@ -63,18 +63,17 @@ class Conformance:
     def complete(self) -> bool:
         """Whether everything that was answered, or within its scope everything, is right."""
         if self.report.scope:
-            return all(one.complete for one in self.layers)
+            return all(one.complete for one in self.layers) and not self.report.few
         return all(one.whole for one in self.answered)
 
     @property
     def _within(self) -> str:
         """What was passed of a scope."""
-        digits = self.report.digits
-        to = "" if digits is None else f" to {digits:g} digits"
         right = sum(one.right + one.loose for one in self.layers)
         cases = sum(len(one.verdicts) for one in self.layers)
-        said = "all" if self.complete else "not all"
-        return f"{said} of {len(self.layers)} layers: {right}/{cases}{to}"
+        said = "all" if all(one.complete for one in self.layers) else "not all"
+        few = f", few cases of {', '.join(self.report.few)}" if self.report.few else ""
+        return f"{said} of {len(self.layers)} layers: {right}/{cases}{few}"
 
     def _words(self, one: LayerReport) -> str:
         """What of one layer was passed."""

@@ -110,7 +110,7 @@ def record_of(found: Conformance, hashes: Mapping[str, str]) -> dict[str, Json]:
         "vectors": found.edition.release,
         "judge": f"quasistatic_ref {__version__}",
         "digits": found.report.digits,
-        "scope": found.report.scope or None,
+        "scope": found.report.record["scope"],
         "ok": found.report.ok,
         "label": found.label,
         "message": found.message,
@@ -136,6 +136,7 @@ def _versions(
     ]  # fmt: skip
     versions = (
         ("implementation", found.implementation),
+        *((("scope", found.report.scope.name),) if found.report.scope else ()),
         *own,
         ("vectors", found.edition.name),
         ("judge", f"quasistatic_ref {__version__}"),
