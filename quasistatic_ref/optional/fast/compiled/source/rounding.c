@@ -58,3 +58,30 @@ int nearest(const Number *x, double e, double h, double unit, double *out)
     *out *= unit;
     return shown && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
 }
+
+/* Whether x / h, x being known to within e, may be half-way between two float64 numbers: the even one
+   of these times a unit, and h times the middle. */
+int half_way(const Number *x, double e, double h, double unit, double *out, Number *middle)
+{
+    Number divisor = number(exact(h)), left;
+    double lower = value(x) / h;
+    for (int i = 0; i < 2; i++)
+        lower = nextafter(lower, -INFINITY);
+    for (int i = 0; i < 4; i++) { /* the quotient may be off by a last bit */
+        double upper = nextafter(lower, INFINITY);
+        int64_t bits;
+        Sum sum = EMPTY;
+        add_product(&sum, &divisor, exact(lower), 1);
+        add_product(&sum, &divisor, exact((upper - lower) / 2), 1);
+        carried(&sum, middle);
+        add(&sum, x);
+        add_product(&sum, middle, exact(1.0), -1);
+        carried(&sum, &left);
+        memcpy(&bits, &lower, sizeof bits);
+        *out = (bits & 1 ? upper : lower) * unit;
+        if (fabs(value(&left)) * DOWN <= e)
+            return fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
+        lower = upper;
+    }
+    return 0;
+}

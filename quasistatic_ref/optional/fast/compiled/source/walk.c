@@ -214,24 +214,37 @@ static int added(Walk *w, int64_t p)
     }
 }
 
+/* The square of the part of row p that W does not span, from that part itself: where rows of W nearly
+   depend on each other, the difference of squares has lost more digits than DEPENDENT allows. */
+static double left_over(Walk *w, int64_t p, double square)
+{
+    taken_over(w, square);
+    memcpy(w->push, row(w, p), (size_t)w->n * sizeof(double));
+    for (int64_t i = 0; i < w->k; i++)
+        for (int64_t v = 0; v < w->n; v++)
+            w->push[v] -= w->falls[i] * row(w, w->working[i])[v];
+    moved(w, w->push, w->along);
+    return dot(w->push, w->along, w->n);
+}
+
 /* Row p with a multiplier; where it depends on W, as much of it as leaves no multiplier negative. */
 static void borne(Walk *w, int64_t p, double lam)
 {
-    double square = reached(w, p), rate = taken_over(w, square);
-    if (rate > DEPENDENT * square) {
-        joined(w, p, lam, rate);
-        return;
+    double square = reached(w, p), rate = left_over(w, p, square), taken = lam;
+    if (rate <= DEPENDENT * square) {
+        for (int64_t i = 0; i < w->k; i++)
+            w->falls[i] = -w->falls[i]; /* as p presses less */
+        int64_t first = first_to_vanish(w, &taken);
+        for (int64_t i = 0; i < w->k; i++)
+            w->lam[i] = fmax(w->lam[i] - taken * w->falls[i], 0.0);
+        if (first < 0)
+            return;
+        dropped(w, first);
+        lam -= taken;
+        rate = left_over(w, p, square);
     }
-    for (int64_t i = 0; i < w->k; i++)
-        w->falls[i] = -w->falls[i]; /* as p presses less */
-    double taken = lam;
-    int64_t first = first_to_vanish(w, &taken);
-    for (int64_t i = 0; i < w->k; i++)
-        w->lam[i] = fmax(w->lam[i] - taken * w->falls[i], 0.0);
-    if (first < 0)
-        return;
-    dropped(w, first);
-    joined(w, p, lam - taken, taken_over(w, square));
+    if (rate > DEPENDENT * square)
+        joined(w, p, lam, rate);
 }
 
 static int ascending(const void *one, const void *other)

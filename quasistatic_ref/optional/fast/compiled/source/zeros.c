@@ -388,19 +388,41 @@ static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum)
     return found(l, m, sum) && opened(m, E->A, E->count, n) ? DECIDED : OPEN_CLAIM;
 }
 
-/* Whether all that may be zero is, and what the others mean, which are rows that do not follow from how
-   the rows of contacts are combined; A'lam is zero where (hH)x = hg. */
+/* The row a x = b by which an entry of A'lam is zero: (hH)x = hg. */
+static void balance(const Proof *s, const Room *m, int64_t v, Number *a, Number *b)
+{
+    memcpy(a, (const Number *)s->hessian + v * s->n_v, (size_t)s->n_v * sizeof(Number));
+    *b = m->g[v];
+}
+
+/* The row a x = b by which a number is half-way between two others. */
+static void half(const Proof *s, const Room *m, const Tie *tie, Number *a, Number *b)
+{
+    Number zero = {0, 0, {0}};
+    if (tie->of == OF_SLACK)
+        row_of(s, tie->at, a, &zero);
+    else if (tie->of == OF_NET)
+        balance(s, m, tie->at, a, &zero);
+    else {
+        memset(a, 0, (size_t)s->n_v * sizeof(Number));
+        a[tie->at] = number(exact(1.0));
+    }
+    total(&zero, &tie->middle, b);
+}
+
+/* Whether all that may be zero is, and half-way what may be; and what the others mean, which are rows
+   that do not follow from how the rows of contacts are combined. */
 static int decided(Proof *s, Room *m, Lifting *l, int64_t count)
 {
-    int64_t n = s->n_v, N = l->N;
+    int64_t n = s->n_v, N = l->N, ties = count + m->balances;
     for (int64_t i = 0; i < l->others; i++) {
-        int64_t v = i < count ? 0 : m->balanced[i - count];
+        Number *a = l->A + i * n, *b = l->b + i;
         if (i < count)
-            row_of(s, m->others[i], l->A + i * n, l->b + i);
-        else {
-            memcpy(l->A + i * n, (const Number *)s->hessian + v * n, (size_t)n * sizeof(Number));
-            l->b[i] = m->g[v];
-        }
+            row_of(s, m->others[i], a, b);
+        else if (i < ties)
+            balance(s, m, m->balanced[i - count], a, b);
+        else
+            half(s, m, m->tie + (i - ties), a, b);
     }
     for (int64_t i = 0; i < N + l->others; i++)
         l->r[i] = i < n ? m->g[i] : i < N ? m->b[i - n] : l->b[i - N];
@@ -424,9 +446,9 @@ int zeros(Proof *s, Room *m)
     s->claims[0] = s->counts[0] == 0;
     s->claims[1] = 1;
     int64_t count = unspanned(s, m->table, m->pivot, m->others);
-    if (!count && !s->counts[1] && !m->balances)
+    if (!count && !s->counts[1] && !m->balances && !m->ties)
         return DECIDED;
-    void *room = lifting(&l, s, m, count + m->balances);
+    void *room = lifting(&l, s, m, count + m->balances + m->ties);
     int code = room ? decided(s, m, &l, count) : NO_MEMORY;
     free(room);
     return code;
