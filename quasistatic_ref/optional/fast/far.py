@@ -119,7 +119,19 @@ Solved: TypeAlias = "tuple[Indices, StepData, BallHessian, Sequence[int]]"
 """Of a group: its coordinates, its step, the H of that, and the working set of its optimum."""
 
 
-def far_slacks(step: StepData, far: Indices, solved: Sequence[Solved]) -> tuple[Array, Mask]:
+def displacement(step: StepData, solved: Sequence[Solved]) -> list[arb] | None:
+    """Balls about the exact delta_q of all groups, (n_v,); None if one is not shown."""
+    x = [arb(0)] * step.n_v
+    for coordinates, own, hessian, working in solved:
+        found = BallStep(own, hessian).minimiser(working)
+        if found is None:
+            return None
+        for v, x_v in zip(coordinates.tolist(), found[2].entries(), strict=True):
+            x[v] = x_v
+    return x
+
+
+def far_slacks(step: StepData, far: Indices, x: list[arb]) -> tuple[Array, Mask]:
     """The slacks of the contacts that belong to no group, and which of these may not be open.
 
     Parameters
@@ -127,34 +139,26 @@ def far_slacks(step: StepData, far: Indices, solved: Sequence[Solved]) -> tuple[
     step : StepData
     far : ndarray of int, shape (k,)
         These contacts, ascending.
-    solved : sequence of Solved
-        All groups.
+    x : list of arb, length n_v
+        delta_q [m, rad].
 
     Returns
     -------
     ndarray, shape (rows of these contacts,)
         Rounded correctly [m], if each of them is shown to be positive.
     ndarray of bool, shape (n_c,)
-        The contacts of which a slack is not: of all where a minimiser is not shown.
+        The contacts of which a slack is not.
     """
     place = np.full(step.contacts.n_c, -1)
     place[far] = np.arange(len(far))
     contact, coordinate, J = step.contacts.entries()
     counts = place[contact] >= 0
     columns = (place[contact][counts], coordinate[counts], J[counts])
-    with ctx.workprec(PRECISION):
-        x = [arb(0)] * step.n_v
-        for coordinates, own, hessian, working in solved:
-            found = BallStep(own, hessian).minimiser(working)
-            if found is None:
-                return np.zeros(0), np.ones(len(place), dtype=bool)
-            for v, x_v in zip(coordinates.tolist(), found[2].entries(), strict=True):
-                x[v] = x_v
-        motion = [arb(0)] * (4 * len(far))
-        for j, v, column in zip(*(given.tolist() for given in columns), strict=True):
-            for i, entry in enumerate(column, start=4 * j):
-                motion[i] += x[v] * entry
-        slacks, shown = all_nearest(contact_slacks(step, far, motion))
+    motion = [arb(0)] * (4 * len(far))
+    for j, v, column in zip(*(given.tolist() for given in columns), strict=True):
+        for i, entry in enumerate(column, start=4 * j):
+            motion[i] += x[v] * entry
+    slacks, shown = all_nearest(contact_slacks(step, far, motion))
     doubtful = np.zeros(len(place), dtype=bool)
     doubtful[np.repeat(far, step.counts[far])[~shown | (slacks <= 0)]] = True
     return slacks, doubtful

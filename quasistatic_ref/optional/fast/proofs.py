@@ -5,12 +5,20 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+from flint import arb, ctx
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined_optimum
+from quasistatic_ref.certify.minimiser import PRECISION
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.far import BallHessian, Solved, far_slacks, with_far
+from quasistatic_ref.optional.fast.far import (
+    BallHessian,
+    Solved,
+    displacement,
+    far_slacks,
+    with_far,
+)
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
@@ -228,7 +236,8 @@ class Proofs:
             parts = self.divided(step, near, coupling)
             prover = self._prover(both)
             optimum = None if prover is None else prover.optimum(both, lam, slack)
-            if optimum is not None and is_due(WHOLE, len(parts[0].group.coordinates)):
+            in_c = optimum is not None
+            if in_c and is_due(WHOLE, len(parts[0].group.coordinates)):
                 check(parts[0].step(step), prover.proofs[0].decided())
             if optimum is None:
                 tried = [None] * len(parts) if prover is None else prover.proofs
@@ -237,12 +246,12 @@ class Proofs:
                 optimum = joined_optimum(step, [part.group for part in parts], optima)
             if near is None:
                 break
-            points = list[Solved]()
-            for part in parts:
-                own = part.step(step)
-                working = part.group.within(optimum.working_set)
-                points.append((part.group.coordinates, own, part.kept.in_balls(own), working))
-            slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
+            with ctx.workprec(PRECISION):
+                x = prover.displacement() if in_c else self._in_balls(step, optimum)
+                if x is None:
+                    near = None
+                    continue
+                slacks, doubtful = far_slacks(step, np.flatnonzero(~near), x)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)
                 break
@@ -262,6 +271,15 @@ class Proofs:
             ]
             self.prover = in_c.Prover(both, groups)
         return self.prover
+
+    def _in_balls(self, step: StepData, optimum: ExactOptimum) -> list[arb] | None:
+        """Balls about delta_q where the exact method has solved a group; None if not shown."""
+        points = list[Solved]()
+        for part in self.parts:
+            own = part.step(step)
+            working = part.group.within(optimum.working_set)
+            points.append((part.group.coordinates, own, part.kept.in_balls(own), working))
+        return displacement(step, points)
 
     def _may_be_long(self, g: Array, delta_q: Array) -> bool:
         """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not.

@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from flint import arb
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.rational import dyadic
@@ -206,7 +207,7 @@ def step_arrays(n_a: int, n: int, n_c: int, m: int) -> dict[str, Array]:
     return {
         "delta_q_bar_a": np.zeros(n_a), "phi": np.zeros(n_c), "least": np.zeros(2),
         "frame": frame, "mu": np.ones((n_c, 4)),
-        **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
+        **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net", "rest", "bound")},
         **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
     }  # fmt: skip
 
@@ -292,6 +293,11 @@ class Prover:
         if not self._prove(s.address):
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist())
+
+    def displacement(self) -> list[arb]:
+        """Balls about the exact delta_q of an optimum that C has proved of all groups, (n_v,)."""
+        columns = (self.s[name].tolist() for name in ("delta_q", "rest", "bound"))
+        return [x + arb(rest, bound) for x, rest, bound in zip(*columns, strict=True)]
 
 
 def group_proof(

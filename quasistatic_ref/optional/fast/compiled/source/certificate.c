@@ -152,6 +152,18 @@ static void pressed(Proof *s, Room *m)
     }
 }
 
+/* What rounding took from x, known within e, as it was rounded to `out` times a unit; and its bound. */
+static void left_by_rounding(const Number *x, double e, double unit, double out, double *rest, double *bound)
+{
+    Number kept = number(exact(out / unit)), left;
+    Sum sum = EMPTY;
+    add(&sum, x);
+    add_product(&sum, &kept, exact(1.0), -1);
+    carried(&sum, &left);
+    *rest = value(&left) * unit;
+    *bound = (e + fabs(value(&left)) * 0x1p-50) * unit * UP;
+}
+
 /* delta_q and A'lam, rounded. What is not surely other than zero is collected. */
 static void rounded(Proof *s, Room *m)
 {
@@ -160,7 +172,7 @@ static void rounded(Proof *s, Room *m)
     m->balances = 0;
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
-        s->delta_q[v] = s->net[v] = 0.0;
+        s->delta_q[v] = s->net[v] = s->rest[v] = s->bound[v] = 0.0;
         if (m->rests[v])
             continue;
         if (fabs(value(m->z + v)) * DOWN <= m->e[v]) {
@@ -172,6 +184,7 @@ static void rounded(Proof *s, Room *m)
         double e = m->e[v], unit = rho * s->coordinate[v], *out = s->delta_q + v;
         if (!nearest(x, e, 1.0, unit, out) && !tied(m, OF_MOTION, v, x, e, 1.0, unit, out))
             m->open = 1;
+        left_by_rounding(x, e, unit, *out, s->rest + v, s->bound + v);
     }
     for (int64_t v = 0; v < n; v++) {
         Number net = m->net[v];

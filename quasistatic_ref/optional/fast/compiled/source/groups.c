@@ -14,10 +14,10 @@ typedef struct {
     /* The step, and its standard form, J and A as they are kept: whole, or without their zeros; lam
        and slacks of an answer in natural units. */
     const double *delta_q_bar_a, *tau, *phi, *frame, *J, *mu, *g, *A, *b, *pressure, *gap;
-    /* What the proof of each group comes to; the optimum of those that are DECIDED; least and claims
-       as in Proof. */
+    /* What the proof of each group comes to; the optimum of those that are DECIDED, as in
+       Proof. */
     int64_t *code;
-    double *delta_q, *lam, *net, *slack, *least;
+    double *delta_q, *lam, *net, *slack, *rest, *bound, *least;
     int64_t *claims;
 } Step;
 
@@ -133,6 +133,8 @@ int groups_proved(Step *s)
         }
         given(s->delta_q, p->delta_q, p->coordinates, p->n_v);
         given(s->net, p->net, p->coordinates, p->n_v);
+        given(s->rest, p->rest, p->coordinates, p->n_v);
+        given(s->bound, p->bound, p->coordinates, p->n_v);
         given(s->lam, p->lam, p->rows_of_step, p->rows);
         given(s->slack, p->slack, p->rows_of_step, p->rows);
         for (int k = 0; k < 2; k++) {

@@ -49,8 +49,8 @@ typedef struct {
     /* h H: kept while H is the same. Room for Numbers. */
     void *hessian;
     double *hessian_values;
-    /* The answer, in SI units. */
-    double *delta_q, *lam, *net, *slack;
+    /* The answer, in SI units; and what rounding took from delta_q, within a bound. */
+    double *delta_q, *lam, *net, *slack, *rest, *bound;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
        many of both. Whether multipliers are unique, and whether delta_q is differentiable. */
     int64_t *idle, *still, *counts, *claims;
