@@ -115,23 +115,32 @@ class BallStep:
         return A, y, self.free + reached.transpose() * y
 
 
+Balls: TypeAlias = list[arb]
 Solved: TypeAlias = "tuple[Indices, StepData, BallHessian, Sequence[int]]"
 """Of a group: its coordinates, its step, the H of that, and the working set of its optimum."""
 
 
-def displacement(step: StepData, solved: Sequence[Solved]) -> list[arb] | None:
-    """Balls about the exact delta_q of all groups, (n_v,); None if one is not shown."""
+def balls(x: Array, rest: Array, bound: Array) -> Balls:
+    """Numbers x + rest within a bound, shape (n,) each, in balls [any unit]."""
+    columns = zip(x.tolist(), rest.tolist(), bound.tolist(), strict=True)
+    with ctx.workprec(PRECISION):
+        return [arb(middle) + arb(more, radius) for middle, more, radius in columns]
+
+
+def displacement(step: StepData, solved: Sequence[Solved]) -> Balls | None:
+    """Balls about the exact delta_q of all groups, n_v [m, rad]; None if one is not shown."""
     x = [arb(0)] * step.n_v
-    for coordinates, own, hessian, working in solved:
-        found = BallStep(own, hessian).minimiser(working)
-        if found is None:
-            return None
-        for v, x_v in zip(coordinates.tolist(), found[2].entries(), strict=True):
-            x[v] = x_v
+    with ctx.workprec(PRECISION):
+        for coordinates, own, hessian, working in solved:
+            found = BallStep(own, hessian).minimiser(working)
+            if found is None:
+                return None
+            for v, x_v in zip(coordinates.tolist(), found[2].entries(), strict=True):
+                x[v] = x_v
     return x
 
 
-def far_slacks(step: StepData, far: Indices, x: list[arb]) -> tuple[Array, Mask]:
+def far_slacks(step: StepData, far: Indices, x: Balls) -> tuple[Array, Mask]:
     """The slacks of the contacts that belong to no group, and which of these may not be open.
 
     Parameters
@@ -154,11 +163,12 @@ def far_slacks(step: StepData, far: Indices, x: list[arb]) -> tuple[Array, Mask]
     contact, coordinate, J = step.contacts.entries()
     counts = place[contact] >= 0
     columns = (place[contact][counts], coordinate[counts], J[counts])
-    motion = [arb(0)] * (4 * len(far))
-    for j, v, column in zip(*(given.tolist() for given in columns), strict=True):
-        for i, entry in enumerate(column, start=4 * j):
-            motion[i] += x[v] * entry
-    slacks, shown = all_nearest(contact_slacks(step, far, motion))
+    with ctx.workprec(PRECISION):
+        motion = [arb(0)] * (4 * len(far))
+        for j, v, column in zip(*(given.tolist() for given in columns), strict=True):
+            for i, entry in enumerate(column, start=4 * j):
+                motion[i] += x[v] * entry
+        slacks, shown = all_nearest(contact_slacks(step, far, motion))
     doubtful = np.zeros(len(place), dtype=bool)
     doubtful[np.repeat(far, step.counts[far])[~shown | (slacks <= 0)]] = True
     return slacks, doubtful

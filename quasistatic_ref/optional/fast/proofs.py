@@ -5,16 +5,16 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import arb, ctx
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined_optimum
-from quasistatic_ref.certify.minimiser import PRECISION
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.far import (
     BallHessian,
+    Balls,
     Solved,
+    balls,
     displacement,
     far_slacks,
     with_far,
@@ -246,12 +246,11 @@ class Proofs:
                 optimum = joined_optimum(step, [part.group for part in parts], optima)
             if near is None:
                 break
-            with ctx.workprec(PRECISION):
-                x = prover.displacement() if in_c else self._in_balls(step, optimum)
-                if x is None:
-                    near = None
-                    continue
-                slacks, doubtful = far_slacks(step, np.flatnonzero(~near), x)
+            x = balls(*prover.displacement()) if in_c else self._in_balls(step, optimum)
+            if x is None:
+                near = None
+                continue
+            slacks, doubtful = far_slacks(step, np.flatnonzero(~near), x)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)
                 break
@@ -272,7 +271,7 @@ class Proofs:
             self.prover = in_c.Prover(both, groups)
         return self.prover
 
-    def _in_balls(self, step: StepData, optimum: ExactOptimum) -> list[arb] | None:
+    def _in_balls(self, step: StepData, optimum: ExactOptimum) -> Balls | None:
         """Balls about delta_q where the exact method has solved a group; None if not shown."""
         points = list[Solved]()
         for part in self.parts:

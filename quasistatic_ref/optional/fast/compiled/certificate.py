@@ -7,7 +7,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from flint import arb
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.rational import dyadic
@@ -294,10 +293,9 @@ class Prover:
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist())
 
-    def displacement(self) -> list[arb]:
-        """Balls about the exact delta_q of an optimum that C has proved of all groups, (n_v,)."""
-        columns = (self.s[name].tolist() for name in ("delta_q", "rest", "bound"))
-        return [x + arb(rest, bound) for x, rest, bound in zip(*columns, strict=True)]
+    def displacement(self) -> tuple[Array, Array, Array]:
+        """delta_q, shape (n_v,), that C has proved; its rest, and a bound of more [m, rad]."""
+        return self.s["delta_q"], self.s["rest"], self.s["bound"]
 
 
 def group_proof(
