@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +30,9 @@ LOOKED = 8
 """Steps, spread over a run, in which bodies are looked for that pass through each other."""
 WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
 """To the faces, edges and corners of a cube [-]."""
+BALL = 1.15
+"""Radius of a ball that holds a shape, over the distance of the farthest of its points in the WAYS:
+no direction is more than 28 degrees from one of them [-]."""
 MOST = 300
 """Pairs of shapes that are looked at."""
 
@@ -199,8 +202,15 @@ def _depths(
 ) -> list[float]:
     """How deep points of one shape are in the other [m], at most; negative where they are apart."""
     kinematics = task.system.kinematics(q)
+    centre = {s.name: kinematics.R[s.link] @ s.t + kinematics.t[s.link] for s in chain(*pairs)}
+    radius = {name: BALL * np.linalg.norm(points[name], axis=1).max(initial=0.0) for name in centre}
     found = []
     for pair in pairs:
+        a, b = (placed.name for placed in pair)
+        between = np.linalg.norm(centre[a] - centre[b])
+        if len(points[a]) and len(points[b]) and between > radius[a] + radius[b]:
+            found.append(-np.inf)
+            continue
         depth = -np.inf
         for of, inside in (pair, pair[::-1]):
             if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
@@ -296,27 +306,26 @@ def short(task: Task) -> Iterator[Said]:
     if not task.finished or not task.steps:
         return
     k = task.steps - 1
-    contacts = task.run.contacts(k)
-    n_a = task.system.n_a
-    J_n = frame_jacobian(contacts, contacts.J)[0][:, :n_a]
-    pushes = task.run.forces(k)[:, 2:3] * J_n  # what each contact exerts on each joint
     q = task.trajectory["q"][-1]
     lag = task.system.actuated_difference(q, task.trajectory["q_bar_a"][-1])
+    ways = {track.joint: float(np.ptp(track.values[:, 0])) for track in task.tracks
+            if track.joint.v.stop == track.joint.v.start + 1}  # fmt: skip
+    far = [joint for joint, way in ways.items() if way and abs(lag[joint.v.start]) > LAGS * way
+           and not _at_a_stop(task, joint, q)]  # fmt: skip
+    if not far:
+        return
+    contacts = task.run.contacts(k)
+    J_n = frame_jacobian(contacts, contacts.J)[0][:, : task.system.n_a]
+    pushes = task.run.forces(k)[:, 2:3] * J_n  # what each contact exerts on each joint
     spring = task.run.simulator.K_q @ lag
-    for track in task.tracks:
-        joint = track.joint
-        if joint.v.stop != joint.v.start + 1:
-            continue
+    for joint in far:
         v = joint.v.start
-        way = float(np.ptp(track.values[:, 0]))
         error = abs(float(lag[v]))
-        if not way or error <= LAGS * way or _at_a_stop(task, joint, q):
-            continue
         stopped = -np.sign(lag[v]) * pushes[:, v].sum() > abs(spring[v]) / 2
         unit = joint.coordinates[0].unit
         if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
             continue
-        needed = abs(float(spring[v])) / (LAGS * way)
+        needed = abs(float(spring[v])) / (LAGS * ways[joint])
         yield Said(
             f"raise K_q of {joint.name} to {needed:.2g} or more",
             f"it ends {amount(error, unit)} from its last target, with "
