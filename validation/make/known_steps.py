@@ -13,6 +13,7 @@ import sys
 import tempfile
 from collections import Counter
 from dataclasses import asdict, replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, lett
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps
+from tests.oracles.half_way import half_way
 from tests.oracles.random_steps import designed_step
 from validation.tools.scripts import asked
 
@@ -79,14 +81,15 @@ def main() -> int:
     library.chosen = str(untested)
     kinds: Counter[Any] = Counter()
     lines = []
-    for seed in range(SEEDS):
-        step = varied_step(seed)
+    ties = [("half-way", half_way(k)) for k in (1, 3)]
+    designed = ((seed % 4, varied_step(seed)) for seed in range(SEEDS))
+    for family, step in chain(ties, designed):
         optimum = optimum_of(step)
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
         outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "")))
-        kind = seed % 4, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
+        kind = family, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         if kinds[kind] == EACH or (optimum is not None and not set("or") & set(outcomes)):
             continue
         kinds[kind] += 1

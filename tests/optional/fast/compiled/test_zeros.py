@@ -7,11 +7,11 @@ import pytest
 
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
-from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.scenes.contacts import repeated
 from tests.certify.test_exact import resting_point
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from tests.oracles.half_way import half_way
 from validation.make.confirmed_bits import differing, proof
 from validation.make.degenerate_bits import faults
 
@@ -71,21 +71,6 @@ def test_a_slack_that_is_small_but_not_zero_is_no_zero():
     truth = form_optimum(exact_form(step), SPINS)
     assert truth.working_set != tuple(SPINS)
     assert not isinstance(found, ExactOptimum) or differing(found, truth) == []
-
-
-def half_way(k):
-    """x_1 - x_2 = 1 and x_2 = k 2^-53, pressed: x_1 and its impulse are k 2^-53 off 1 and 2.
-
-    So are the slacks of a third contact, far away and along x_2. J is 3 where it presses, so that
-    no multiplier is half-way, too.
-    """
-    rows = np.zeros((3, 4, 2))
-    rows[0, 0] = 3.0, -3.0
-    rows[1, 0] = 0.0, 3.0
-    rows[2, 0] = 0.0, 1.0
-    phi = np.array([-3.0, -3.0 * k * 2.0**-53, 1.0])
-    at = contacts_of(phi, [np.eye(3)[[1, 2, 0]]] * 3, rows, 0.0)
-    return free_step(np.eye(2), [0.0, -8.0], at, 0.5).replace(cone="frictionless")
 
 
 @pytest.mark.parametrize("k", [1, 3])
