@@ -105,7 +105,6 @@ def test_numbers_may_be_answered_in_part_and_are_refused_where_wrong():
         {"differentiable": True},
         {"differentiable": "yes"},
         {**right, "dq_dq": right["dq_dq"][:-1]},
-        {**right, "dq_dx": 1.0},
         {"differentiable": False, "reasons": []},
         None,
     ):
