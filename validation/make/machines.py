@@ -34,8 +34,8 @@ at once: where no test fails, none of them matters. *Core*: the tests in `analyt
 (`NPY_DISABLE_CPU_FEATURES`). *Shuffled*: files, and tests within each, in a random order (the
 plugin pytest-random-order). *Lowest*: of each package that `pyproject.toml` names the lowest
 version, of others the newest. *No compiler*: `QUASISTATIC_REF_CC=none`. Python is 3.11 where none
-is named. Skipped are the tests that need an extra, or a compiler. What failed with the lowest
-versions was a warning of scs 3.2.5; with 3.2.8, the lowest since, that test passes.
+is named. Skipped are the tests that need an extra, or a compiler. `.ci/run` has one more row:
+README's line itself, with the newest versions, on the kernel SkylakeX where this page was made.
 
 | run | Python | NumPy | passed | failed | skipped | minutes |
 |---|---|---|---|---|---|---|
