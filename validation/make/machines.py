@@ -36,6 +36,9 @@ plugin pytest-random-order). *Lowest*: of each package that `pyproject.toml` nam
 version, of others the newest. *No compiler*: `QUASISTATIC_REF_CC=none`. Python is 3.11 where none
 is named. Skipped are the tests that need an extra, or a compiler. `.ci/run` has one more row:
 README's line itself, with the newest versions, on the kernel SkylakeX where this page was made.
+NumPy 2.5.2 to 2.5.5, which need Python 3.12, end in a segmentation fault with the kernels Haswell
+and Zen where a matrix of 432 by 506 is multiplied by one of 506 by 200, without this package, too;
+`pyproject.toml` leaves them out since. The row with Haswell was made before, of the core alone.
 
 | run | Python | NumPy | passed | failed | skipped | minutes |
 |---|---|---|---|---|---|---|
@@ -88,8 +91,8 @@ MACHINES = {
     "core, Python 3.12, kernel Haswell, shuffled with seed 1": Machine(
         "python3.12", settings=kernel("Haswell"), options=(*shuffled(1), *CORE)
     ),
-    "core, Python 3.13, kernel Prescott, no vector code, shuffled with seed 2": Machine(
-        "python3.13", settings=PLAIN, options=(*shuffled(2), *CORE)
+    "Python 3.13, kernel Prescott, no vector code, shuffled with seed 2": Machine(
+        "python3.13", settings=PLAIN, options=shuffled(2)
     ),
     "core, Python 3.14": Machine("python3.14", options=CORE),
 }
