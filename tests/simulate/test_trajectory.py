@@ -27,12 +27,12 @@ PROGRAMS = {"H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_ba
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("scenes")
+    return written_scenario(tmp_path_factory.mktemp("scenes")).parent
 
 
 @pytest.fixture(scope="module")
 def scenario(folder):
-    return load_scenario(written_scenario(folder), ["solver.backend=daqp"], fast=True)
+    return load_scenario(folder / "scene.toml", ["solver.backend=daqp"], fast=True)
 
 
 @pytest.fixture(scope="module")

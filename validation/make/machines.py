@@ -77,7 +77,7 @@ CORE = tuple(
                  "solve", "step")
 )  # fmt: skip
 """A sample: what depends on floating-point numbers most."""
-VECTORS = " ".join(np.show_config(mode="dicts")["SIMD Extensions"]["found"])
+VECTORS = " ".join(np.show_config(mode="dicts")["SIMD Extensions"].get("found", []))
 PLAIN = kernel("Prescott") | {"NPY_DISABLE_CPU_FEATURES": VECTORS}
 
 

@@ -82,7 +82,7 @@ def hashes_in(where: Environment, names: Sequence[str], steps: int | None) -> li
     """The same in a process of its own."""
     settings = {"OPENBLAS_CORETYPE": where.kernel, "PYTHONPATH": where.numpy}
     if not where.vectors:
-        vectors = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
+        vectors = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])
         settings |= OLD_C_LIBRARY | {"NPY_DISABLE_CPU_FEATURES": " ".join(vectors)}
     source = f"from {__spec__.name} import *; print(*hashes({[*names]}, {steps}, {where.fast}))"
     command = [where.python, "-c", source]
