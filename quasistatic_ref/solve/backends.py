@@ -205,7 +205,7 @@ UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
 DEFAULT = "clarabel"
 """The backend where none is named: it takes every cone and every extension."""
 NONE = "none"
-"""No backend: the exact method from a cold start."""
+"""No backend: the exact method, in a run from the working set of the step before."""
 
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms

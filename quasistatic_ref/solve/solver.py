@@ -283,7 +283,7 @@ class BackendSolver(Solver):
 
 
 class NoSolver(Solver):
-    """No backend: the exact method starts from cold.
+    """No backend: the exact method starts from the working set of the step before, if any.
 
     Parameters
     ----------
@@ -295,6 +295,18 @@ class NoSolver(Solver):
 
     interface = "none"
     fixed = ()
+    remembers = True
+
+    def __init__(self, template: StepData, name: str) -> None:
+        super().__init__(template, name)
+        self._before: tuple[int, ...] = ()
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum, sought from the working set of the step before."""
+        step = both.si_step
+        optimum = step_optimum(step, [i for i in self._before if i < step.m])
+        self._before = optimum.working_set
+        return optimum
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """No answer: StepNotSolved."""

@@ -10,7 +10,7 @@ from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.solve import FACTOR_LIMIT, _far_from_largest, solve_step
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Extra
 from tests.helpers import pinch, point_on_floor
@@ -41,6 +41,15 @@ def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
         answer = solve_step(step, solver, certify="residual")
         alone = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
         assert answer.certificate.error_bound == alone.certificate.error_bound
+
+
+def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before():
+    step = pinch(grip=5.0)
+    solver = NoSolver(step, "none")
+    cold, warm = (solver.optimum(solver.in_both_units(step), None) for _ in range(2))
+    assert cold.walks > warm.walks == 0
+    for name in ("delta_q", "net", "slack"):
+        assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()
 
 
 @pytest.mark.parametrize("step", [pushed_point(), pinch(grip=5.0)])

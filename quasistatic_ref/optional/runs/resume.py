@@ -134,9 +134,9 @@ def _step(simulator: Simulator, q: Array, goal: Array, pushed: Array) -> tuple[S
 def _ask(simulator: Simulator, step: StepData, linear: bool) -> None:
     """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
     solver = simulator.solver
-    if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
+    if not linear or not (solver is None or solver.remembers):
         return
-    if simulator.law == COULOMB:  # it was asked for each iterate
+    if simulator.law == COULOMB or simulator.backend == NONE:  # asked for each iterate, or optimum
         simulator.solution(step)
         return
     with suppress(StepNotSolved):
