@@ -83,7 +83,7 @@ def test_without_pages_data_show_their_fields_and_objects_their_class(without):
     assert repr(step).startswith("StepData(h=0.01, K_q=array([[")
     assert "phi=array([" in repr(step.contacts)
     assert "System object at" in repr(scenario.system)
-    assert "Simulator object at" in repr(scenario.simulator())
+    assert repr(scenario.simulator()).startswith("Simulator(system=<")
     run = scenario.run(progress=False)
     assert repr(run).startswith("Trajectory(header={'format': 'quasistatic-ref/trajectory'")
     assert run._repr_html_() is None

@@ -133,16 +133,10 @@ def progress_line(options: argparse.Namespace, line: str, end: str = "\n") -> No
 def scenario_settings(options: argparse.Namespace) -> list[str]:
     """``--set``, ``--root`` and the options of ``SOLVER`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
-    for key in ("backend", "certify"):
-        value = getattr(options, key, None)
-        if value is not None:
-            settings.append(f"solver.{key}={json_text(value)}")
-    if getattr(options, "fast", False):
-        settings.append("fast=true")
-    if getattr(options, "cone", None) is not None:
-        settings.append(f"cone={json_text(options.cone)}")
-    if getattr(options, "law", None) is not None:
-        settings.append(f"law={json_text(options.law)}")
+    for name in ("solver.backend", "solver.certify", "fast", "cone", "law"):
+        value = getattr(options, name.removeprefix("solver."), None)
+        if value is not None and value is not False:  # a flag that is not given
+            settings.append(f"{name}={json_text(value)}")
     if getattr(options, "roots", []):
         settings.append(f"roots={json_text([os.path.abspath(root) for root in options.roots])}")
     return settings

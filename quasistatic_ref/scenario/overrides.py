@@ -8,11 +8,11 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.files import MOST_PARTS, plain, toml_tables
 from quasistatic_ref.scenario.paths import OwnWord
 
-Settings = Sequence[str] | Mapping[str, Any]
+Changes = Sequence[str] | Mapping[str, Any]
 
 
 def apply_settings(
-    tables: dict[str, Any], settings: Settings, named: Mapping[str, Any]
+    tables: dict[str, Any], settings: Changes, named: Mapping[str, Any]
 ) -> set[tuple[str, str]]:
     """Make changes in place.
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
@@ -18,7 +17,7 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import fast_part, needed_part
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     Wrenches,
@@ -28,7 +27,7 @@ from quasistatic_ref.scenario.bodies import (
 )
 from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
-from quasistatic_ref.scenario.overrides import Settings, apply_settings
+from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.paths import folders_in
 from quasistatic_ref.scenario.scenario_table import (
     FORMAT,
@@ -43,51 +42,40 @@ from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
 from quasistatic_ref.step.arrays import Array, freeze_copies
-from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
 from quasistatic_ref.step.ordered import total
-from quasistatic_ref.tolerances import ACCURACY
 
 SAVING = ("save", "save_every", "resume", "observers")
-MOST_BODIES = 1000
 """What `run` hands on to a rollout."""
+MOST_BODIES = 1000
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Scenario(Plain, Shown):
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Scenario(Settings, Plain, Shown):
     """Everything that a scenario file says, checked and loaded.
 
     Parameters
     ----------
     path : Path
-    h : float
-        Time step [s].
     steps : int
-    gravity : ndarray, shape (3,)
-        [m/s^2], world frame.
-    system : System
-    pairs : tuple of ContactPair
-    K_q : ndarray, shape (n_a, n_a)
-        Joint stiffness [N/m, N m/rad].
-    gravity_acts : ndarray of bool, shape (n_a,)
-        Whether gravity acts on each actuated coordinate.
     targets : Targets
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
-    backend, accuracy, certify, record, cone, law
-        The fields of these names in the scenario's file.
-    fast : bool
-        As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
-    limits : Limits
-        Beyond which no step is taken.
+    record : str
+        What its trajectory holds.
+    bodies : mapping of str to BodyEntry
+        What the tables of its bodies say.
     of_bodies : callable, optional
         What tables of bodies add to each step: friction of joints and of supports, joint limits.
+    settings
+        As of :class:`~quasistatic_ref.simulate.settings.Settings`.
 
     Examples
     --------
@@ -97,25 +85,12 @@ class Scenario(Plain, Shown):
     """
 
     path: Path
-    h: float
     steps: int
-    gravity: Array
-    system: System
-    pairs: tuple[ContactPair, ...]
-    K_q: Array
-    gravity_acts: Array
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
-    backend: str = DEFAULT
-    accuracy: float = ACCURACY
-    certify: str = CERTIFY[0]
     record: str = "full"
-    cone: str = PYRAMID
-    limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
-    fast: bool = False
     of_bodies: OfBodies | None = None
-    law: str = CONVEX
 
     def __post_init__(self) -> None:
         freeze_copies(self, "gravity", "K_q", "gravity_acts")
@@ -124,22 +99,7 @@ class Scenario(Plain, Shown):
         """A simulator of this scenario, with an `extension` as it takes one."""
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
-        return Simulator(
-            self.system,
-            self.pairs,
-            h=self.h,
-            K_q=self.K_q,
-            gravity=self.gravity.tolist(),
-            gravity_acts=self.gravity_acts,
-            backend=self.backend,
-            fast=self.fast,
-            accuracy=self.accuracy,
-            certify=self.certify,
-            cone=self.cone,
-            law=self.law,
-            extension=extension,
-            limits=self.limits,
-        )
+        return Simulator(**self.settings(), extension=extension)
 
     @property
     def force(self) -> Callable[[float, Array], Array] | None:
@@ -198,7 +158,7 @@ class Scenario(Plain, Shown):
 
 
 def load_scenario(
-    name: str | Path | Mapping[str, Any], settings: Settings = (), **fields: Any
+    name: str | Path | Mapping[str, Any], settings: Changes = (), **fields: Any
 ) -> Scenario:
     """Load a scenario from a file, by the name of one of the package, or from a mapping.
 
@@ -290,11 +250,13 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     if any(entry.extends for entry in entries.values()):
         part = needed_part("extensions.of_scenario", "joint_friction, support and joint_limits")
         pairs, of_bodies = part.of_scenario(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
-    entries_of_J = None
-    backends = fast_part("backends") if fast else None
-    if backends is not None:  # its default depends on the size of the scene
-        entries_of_J = backends.entries_of_J(system, pairs, law == CONVEX and of_bodies is None)
-    backend = _backend(solver, certify, named, entries_of_J, backends)
+    ordinary = law == CONVEX and of_bodies is None
+    try:  # here rather than in the first step
+        backend = usable_backend(
+            value(solver, SOLVER, "backend"), system, pairs, named, certify, fast, ordinary
+        )
+    except BackendError as error:
+        raise solver.error_about(error.field or "backend", error.problem, error.value) from None
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -330,22 +292,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         of_bodies=of_bodies,
         law=law,
     )
-
-
-def _backend(
-    solver: TableReader, certify: str, cone_name: str, entries_of_J: Any, fast: Any
-) -> str:
-    """The name of the backend, looked up here rather than in the first step."""
-    name: str | None = value(solver, SOLVER, "backend")
-    try:
-        if fast is not None:
-            backend: str = fast.fast_backend(name, cone_name, certify, entries_of_J)
-            return backend
-        name = DEFAULT if name is None else name
-        check_backend(name, cone_name, certify)
-    except BackendError as error:
-        raise solver.error_about(error.field or "backend", error.problem, error.value) from None
-    return name
 
 
 def _limits(table: TableReader) -> Limits:

@@ -9,14 +9,14 @@ from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.body import BASE_WORDS
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from quasistatic_ref.simulate.law import CONVEX, LAWS
+from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
+from quasistatic_ref.simulate.settings import Settings
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY
-from quasistatic_ref.step.cones import CONES, PYRAMID
+from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT = "quasistatic-ref/scenario"
 VERSION = 1
@@ -57,15 +57,16 @@ TABLES = Tables({
         "gravity": Field("three numbers", "free fall in the world frame", "m/s^2", GRAVITY),
         "cone": Field(
             "text", f"friction cone of every contact: {', '.join(CONES)} (K even, from 4 on)",
-            default=PYRAMID, schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
+            default=Settings.cone,
+            schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
         ),
         "law": Field(
             "text", "whether sliding contacts rise, as in the model, or not (coulomb)",
-            default=CONVEX, choices=LAWS,
+            default=Settings.law, choices=LAWS,
         ),
         "fast": Field(
             "boolean", "whether to take the same steps sooner, to the same certified bits",
-            default=False,
+            default=Settings.fast,
         ),
         "record": Field(
             "text",
@@ -86,9 +87,9 @@ TABLES = Tables({
     SOLVER: {
         "backend": Field("text", "name of a solver; quasistatic-ref backends", default=None),
         "accuracy": Field(
-            "number", "of the backend, in natural units", "-", ACCURACY, above=0.0,
+            "number", "of the backend, in natural units", "-", Settings.accuracy, above=0.0,
         ),
-        "certify": Field("text", "what is proved", default=CERTIFY[0], choices=CERTIFY),
+        "certify": Field("text", "what is proved", default=Settings.certify, choices=CERTIFY),
     },
     LIMITS: {
         "penetration": Field(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 from functools import wraps
 from inspect import Signature, signature
 from typing import Any, ClassVar, TypeVar, cast
@@ -26,22 +26,16 @@ from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scene import Scene
+from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import (
-    DEFAULT,
-    NONE,
-    REQUIRED,
-    check_backend,
-    check_certify,
-)
+from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
 from quasistatic_ref.solve.solve import check_accuracy, solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
-from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
 FIXED = {
@@ -94,14 +88,12 @@ class Stopwatch:
         self.seconds[part] = seconds
 
 
-def _remade(
-    kind: type[Simulator], system: System, pairs: Sequence[ContactPair], settings: dict[str, Any]
-) -> Simulator:
+def _remade(kind: type[Simulator], settings: dict[str, Any]) -> Simulator:
     """A simulator from what it was made of: the arguments that a deep copy copies."""
-    return kind(system, pairs, **settings)
+    return kind(**settings)
 
 
-class Simulator(Shown):
+class Simulator(Settings, Shown):
     """A system, what may touch in it, and how each step is solved.
 
     A simulator keeps what is slow to make and serves many steps: which coordinates move which
@@ -190,55 +182,55 @@ class Simulator(Shown):
         gravity_acts: Array | None = None,
         backend: str | None = None,
         fast: bool = False,
-        accuracy: float = ACCURACY,
-        certify: str = "full",
-        cone: str = PYRAMID,
-        law: str = CONVEX,
+        accuracy: float = Settings.accuracy,
+        certify: str = Settings.certify,
+        cone: str = Settings.cone,
+        law: str = Settings.law,
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
         check_kind(system, System, "system", ", qr.System([body, ...])")
-        self.system = system
-        self.pairs = checked_items(pairs, ContactPair, "pairs")
-        self.scene = Scene(system, self.pairs)
-        self.layout = contact_layout(self.pairs)
-        self.h = seconds(h)
-        self.K_q = stiffness_matrix(system, K_q)
-        self.gravity = tuple(checked_array(gravity, "gravity", (3,)).tolist())
-        self.gravity_factor = np.ones(system.n_v)
-        acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
-        self.gravity_factor[: system.n_a] = checked_array(acts, "gravity_acts", (system.n_a,))
-        self.fast = fast
+        own = checked_items(pairs, ContactPair, "pairs")
         check_accuracy(accuracy)
         check_certify(backend, certify)
-        self.accuracy = accuracy
-        self.certify = certify
-        self.cone = cone
         check_law(law, certify)
-        self.law = law
         if extension is not None and not callable(extension):
             problem = "must be a function of q that returns an Extension, such as lambda q: own"
             raise InputError(problem, field="extension", value=type(extension).__name__)
+        limits = Limits() if limits is None else limits
+        check_kind(limits, Limits, "limits")
+        acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
+        ordinary = extension is None and law == CONVEX
+        super().__init__(
+            system=system,
+            pairs=own,
+            h=seconds(h),
+            K_q=stiffness_matrix(system, K_q),
+            gravity=checked_array(gravity, "gravity", (3,)),
+            gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)),
+            backend=usable_backend(backend, system, own, cone, certify, fast, ordinary),
+            fast=fast,
+            accuracy=accuracy,
+            certify=certify,
+            cone=cone,
+            law=law,
+            limits=limits,
+        )
         self.extension = extension
-        self.limits = Limits() if limits is None else limits
-        check_kind(self.limits, Limits, "limits")
         self.named_backend = backend
-        self.backend = self.usable_backend()
+        self.scene = Scene(system, own)
+        self.layout = contact_layout(own)
+        self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
         self.prepare()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in FIXED and name in vars(self):
+        try:
+            super().__setattr__(name, value)
+        except FrozenInstanceError:
             problem = "is fixed when a simulator is made, as is what was formed of it; make another"
-            raise InputError(problem, field=f"simulator.{name}", value=value)
-        super().__setattr__(name, value)
-
-    def usable_backend(self) -> str:
-        """The backend that was named, or the default; BackendError if it does not serve."""
-        name = DEFAULT if self.named_backend is None else self.named_backend
-        check_backend(name, self.cone, self.certify)
-        return name
+            raise InputError(problem, field=f"simulator.{name}", value=value) from None
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
@@ -248,12 +240,8 @@ class Simulator(Shown):
         self.geometry = ContactGeometry(self.layout, system.column_map)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "law", "extension",
-                "limits")  # fmt: skip
-        settings: dict[str, Any] = {name: getattr(self, name) for name in same}
-        settings["backend"] = self.named_backend
-        settings["gravity_acts"] = self.gravity_factor[: self.system.n_a]
-        return _remade, (type(self), self.system, self.pairs, settings)
+        given = {"backend": self.named_backend, "extension": self.extension}
+        return _remade, (type(self), self.settings() | given)
 
     @arguments_checked
     @by_one_thread
@@ -406,7 +394,9 @@ class Simulator(Shown):
             try:
                 spare = self.spares.get(name)
                 if spare is None or not spare.fits(step):
-                    self.spares[name] = spare = solver_for(step, name, self.fast)
+                    spare = solver_for(step, name, self.fast)
+                    if name != NONE:  # it would begin where a resumed run does not
+                        self.spares[name] = spare
                 solution = solve_step(step, spare, accuracy=self.accuracy, certify=certify)
             except BackendError:  # not for this cone
                 continue

@@ -14,10 +14,8 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.fast.backends import (
-    EntriesOfJ,
     default_backend,
     entries_of_J,
-    fast_backend,
     sparse_from,
 )
 from quasistatic_ref.optional.fast.compiled.answer import as_said
@@ -83,20 +81,12 @@ class FastSimulator(Simulator):
         Whether compiled code takes the steps.
     """
 
-    def usable_backend(self) -> str:
-        """The backend that was named, or the default of this scene; BackendError as in the base."""
-        return fast_backend(self.named_backend, self.cone, self.certify, self.entries())
-
-    def entries(self) -> EntriesOfJ:
-        """Entries of a step's dense J."""
-        ordinary = self.extension is None and self.law == CONVEX
-        return entries_of_J(self.system, self.pairs, ordinary)
-
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
         system = self.system
         layout = self.layout
-        entries = self.entries()
+        ordinary = self.extension is None and self.law == CONVEX
+        entries = entries_of_J(system, self.pairs, ordinary)
         self.default_backend = default_backend(self.cone, self.certify, entries)
         least = sparse_from(self.backend, self.cone)
         large = part("large.block_columns") if 0 < least <= entries.every else None
@@ -116,6 +106,7 @@ class FastSimulator(Simulator):
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
         }  # fmt: skip
         self.poses = Poses(system)
+        self.down = tuple(self.gravity.tolist())
         self.numbers = Scene(self.poses, columns, self.constant, mu, self.gravity_factor)
         self.contacts = Pairs(self.pairs, self.poses.R, self.poses.t, self.numbers.points)
         self.screws = Screws(system, self.poses)
@@ -189,7 +180,7 @@ class FastSimulator(Simulator):
         numbers["force"][:] = force
         numbers["delta_q_bar_a"][:] = delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         delta_q_bar_a.setflags(write=False)
-        self.poses.weigh(self.gravity)
+        self.poses.weigh(self.down)
         self.gap = self.form(numbers.address)
         *found, d1, d2, J, tau, g = TAKEN(numbers.taken())
         points = ClosestPoints(*found)

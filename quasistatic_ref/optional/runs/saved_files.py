@@ -44,8 +44,6 @@ VERSION = 1
 WHAT = "a file of saved steps"
 EVERY = 60.0
 """Time between two saves [s]."""
-WORDS = ("h", "gravity", "cone", "law", "certify", "backend", "fast", "accuracy")
-"""Settings of a simulator that are shown as they are."""
 HASHED = "sha256 "
 """What the value of a setting begins with that is too long to be shown."""
 
@@ -61,10 +59,12 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
     record : str
     """
     system = simulator.system
+    said = simulator.settings()
     settings = {
         "version of quasistatic_ref": __version__,
         "version of NumPy": np.__version__,
-        **{name: str(getattr(simulator, name)) for name in WORDS},
+        **{name: str(one) for name, one in said.items() if isinstance(one, str | float | bool)},
+        "gravity": str(simulator.gravity.tolist()),
         "record": record,
         "version of the backend": _version(simulator.backend.removeprefix(QPSOLVERS)),
         **{f"limits.{name}": str(limit) for name, limit in vars(simulator.limits).items()},

@@ -107,7 +107,7 @@ def scenario_written(
             "version": VERSION,
             "h": simulator.h,
             "steps": steps,
-            "gravity": list(simulator.gravity),
+            "gravity": simulator.gravity.tolist(),
             "cone": simulator.cone,
             "law": simulator.law,
             "fast": simulator.fast,
@@ -306,10 +306,10 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     loaded = load_scenario(path)
     pairs = [pair for pair in loaded.pairs if "(" in pair.name]  # those of supports have none
     other = replace(loaded, pairs=tuple(pairs), of_bodies=None).simulator()
-    for own, loaded in zip(simulator.pairs, other.pairs, strict=True):
+    for own, written in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
             shape = getattr(own, side)
-            again = getattr(loaded, side)
+            again = getattr(written, side)
             if np.any(shape.R != again.R) or np.any(shape.t != again.t):
                 problem = "is rounded where a URDF is read; place the shape without a rotation"
                 raise InputError(problem, field=f"{shape.name}.R", value=shape.R.tolist())

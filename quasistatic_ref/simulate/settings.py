@@ -1,0 +1,97 @@
+"""What a scenario and a simulator have in common: bodies, contacts, and how steps are solved."""
+
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.system import System
+from quasistatic_ref.parts import fast_part
+from quasistatic_ref.simulate.law import CONVEX
+from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.cones import PYRAMID
+from quasistatic_ref.tolerances import ACCURACY
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Settings:
+    """What a scenario and a simulator have in common; it does not change.
+
+    Parameters
+    ----------
+    system : System
+        What moves.
+    pairs : tuple of ContactPair
+        What may touch.
+    h : float
+        Time step [s].
+    K_q : ndarray, shape (n_a, n_a)
+        Stiffness of the actuated coordinates [N/m, N m/rad].
+    gravity : ndarray, shape (3,)
+        [m/s^2], world frame.
+    gravity_acts : ndarray, shape (n_a,)
+        Whether gravity acts on each actuated coordinate [-].
+    backend, fast, accuracy, certify
+        As of :func:`~quasistatic_ref.solve.solve.solve_step`, the backend by its name.
+    cone : str
+        Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
+    law : str
+        ``"convex"``, the model's, or ``"coulomb"``, without the rise of sliding contacts.
+    limits : Limits
+        Penetration and reach beyond which a run ends.
+    """
+
+    system: System
+    pairs: tuple[ContactPair, ...]
+    h: float
+    K_q: Array
+    gravity: Array
+    gravity_acts: Array
+    backend: str = DEFAULT
+    fast: bool = False
+    accuracy: float = ACCURACY
+    certify: str = CERTIFY[0]
+    cone: str = PYRAMID
+    law: str = CONVEX
+    limits: Limits = field(default_factory=Limits)
+
+    def settings(self) -> dict[str, Any]:
+        """All of them by name."""
+        return {setting.name: getattr(self, setting.name) for setting in fields(Settings)}
+
+
+def usable_backend(
+    name: str | None,
+    system: System,
+    pairs: tuple[ContactPair, ...],
+    cone: str,
+    certify: str,
+    fast: bool,
+    ordinary: bool,
+) -> str:
+    """The backend of a name; of None the default one.
+
+    Parameters
+    ----------
+    name : str or None
+    system, pairs, cone, certify, fast
+        The settings: the default of `fast` depends on them.
+    ordinary : bool
+        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+
+    Raises
+    ------
+    BackendError
+        If the backend is unknown or not installed, or does not support `certify` or the cone.
+    InputError
+        If `fast` is wanted, and its folder is not there.
+    """
+    backends = fast_part("backends") if fast else None
+    if backends is not None:
+        entries = backends.entries_of_J(system, pairs, ordinary)
+        backend: str = backends.fast_backend(name, cone, certify, entries)
+        return backend
+    name = DEFAULT if name is None else name
+    check_backend(name, cone, certify)
+    return name
