@@ -1,0 +1,309 @@
+package main
+
+import (
+	"math"
+	"sort"
+)
+
+type Placed struct {
+	Shape Shape
+	Pose  Pose
+	Body  *string
+}
+
+type Pair struct {
+	Name, Alpha, Beta string
+	K, Rows           int
+	Mu_v, Mu_omega    float64
+	Compliance        *float64
+}
+
+type Load struct {
+	Body          string
+	Force, Torque Vec
+}
+
+type Scene struct {
+	Mechanism Mechanism
+	Q         []float64
+	Q_bar_a   []float64
+	K_q       [][]float64
+	H         float64
+	Cone      string
+	Gravity   Vec
+	Shapes    map[string]Placed
+	Pairs     []Pair
+	Wrenches  []Load
+}
+
+// Candidate is a distance that may become a contact; some come behind all others.
+type Candidate struct {
+	Distance
+	index  int
+	behind bool
+}
+
+func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
+	if alpha.Kind == "cloud" || beta.Kind == "cloud" {
+		for i, d := range distances(alpha, beta, at, bt) {
+			found = append(found, Candidate{Distance: d, index: i})
+		}
+		return
+	}
+	closest := Candidate{Distance: distance(alpha, beta, at, bt)}
+	if k == 1 {
+		return []Candidate{closest}
+	}
+	for _, d := range distances(Shape{Kind: "cloud", Points: vertices(alpha)}, beta, at, bt) {
+		found = append(found, Candidate{Distance: d, index: len(found)})
+	}
+	for _, d := range distances(alpha, Shape{Kind: "cloud", Points: vertices(beta)}, at, bt) {
+		found = append(found, Candidate{Distance: d, index: len(found)})
+	}
+	last := len(found)
+	closest.index = last
+	if alpha.Kind == "box" && beta.Kind == "box" {
+		found = append(found, crossings(alpha, beta, at, bt, closest.Distance, k)...)
+	}
+	found = append(found, closest)
+	corners, others := 0, 0
+	for i, c := range found {
+		for _, d := range found[:i] {
+			if math.Abs(c.Phi-d.Phi) <= 1e-9 && norm(sub(c.Alpha, d.Alpha)) <= 1e-9 && norm(sub(c.N, d.N)) <= 1e-9 {
+				found[i].behind = true
+			}
+		}
+		if !found[i].behind && c.Phi <= closest.Phi+1e-9 && c.index != last {
+			others++
+			if c.index < last {
+				corners++
+			}
+		}
+	}
+	for i, c := range found {
+		if c.index == last && others >= k || c.index > last && corners >= k {
+			found[i].behind = true
+		}
+	}
+	return
+}
+
+// Edge of a box, of length one from a corner; it may bear against n at a point of the surface.
+type Edge struct {
+	number  int
+	from, u Vec
+	length  float64
+}
+
+func bearing(box Shape, pose Pose, x, n Vec) (found []Edge) {
+	local, towards := rotate(conjugate(pose.Quaternion), sub(x, pose.Xyz)), rotate(conjugate(pose.Quaternion), n)
+	longest := math.Max(box.Size[0], math.Max(box.Size[1], box.Size[2]))
+	number := 0
+	for a := 0; a < 3; a++ {
+		for i, corner := range corners(box.Size) {
+			if i>>a&1 == 1 {
+				continue
+			}
+			hold, steep := 0, false
+			for b := 0; b < 3; b++ {
+				if b != a && math.Abs(local[b]-corner[b]) <= 1e-9*longest {
+					hold++
+					steep = steep || math.Copysign(1, corner[b])*towards[b] >= math.Cos(0.25)
+				}
+			}
+			if steep || hold == 2 && math.Abs(towards[a]) <= math.Sin(0.25) {
+				found = append(found, Edge{number, place(pose, corner), rotate(pose.Quaternion, axis(a)), box.Size[a]})
+			}
+			number++
+		}
+	}
+	return
+}
+
+func crossings(alpha, beta Shape, at, bt Pose, closest Distance, k int) (found []Candidate) {
+	n := closest.N
+	for _, e := range bearing(alpha, at, closest.Alpha, n) {
+		for _, f := range bearing(beta, bt, closest.Beta, scale(-1, n)) {
+			across, between := dot(cross(e.u, f.u), n), sub(f.from, e.from)
+			if math.Abs(across) <= 1e-6 {
+				continue
+			}
+			s, t := dot(cross(between, f.u), n)/across, dot(cross(between, e.u), n)/across
+			if s < 0 || s > e.length || t < 0 || t > f.length {
+				continue
+			}
+			first, second := along(e.from, e.u, s), along(f.from, f.u, t)
+			d := Distance{dot(n, sub(second, first)), first, second, n}
+			index := 16 + 2*(12*e.number+f.number)
+			if k < 25 {
+				index += k
+			} else {
+				index += 25
+			}
+			found = append(found, Candidate{Distance: d, index: index})
+		}
+	}
+	return
+}
+
+func vertices(shape Shape) []Vec {
+	switch shape.Kind {
+	case "box":
+		return corners(shape.Size)
+	case "convex":
+		return shape.Vertices
+	}
+	return nil
+}
+
+func contactsOf(scene Scene, found map[string]Frame, n_v int) []Contact {
+	contacts := []Contact{}
+	for _, pair := range scene.Pairs {
+		alpha, beta := scene.Shapes[pair.Alpha], scene.Shapes[pair.Beta]
+		at, bt := placed(alpha, found), placed(beta, found)
+		near := candidates(alpha.Shape, beta.Shape, at, bt, pair.K)
+		sort.SliceStable(near, func(i, j int) bool {
+			if near[i].behind != near[j].behind {
+				return near[j].behind
+			}
+			return near[i].Phi < near[j].Phi
+		})
+		if len(near) > pair.K {
+			near = near[:pair.K]
+		}
+		sort.Slice(near, func(i, j int) bool { return near[i].index < near[j].index })
+		for _, d := range near {
+			c := Contact{Touch: Touch{Pair: pair.Name, Index: d.index, Phi: d.Phi, Alpha: d.Alpha, Beta: d.Beta, N: d.N}}
+			c.Alpha_body, c.Beta_body = alpha.Body, beta.Body
+			c.Mu_v, c.Mu_omega, c.Rows = pair.Mu_v, pair.Mu_omega, pair.Rows
+			c.D1, c.D2 = tangents(c.N)
+			c.J = jacobian(c, found, n_v)
+			contacts = append(contacts, c)
+		}
+	}
+	return contacts
+}
+
+func placed(shape Placed, found map[string]Frame) Pose {
+	world := Pose{Quaternion: Quat{0, 0, 0, 1}}
+	if shape.Body != nil {
+		world = found[*shape.Body].Pose
+	}
+	return compose(world, shape.Pose)
+}
+
+// dynamics is H = blockdiag(h K_q, M_u / h) and g = h (K_q delta_q_bar_a + tau_a, tau_u).
+func dynamics(scene Scene, found map[string]Frame) (H [][]float64, g []float64) {
+	o := order(scene.Mechanism)
+	H, g = make([][]float64, o.n_v), make([]float64, o.n_v)
+	for i := range H {
+		H[i] = make([]float64, o.n_v)
+	}
+	for _, body := range scene.Mechanism.Bodies {
+		frame := found[body.Name]
+		linear, angular := velocities(frame, place(frame.Pose, body.Com), o.n_v)
+		for i := o.n_a; i < o.n_v; i++ {
+			local := rotate(conjugate(frame.Quaternion), angular[i])
+			for j := o.n_a; j < o.n_v; j++ {
+				other := rotate(conjugate(frame.Quaternion), angular[j])
+				turned := Vec{dot(body.Inertia[0], other), dot(body.Inertia[1], other), dot(body.Inertia[2], other)}
+				H[i][j] += (body.Mass*dot(linear[i], linear[j]) + dot(local, turned)) / scene.H
+			}
+			g[i] += scene.H * body.Mass * dot(linear[i], scene.Gravity)
+		}
+		for _, load := range scene.Wrenches {
+			if load.Body == body.Name {
+				for i := range g {
+					g[i] += scene.H * (dot(linear[i], load.Force) + dot(angular[i], load.Torque))
+				}
+			}
+		}
+	}
+	delta_q_bar_a := difference(scene.Mechanism, scene.Q_bar_a, scene.Q)
+	for i := 0; i < o.n_a; i++ {
+		for j := 0; j < o.n_a; j++ {
+			H[i][j] = scene.H * scene.K_q[i][j]
+			g[i] += scene.H * scene.K_q[i][j] * delta_q_bar_a[j]
+		}
+	}
+	return
+}
+
+// forces are those of the step in which each contact gives way by its compliance.
+func forces(scene Scene, contacts []Contact, compliances []float64, program *Program) [][4]float64 {
+	S := [][]Number{}
+	var contact []int
+	var ways [][]float64
+	for j, c := range contacts {
+		for _, t := range cone(scene.Cone, c.Rows) {
+			contact = append(contact, j)
+			ways = append(ways, []float64{1, t[0], t[1], t[2]})
+		}
+	}
+	for i := range program.S {
+		line := append([]Number{}, program.S[i]...)
+		for k := range line {
+			if contact[i] == contact[k] {
+				stiffness := number(scene.H / compliances[contact[i]])
+				line[k] = plus(line[k], over(inner(numbers(ways[i]), numbers(ways[k])), stiffness))
+			}
+		}
+		S = append(S, line)
+	}
+	lam, _ := multipliers(S, program.s)
+	found := make([][4]float64, len(contacts))
+	for j, c := range contacts {
+		give := [4]Number{number(0), number(0), number(0), number(0)}
+		for i := range lam {
+			if contact[i] == j {
+				for a := range give {
+					give[a] = plus(give[a], times(number(ways[i][a]), lam[i]))
+				}
+			}
+		}
+		force := func(mu float64, s Number) float64 {
+			stiffness := number(scene.H / compliances[j])
+			return float(over(times(number(mu), over(s, stiffness)), number(compliances[j])))
+		}
+		found[j] = [4]float64{force(c.Mu_v, give[1]), force(c.Mu_v, give[2]), force(1, give[0]), force(c.Mu_omega, give[3])}
+	}
+	return found
+}
+
+func step(scene Scene) map[string]any {
+	o := order(scene.Mechanism)
+	found := frames(scene.Mechanism, scene.Q)
+	contacts := contactsOf(scene, found, o.n_v)
+	A, b := frictionRows(scene.Cone, contacts)
+	H, g := dynamics(scene, found)
+	program := &Program{H: H, G: g, A: A, B: b}
+	answer := program.optimum()
+	delete(answer, "slack")
+	touches := []Touch{}
+	for _, c := range contacts {
+		touches = append(touches, c.Touch)
+	}
+	answer["contacts"], answer["H"], answer["g"], answer["A"], answer["b"] = touches, H, g, A, b
+	lam, solved := answer["lam"].([]float64)
+	if !solved {
+		return answer
+	}
+	at := 0
+	wrenches := make([][4]float64, len(contacts))
+	compliances := make([]float64, len(contacts))
+	for j, c := range contacts {
+		c.Lam = lam[at : at+len(cone(scene.Cone, c.Rows))]
+		at += len(c.Lam)
+		wrenches[j] = wrench(scene.Cone, c, scene.H)
+		compliances[j] = 1e-9
+		for _, pair := range scene.Pairs {
+			if pair.Name == c.Pair && pair.Compliance != nil {
+				compliances[j] = *pair.Compliance
+			}
+		}
+	}
+	answer["wrench"] = wrenches
+	answer["forces"] = forces(scene, contacts, compliances, program)
+	answer["q_next"] = integrated(scene.Mechanism, scene.Q, answer["delta_q"].([]float64))
+	return answer
+}
