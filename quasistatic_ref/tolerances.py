@@ -379,6 +379,9 @@ SLIDES: Final = 1e-4
 SLID: Final = 1e-4
 """Slip that is an event [m]: what a body shifts while it comes to rest is no event."""
 
+CARRIES: Final = 0.1
+"""Share of the forces that lift a body from which on a part of them carries it [-]."""
+
 BRIEF: Final = 3
 """Steps [-] for which a change is no event: the nearest points of a pair come and go so often."""
 

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.account.spans import Span, spans
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, TOUCHES
+from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, TOUCHES
 
 
 class Loads(NamedTuple):
@@ -33,12 +33,15 @@ class Loads(NamedTuple):
         Of the sizes of tau_n [N m].
     share : ndarray, shape (steps,)
         Friction over mu_v times the normal force [-]; 0 where that is 0.
+    lift : ndarray, shape (steps,)
+        Of the parts of the forces on beta that are opposite to gravity [N].
     """
 
     normal: Array
     friction: Array
     torque: Array
     share: Array
+    lift: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,14 +108,16 @@ class Motion(Plain):
         From the start, along the world's axes [m]; of a prismatic joint its position, along x.
     turned : ndarray, shape (steps + 1,)
         From the start [rad].
-    touched : mapping of str to list of Span
-        By what it touched, while it did.
+    touched, carried : mapping of str to list of Span
+        By what it touched, while it did; by what lifted it, while that was at least a `CARRIES` of
+        all that lifted it. Nothing where the forces are not known, or without gravity.
     """
 
     of: Joint
     moved: Array
     turned: Array
     touched: Mapping[str, list[Span]]
+    carried: Mapping[str, list[Span]]
 
     @property
     def body(self) -> str:
@@ -221,11 +226,12 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     waypoints = scene.table("waypoints")
     times = {name: tuple(waypoints.sequence(name)) for name in waypoints.names_left()}
     stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
+    gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
     every = list(joints_of(header["positions"], header["n_a"]))
     missing: list[str] = []
     pairs: tuple[PairAccount, ...] = ()
     if trajectory.steps:
-        pairs = tuple(_pairs(trajectory, scene.sequence("pairs"), forces, missing))
+        pairs = tuple(_pairs(trajectory, scene.sequence("pairs"), gravity, forces, missing))
     free = [joint for joint in every if not joint.actuated]
     return Account(
         t=trajectory["t"],
@@ -289,8 +295,9 @@ def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
 
 
 def _pairs(
-    run: Trajectory, named: list[Any], forces: bool, missing: list[str]
+    run: Trajectory, named: list[Any], gravity: Array, forces: bool, missing: list[str]
 ) -> Iterator[PairAccount]:
+    up = -gravity / (np.linalg.norm(gravity) or 1.0)
     slots = np.array(run.pair_names)
     motion = _motion_of_contacts(run)
     wrench = _forces(run, forces, missing)
@@ -314,7 +321,11 @@ def _pairs(
             friction = np.hypot(wrench[:, own, 0], wrench[:, own, 1]).sum(axis=1)
             most = run["mu_v"][own][0] * normal
             share = np.divide(friction, most, out=np.zeros_like(most), where=most > 0)
-            loads = Loads(normal, friction, np.abs(wrench[:, own, 3]).sum(axis=1), share)
+            torque = np.abs(wrench[:, own, 3]).sum(axis=1)
+            ways = np.stack([run[axis][:, own] @ up for axis in ("d1", "d2", "n")], axis=2)
+            loads = Loads(
+                normal, friction, torque, share, np.vecdot(wrench[:, own, :3], ways).sum(axis=1)
+            )
         yield PairAccount(
             name=name,
             alpha=alpha,
@@ -373,12 +384,22 @@ def _motion(joint: Joint, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
     start = np.broadcast_to(q[0], q.shape)
     body = joint.name.partition("/")[0]
     touched: dict[str, Mask] = {}
+    lifted: dict[str, Array] = {}
     for pair in pairs:
-        for own, other in ((pair.alpha, pair.beta), (pair.beta, pair.alpha)):
+        for own, other, sign in ((pair.alpha, pair.beta, -1.0), (pair.beta, pair.alpha, 1.0)):
             if own.partition("/")[0] == body != other.partition("/")[0]:
                 touched[other] = touched.get(other, False) | pair.touches
-    on = {other: found for other, holds in touched.items() if (found := spans(holds))}
-    return Motion(joint, moved, _angle(joint, q, start), on)
+                if pair.loads is not None:
+                    up = np.maximum(sign * pair.loads.lift, 0.0)
+                    lifted[other] = lifted.get(other, 0.0) + up
+    whole = sum(lifted.values(), np.zeros(len(q) - 1))
+    carries = {who: (up > 0) & (up >= CARRIES * whole) for who, up in lifted.items()}
+    return Motion(joint, moved, _angle(joint, q, start), _spans(touched), _spans(carries))
+
+
+def _spans(held: Mapping[str, Mask]) -> dict[str, list[Span]]:
+    """When each holds; what never does is left out."""
+    return {who: found for who, holds in held.items() if (found := spans(holds))}
 
 
 def _stops(run: Trajectory, joints: Mapping[str, Joint]) -> Iterator[Stop]:

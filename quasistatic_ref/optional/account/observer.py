@@ -16,8 +16,8 @@ class Noting(Observer):
     """What an account needs of a scene, as the header's field ``scene``.
 
     It holds ``pairs`` (of each its name, what alpha is and what beta is: a link, or a shape of the
-    world), ``waypoints`` (times [s] by joint) and ``stiffness`` (the diagonal of K_q, empty where
-    K_q has other entries).
+    world), ``waypoints`` (times [s] by joint), ``stiffness`` (the diagonal of K_q, empty where K_q
+    has other entries) and ``gravity`` [m/s^2].
     """
 
     def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
@@ -28,6 +28,7 @@ class Noting(Observer):
             "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
             "waypoints": {track.joint.name: track.times.tolist() for track in recorder.tracks},
             "stiffness": diagonal.tolist() if np.array_equal(K_q, np.diag(diagonal)) else [],
+            "gravity": list(recorder.simulator.gravity),
         }
         return replace(trajectory, header={**trajectory.header, "scene": scene})
 

@@ -114,6 +114,8 @@ def lines(account: Account) -> Iterator[str]:
         yield moved(motion)
         for other, held in motion.touched.items():
             yield f"  touches {other} {times(held, account.t)}"
+        for other, held in motion.carried.items():
+            yield f"  is carried by {other} {times(held, account.t)}"
     for drive in account.drives:
         yield driven(drive, account.t)
     for stop in account.stops:
@@ -217,6 +219,7 @@ def tables(account: Account) -> dict[str, Any]:
                 "largest_rotation_deg": float(np.degrees(motion.turned.max())),
                 "largest_rise_mm": 1e3 * float(motion.moved[:, 2].max()),
                 "touched_s": {other: seconds(held) for other, held in motion.touched.items()},
+                "carried_s": {other: seconds(held) for other, held in motion.carried.items()},
             }
             for motion in account.motions
         },

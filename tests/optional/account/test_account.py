@@ -11,7 +11,7 @@ from quasistatic_ref.optional.account.spans import Span, spans
 from quasistatic_ref.optional.account.words import events, lines, tables
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
-from quasistatic_ref.tolerances import BRIEF, NEAR, SLID, SLIDES, TOUCHES
+from quasistatic_ref.tolerances import BRIEF, CARRIES, NEAR, SLID, SLIDES, TOUCHES
 from tests.tolerances import ROUNDING
 
 RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
@@ -112,6 +112,28 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
             K_q = stiffness[run.header["coordinates"].index(name)]
             np.testing.assert_allclose(numbers["largest_spring"], K_q * error.max(), rtol=ROUNDING)
     assert said["findings"] == [str(finding) for finding in run.findings]
+
+
+def test_what_carries_a_body_lifts_it_by_a_tenth_at_least(run):
+    """Gravity is along -z in these scenes; the force on beta is f_d1 d1 + f_d2 d2 + f_n n."""
+    said = tables(run.account())["bodies"]
+    slots = [slot.rpartition("/")[0] for slot in run.header["slots"]]
+    for name, numbers in said.items():
+        body = name.partition("/")[0]
+        lifted = {}
+        for pair, alpha, beta in run.header["scene"]["pairs"]:
+            for own, other, sign in ((alpha, beta, -1), (beta, alpha, 1)):
+                if own.partition("/")[0] != body or other.partition("/")[0] == body:
+                    continue
+                own_slots = [j for j, slot in enumerate(slots) if slot == pair]
+                z = [sum(sign * run["forces"][k, j, i] * run[axis][k, j, 2]
+                         for j in own_slots for i, axis in enumerate(("d1", "d2", "n")))
+                     for k in range(run.steps)]  # fmt: skip
+                lifted[other] = lifted.get(other, 0) + np.maximum(z, 0)
+        whole = sum(lifted.values())
+        carries = {who: held((up > 0) & (up >= CARRIES * whole), run["t"].tolist())
+                   for who, up in lifted.items()}  # fmt: skip
+        assert numbers["carried_s"] == {who: when for who, when in carries.items() if when}
 
 
 def test_events_are_the_changes_of_the_pairs(run):

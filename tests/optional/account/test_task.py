@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.make.mistakes import SCENES, found, mistakes, named
+from validation.make.mistakes import SCENES, found, healthy, mistakes, named
 
 SAMPLE = (
     "steps = 0, a push",
@@ -41,6 +41,11 @@ def test_a_mistake_is_named_in_the_first_sentence(what):
 @pytest.mark.parametrize("scene", SCENES[:2])
 def test_a_scene_without_a_mistake_has_no_finding(scene):
     assert found(scene) == ()
+
+
+@pytest.mark.parametrize("one", healthy()[1:24:6], ids=lambda one: one["what"])
+def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one):
+    assert [str(x) for x in found(one["scene"], one["edits"]) if x.grave] == []
 
 
 @pytest.mark.parametrize("what", NEAR_MISSES)

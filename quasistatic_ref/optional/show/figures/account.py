@@ -3,10 +3,11 @@
 from io import BytesIO
 from typing import Any, Final
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.optional.show.figures.style import PAGE, figure_style
+from quasistatic_ref.optional.show.figures.style import PAGE, figure_style, panels
 from quasistatic_ref.step.data import Array
 
 MILLI: Final = 1e3
@@ -32,6 +33,7 @@ def page(account: Any) -> bytes:
         drawn = figure(account)
         file = BytesIO()
         drawn.savefig(file, format="png", dpi=150, metadata={"Software": None})
+        plt.close(drawn)
     return file.getvalue()
 
 
@@ -44,7 +46,7 @@ def figure(account: Any) -> Figure:
     """
     t = account.t
     start = np.concatenate([[0.0], t])
-    panels = {
+    lines = {
         "normal force [N]": {p.name: (t, p.loads.normal) for p in account.pairs if p.loads},
         "slip [mm]": {
             p.name: (t, MILLI * np.cumsum(p.slip)) for p in account.pairs if p.slip is not None
@@ -60,14 +62,13 @@ def figure(account: Any) -> Figure:
             d.of.name: (t, np.degrees(d.error)) for d in account.drives if d.unit == "rad"
         },
     }
-    panels = {label: lines for label, lines in panels.items() if _matters(lines)}
+    lines = {label: each for label, each in lines.items() if _matters(each)}
     bars = max(len(account.pairs), 1)
-    heights = [BAR * bars + 0.4, *[PANEL] * len(panels)]
-    drawn = Figure(figsize=(PAGE, sum(heights)), layout="constrained")
-    axes = drawn.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    heights = [BAR * bars + 0.4, *[PANEL] * len(lines)]
+    drawn, axes = panels(PAGE, sum(heights), rows=len(heights), sharex=True, height_ratios=heights)
     _contacts(axes[0], account)
-    for place, (label, lines) in zip(axes[1:], panels.items(), strict=True):
-        for name, (time, values) in _farthest(lines):
+    for place, (label, each) in zip(axes[1:], lines.items(), strict=True):
+        for name, (time, values) in _farthest(each):
             place.plot(time, values, label=name)
         place.set_ylabel(label)
         place.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
