@@ -462,7 +462,7 @@ def sweep():
     for heading in ("mu_omega and h", "stiffness of the grip", "closest points", "cone"):
         rows = list(table("../studies/bunny_torsion/report.md", heading))
         tables[heading] = [{plain(column): cell for column, cell in row.items()} for row in rows]
-    angle = "largest rotation, deg"
+    angle = "bunny.largest_rotation_deg"
 
     def angles(heading, keeps):
         return [float(row[angle]) for row in tables[heading] if keeps(row)]
@@ -475,7 +475,13 @@ def sweep():
         "more": max(angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) >= 0.002)),
         "soft": min(angles("stiffness of the grip", lambda row: float(row["K_width, N/m"]) <= 500)),
         "many points": angles("closest points", lambda row: float(row["k, -"]) >= 5),
-        "deepest": max(float(row["deepest penetration, um"]) for row in points) / 1e3,
+        "deepest": -1e3
+        * min(
+            float(value)
+            for row in points
+            for name, value in row.items()
+            if name.endswith("least_distance_m")
+        ),
         "cones": max(cones) - min(cones),
     }
 

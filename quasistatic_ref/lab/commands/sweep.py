@@ -9,9 +9,8 @@ from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept
 from quasistatic_ref.lab.study.measuring.sweep import DONE
 from quasistatic_ref.scenario.scenario import load_scenario
 
-MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
-"""What is printed of each run; the rest is in the table."""
-
+SHOWN = 4
+"""Measures of each run that are printed; the rest is in the table."""
 
 OF_ONE_RUN = ("view", "strict", "table")
 """Options of ``run`` that a sweep does not take."""
@@ -57,9 +56,10 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json(summary)
         return int(failed > 0)
     swept = [name for name, values in variations.items() if len(values) > 1]
-    table: list[tuple[str, ...]] = [(*swept, "outcome", *MEASURES)]
+    names = list(rows[0]["measures"])[:SHOWN]
+    table: list[tuple[str, ...]] = [(*swept, "outcome", *names)]
     for row in rows:
-        found = (row["measures"].get(name) for name in MEASURES)
+        found = (row["measures"].get(name) for name in names)
         cells = ("-" if v is None else f"{v:.4g}" for v in found)
         table.append((*(f"{row['values'][name]}" for name in swept), row["outcome"], *cells))
     shared.print_rows(table)

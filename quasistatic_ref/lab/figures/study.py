@@ -14,8 +14,6 @@ from quasistatic_ref.optional.show.figures.style import PAGE
 FURTHEST = 1e4
 """Largest ratio of times that a profile shows."""
 POINT = {"linestyle": "", "label": "_"}
-PANELS = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
-"""Of a sweep."""
 
 
 def profiles(data: Mapping[str, Any]) -> Figure:
@@ -74,13 +72,13 @@ def kept_digits(data: Mapping[str, Any]) -> Figure:
 
 
 def sweep(data: Mapping[str, Any]) -> Figure:
-    """Rotation and boundary layer against a parameter, a line a value of the second one."""
+    """Two measures against a parameter, a line a value of the second one."""
     lines = data["lines"]
     pen = pens(list(lines))
     figure, grid = plt.subplots(1, 2, figsize=(PAGE, 2.7), layout="constrained")
     first = [value for points in lines.values() for value, *_ in points]
     words = [v for v in dict.fromkeys(first) if isinstance(v, str)]
-    for k, (axes, label) in enumerate(zip(grid, PANELS, strict=True)):
+    for k, (axes, label) in enumerate(zip(grid, data["panels"], strict=True)):
         for name, points in lines.items():
             at = [words.index(p[0]) if words else p[0] for p in points]
             own = pen[name] | ({"linestyle": ""} if words else {})
@@ -89,7 +87,8 @@ def sweep(data: Mapping[str, Any]) -> Figure:
             axes.set_xticks(range(len(words)), words)
             axes.set_xlim(-0.5, len(words) - 0.5)
         top = 1.08 * max(p[1 + k] for points in lines.values() for p in points) or 1
-        axes.set(ylim=(0, top), xlabel=data["axis"], ylabel=label)
+        what, _, unit = label.rpartition("_")
+        axes.set(ylim=(0, top), xlabel=data["axis"], ylabel=f"{what} [{unit}]")
     if len(lines) > 1:
         grid[0].legend()
     return figure

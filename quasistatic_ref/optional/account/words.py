@@ -215,9 +215,10 @@ def tables(account: Account) -> dict[str, Any]:
     return {
         "bodies": {
             motion.of.name: {
-                "moved_m": motion.moved[-1].tolist(),
                 "largest_rotation_deg": float(np.degrees(motion.turned.max())),
                 "largest_rise_mm": 1e3 * float(motion.moved[:, 2].max()),
+                "ends_from_start_m": float(np.linalg.norm(motion.moved[-1])),
+                "moved_m": motion.moved[-1].tolist(),
                 "touched_s": {other: seconds(held) for other, held in motion.touched.items()},
                 "carried_s": {other: seconds(held) for other, held in motion.carried.items()},
             }
@@ -255,6 +256,23 @@ def tables(account: Account) -> dict[str, Any]:
         "missing": list(account.missing),
         "findings": list(account.findings),
     }  # fmt: skip
+
+
+def measures(account: Account) -> dict[str, float]:
+    """Each number of :func:`tables` by its owner and name, such as ``bunny.largest_rise_mm``.
+
+    Parameters
+    ----------
+    account : Account
+    """
+    found = tables(account)
+    return {
+        f"{name.removesuffix('/base')}.{key}": value
+        for kind in ("bodies", "joints", "stops", "pairs")
+        for name, numbers in found[kind].items()
+        for key, value in numbers.items()
+        if isinstance(value, float)
+    }
 
 
 def html(name: str, account: Account, png: bytes) -> str:

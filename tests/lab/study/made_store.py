@@ -128,12 +128,12 @@ def sweep_written(folder):
         {"sweep": "slide", "scenario": "block", "values": {"mu": mu, "h": h},
          "outcome": "ended_early" if (mu, h) == (0.1, 0.01) else "done",
          "reason": "it fell" if (mu, h) == (0.1, 0.01) else None,
-         "measures": {"rotation_deg": 10 * mu + h, "boundary_layer_um": 100 * h,
-                      "quasi_dynamic_number": None},
+         "measures": {"block.largest_rotation_deg": 10 * mu + h, "steps": 1.0,
+                      "boundary_layer_um": 100 * h, "quasi_dynamic_number": None},
          "seconds": {"call": 1.0}}
         for mu in SWEEP_AXES["mu"] for h in SWEEP_AXES["h"]
     ]  # fmt: skip
-    sweep = {"name": "slide", "scenario": "block", "link": "block", "since": 0.0, "axes": []}
+    sweep = {"name": "slide", "scenario": "block", "axes": []}
     study = {"kind": "sweep", "sweeps": [sweep], "machine": {}, "versions": {}}
     folder.mkdir()
     with Store(folder, study) as store:

@@ -130,7 +130,7 @@ def test_what_no_study_has_written_is_refused(folder, statement):
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("measures", ["{}", '{"rotation_deg": "a", "boundary_layer_um": 1}', "3"])
+@pytest.mark.parametrize("measures", ["{}", '{"steps": "a", "boundary_layer_um": 1}', "3"])
 def test_a_run_without_its_measures_is_refused(tmp_path, measures):
     made_store.sweep_written(tmp_path / "sweep")
     changed(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")

@@ -56,12 +56,12 @@ def held(across: tuple[float, ...], up: tuple[float, ...]) -> Mask:
             "two_finger_pinch",
             {"steps": [STEPS], "contacts.near.mu_v": across, "contacts.near.mu_omega": up},
             folder,
-            link="held",
             progress=False,
         )
     moved = {
         (row["values"]["contacts.near.mu_v"], row["values"]["contacts.near.mu_omega"]): max(
-            row["measures"]["rotation_deg"], row["measures"]["travel_mm"]
+            row["measures"]["held.largest_rotation_deg"],
+            1e3 * row["measures"]["held.ends_from_start_m"],
         )
         for row in rows
     }

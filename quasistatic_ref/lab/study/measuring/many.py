@@ -4,7 +4,6 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +18,8 @@ from quasistatic_ref.lab.study.measuring.sweep import (
     is_value,
     run_file,
     run_sweep,
-    sweep_scenario,
 )
 from quasistatic_ref.lab.study.store.rows import Row
-from quasistatic_ref.model.joints.twist_joint import TwistJoint
-from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import parsed
 
 TABLE = "runs.csv"
@@ -37,7 +33,6 @@ def simulate_many(
     settings: Sequence[str] = (),
     workers: int | None = None,
     scheduler: str | None = None,
-    link: str | None = None,
     progress: bool = True,
 ) -> list[Row]:
     """Run a scenario with every combination of some values, several runs at a time.
@@ -58,8 +53,6 @@ def simulate_many(
         Processes on this machine; by default as many as there are cores.
     scheduler : str, optional
         Address of a Dask scheduler, in place of this machine's processes.
-    link : str, optional
-        Whose motion is measured; by default the first free body, or else the last link.
     progress : bool
 
     Returns
@@ -81,10 +74,7 @@ def simulate_many(
     if workers is not None and workers < 1:
         raise InputError("must be at least 1", field="workers", value=workers)
     path = str(Path(scenario).resolve()) if str(scenario).endswith(".toml") else str(scenario)
-    sweep = Sweep(Path(path).stem, path, link or "", None, 0.0, axes, tuple(settings))
-    system = sweep_scenario(sweep, sweep.points()[0]).system
-    sweep = replace(sweep, link=link or _followed(system))
-    system.link(sweep.link)
+    sweep = Sweep(Path(path).stem, path, None, axes, tuple(settings))
     rows = run_sweep([sweep], folder, jobs=workers, scheduler=scheduler, progress=progress)
     text_written(Path(folder) / TABLE, _table(rows))
     return rows
@@ -126,14 +116,6 @@ def _axis(name: str, values: Iterable[float | str]) -> Axis:
     if not own or not all(map(is_value, own)):
         raise InputError("must be a list of finite numbers or words", field=name, value=own)
     return Axis(name, tuple(name.split(",")), tuple(dict.fromkeys(own)))
-
-
-def _followed(system: System) -> str:
-    """Return the root link of the first body that nothing drives, or else the last link."""
-    for joint in system.joints:
-        if isinstance(joint, TwistJoint) and joint.name.endswith("/base") and not joint.actuated:
-            return joint.name.removesuffix("/base")
-    return system.links[-1]
 
 
 def _table(rows: Sequence[Row]) -> str:

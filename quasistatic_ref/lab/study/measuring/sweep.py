@@ -22,7 +22,7 @@ from quasistatic_ref.lab.parallel import results, workers
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
 from quasistatic_ref.lab.study.store.store import Store
-from quasistatic_ref.optional.account.motions import link_motion
+from quasistatic_ref.optional.account.words import measures
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -63,12 +63,8 @@ class Sweep:
         Of the sweep; no other has it.
     scenario : str
         A name, or a file.
-    link : str
-        Whose motion is measured.
     duration : float or None
         Of each run [s]; None: the scenario's steps, whatever h is.
-    since : float
-        From when on rotation and rise are measured [s].
     axes : tuple of Axis
     fixed : tuple of str
         Changes of the scenario that all runs have, ``dotted.key=value``.
@@ -76,9 +72,7 @@ class Sweep:
 
     name: str
     scenario: str
-    link: str
     duration: float | None
-    since: float
     axes: tuple[Axis, ...]
     fixed: tuple[str, ...] = ()
 
@@ -219,8 +213,8 @@ def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
         outcome = ENDED_EARLY
         reason = failure.reason
         trajectory = failure.trajectory
-    measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
-    row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
+    came_to = outcomes(trajectory)
+    row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": came_to}
     return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
 
 
@@ -244,38 +238,23 @@ def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:
     return {"sweep": sweep.name, "scenario": Path(sweep.scenario).stem, "values": point}
 
 
-def outcomes(
-    scenario: Scenario, trajectory: Trajectory, link: str, since: float
-) -> dict[str, float | None]:
+def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
     """Measured outcomes of one run.
 
     Parameters
     ----------
-    scenario : Scenario
     trajectory : Trajectory
-    link : str
-        Whose motion is measured.
-    since : float
-        From when on [s].
 
     Returns
     -------
     dict
-        ``rotation_deg`` (largest since then), ``rise_mm`` and ``travel_mm`` (from then to the
-        end), ``deepest_um`` (largest penetration of any step), ``boundary_layer_um``,
+        What :func:`.measures` gives of its account, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
-    motion = link_motion(scenario.system, trajectory, link)
-    start = motion.index(since)
-    way = motion.t[-1] - motion.t[start]
-    phi = trajectory["phi"] if trajectory.steps else np.zeros(0)
     Pi = trajectory.header["quasi_dynamic_number"]
     exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
     return {
-        "rotation_deg": float(np.degrees(motion.rotation_since(since)[start:].max())),
-        "rise_mm": 1e3 * float(way[2]),
-        "travel_mm": 1e3 * float(np.linalg.norm(way)),
-        "deepest_um": 1e6 * max(0.0, float(-phi.min(initial=0.0))),
+        **measures(trajectory.account(forces=False)),
         "boundary_layer_um": 1e6 * float(trajectory.header["largest_boundary_layer"]),
         "quasi_dynamic_number": None if Pi is None else float(Pi),
         "steps": float(trajectory.steps),

@@ -8,19 +8,10 @@ from quasistatic_ref.lab.study.report.tables import place_tables
 from quasistatic_ref.lab.study.report.words import sentences
 from quasistatic_ref.lab.study.store.rows import Row
 
-MEASURES = (
-    ("rotation_deg", "largest rotation [deg]"),
-    ("rise_mm", "rise [mm]"),
-    ("travel_mm", "travel [mm]"),
-    ("deepest_um", "deepest penetration [um]"),
-    ("boundary_layer_um", "boundary layer [um]"),
-    ("quasi_dynamic_number", "quasi-dynamic number [-]"),
-    ("steps", "steps"),
-    ("exact", "exact steps [-]"),
-)
 UNITS = {"h": "s", "mu_omega": "m", "K_width": "N/m", "mu_v": "-", "k": "-"}
 """Of axes that are well known by their names."""
 OTHER = "the scenario's unit"
+LAYER = "boundary_layer_um"
 
 
 def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
@@ -49,36 +40,35 @@ def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
 
 def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[Block]:
     axes = list(rows[0]["values"]) if rows else []
-    names = [(key, words) for key, words in MEASURES if any(key in r["measures"] for r in rows)]
+    names = list(dict.fromkeys(name for row in rows for name in row["measures"]))
     ordered = sorted(rows, key=lambda row: [_sortable(v) for v in row["values"].values()])
     cells = tuple(
         (*(_cell(v) for v in row["values"].values()), row["reason"] or row["outcome"],
-         *(_cell(row["measures"].get(key)) for key, _ in names))
+         *(_cell(row["measures"].get(key)) for key in names))
         for row in ordered
     )  # fmt: skip
     where = f"sweep = {sweep['name']}"
-    since = f"{sweep['link']} in {sweep['scenario']}, since {sweep['since']:g} s"
-    columns = (*(_axis(a, rows) for a in axes), "outcome", *(words for _, words in names))
-    blocks: list[Block] = [Table(f"{since}.", where, columns, cells, left=len(axes) + 1)]
+    columns = (*(_axis(a, rows) for a in axes), "outcome", *names)
+    blocks: list[Block] = [
+        Table(f"{sweep['scenario']}.", where, columns, cells, left=len(axes) + 1)
+    ]
     whole = [row for row in ordered if row["outcome"] == "done"]
     if whole and len(axes) <= 2:
-        words = f"Rotation and boundary layer, {since}."
-        blocks.insert(0, Picture(f"sweep_{number + 1}", "sweep", _drawn(axes, whole), words,
+        drawn = _drawn(axes, whole, (names[0], LAYER))
+        words = f"{names[0]} and {LAYER}, {sweep['scenario']}."
+        blocks.insert(0, Picture(f"sweep_{number + 1}", "sweep", drawn, words,
                                  f"{where}, outcome = done"))  # fmt: skip
     return blocks
 
 
-def _drawn(axes: Sequence[str], rows: Sequence[Row]) -> dict[str, Any]:
-    """Lines of the two measures against the first axis, one a value of the second."""
+def _drawn(axes: Sequence[str], rows: Sequence[Row], shown: tuple[str, str]) -> dict[str, Any]:
+    """Lines of two measures against the first axis, one a value of the second."""
     lines: dict[str, list[tuple[Any, float, float]]] = {}
     for row in rows:
         first, *rest = row["values"].values()
         key = f"{axes[1]} = {_cell(rest[0])} {UNITS.get(axes[1], '')}".strip() if rest else ""
-        measures = row["measures"]
-        lines.setdefault(key, []).append(
-            (first, measures["rotation_deg"], measures["boundary_layer_um"])
-        )
-    return {"axis": _axis(axes[0], rows), "lines": lines}
+        lines.setdefault(key, []).append((first, *(row["measures"][name] for name in shown)))
+    return {"axis": _axis(axes[0], rows), "panels": shown, "lines": lines}
 
 
 def _axis(name: str, rows: Sequence[Row]) -> str:

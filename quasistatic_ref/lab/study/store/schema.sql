@@ -110,9 +110,7 @@ CREATE TABLE unreached (solver TEXT PRIMARY KEY, reason TEXT NOT NULL) STRICT;
 CREATE TABLE sweeps (
   name TEXT PRIMARY KEY,
   scenario TEXT NOT NULL,
-  link TEXT NOT NULL,
   duration REAL,                                 -- [s]
-  since REAL NOT NULL,                           -- [s]
   axes TEXT NOT NULL CHECK (json_type(axes) = 'array'),
   fixed TEXT NOT NULL DEFAULT '[]' CHECK (json_type(fixed) = 'array')  -- changes that every run has
 ) STRICT;
@@ -127,6 +125,6 @@ CREATE TABLE runs (                              -- one run of a sweep each
   seconds REAL NOT NULL CHECK (seconds >= 0),
   PRIMARY KEY (sweep, point),
   CHECK (outcome <> 'done' OR (
-    coalesce(json_type(measures, '$.rotation_deg'), '') IN ('real', 'integer') AND
+    coalesce(json_type(measures, '$.steps'), '') IN ('real', 'integer') AND
     coalesce(json_type(measures, '$.boundary_layer_um'), '') IN ('real', 'integer')))
 ) STRICT, WITHOUT ROWID;
