@@ -180,12 +180,12 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         check_length(step, optimum.delta_q, group_steps(step))
         certificate_of = curved.certificate
     else:
-        optimum = solver.optimum(both, answer)
+        optimum = solver.prover.optimum(both, answer)
         certificate_of = exact_certificate
     delta_q = optimum.delta_q
     lam = optimum.lam
     if si_answer is not None:
-        norm = solver.norm(both)
+        norm = solver.prover.norm(both)
         distance = norm.of_displacement(si_answer[0] - delta_q)
         free_length = norm.of_impulse(both.si_form.g)
         digits = relative_digits(distance, free_length)
@@ -269,6 +269,6 @@ def _judged(
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, both.si_step, accuracy, residuals)
-    error = solver.error_bound(both, delta_q, lam)
+    error = solver.prover.error_bound(both, delta_q, lam)
     useful = error if error <= WORTHLESS else None
     return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=both.si_step)

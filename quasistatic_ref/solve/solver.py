@@ -1,19 +1,15 @@
-"""A solver of steps: one object that holds a compiled problem and says what it is.
+"""A solver of steps: one object that holds a compiled problem and a prover, and says what it is.
 
 It knows its backend (``name``), by which interface it calls that (``interface``), and the kind of
 step that its problem was compiled for (:meth:`Solver.fits`). Each interface is one class in a file
 of its own, and :func:`solver_for` chooses among them.
 """
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
-from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
-from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import fast_part, needed_part
 from quasistatic_ref.solve.backends import (
@@ -21,13 +17,13 @@ from quasistatic_ref.solve.backends import (
     DEFAULT,
     NONE,
     QPSOLVERS,
-    RESIDUAL,
     THROUGH_QPSOLVERS,
     UNSAFE,
     Options,
     check_backend,
 )
 from quasistatic_ref.solve.greeting import greeting_silenced
+from quasistatic_ref.solve.prover import OnwardProver, Prover
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import Array, Mask, finite
@@ -99,6 +95,8 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
+    prover : Prover
+        What proves steps from its answers.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
     """
@@ -113,19 +111,15 @@ class Solver(ABC):
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         if name.removeprefix(QPSOLVERS) == "highs":
             greeting_silenced()
+        self.prover = Prover()
         self._option_sets: dict[float, list[OptionSet]] = {}
-        self._fitting: StepData | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.template, self.name)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step is of the kind that the problem was compiled for."""
-        if step is self._fitting:  # looked at by a simulator, and again when it is solved
-            return True
-        fits = self.takes(step)
-        self._fitting = step if fits else None
-        return fits
+        return not self.differences(step)
 
     def check(self, step: StepData) -> None:
         """Refuse a step of another kind.
@@ -144,44 +138,9 @@ class Solver(ABC):
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
         return differences(self.template, step, self.fixed)
 
-    def takes(self, step: StepData) -> bool:
-        """Whether the numbers of a step can be written into the problem."""
-        return not self.differences(step)
-
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in SI units and in natural units."""
         return DenseStepInBothUnits(step)
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum, sought from where an answer shows it to be, or from cold.
-
-        It does not depend on the solver. It is asked of the solver only so that one of
-        `optional/fast` can try a quick proof before the exact method.
-
-        Raises
-        ------
-        StepInfeasible, StepIllPosed
-        """
-        warm = []
-        if answer is not None:
-            form = both.natural_form
-            warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
-        return step_optimum(both.si_step, warm)
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step, in which errors and lengths are measured."""
-        return energy_norm(both.si_step.H)
-
-    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
-
-        Infinite where none is known, as in a curved cone.
-        """
-        if not cone(both.si_step.cone).polyhedral:
-            return math.inf
-        bounds = needed_part("large.bound", RESIDUAL)
-        bound: float = bounds.error_bound(both.si_step, delta_q, lam)
-        return bound
 
     @abstractmethod
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
@@ -299,14 +258,7 @@ class NoSolver(Solver):
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
-        self._before: tuple[int, ...] = ()
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum, sought from the working set of the step before."""
-        step = both.si_step
-        optimum = step_optimum(step, [i for i in self._before if i < step.m])
-        self._before = optimum.working_set
-        return optimum
+        self.prover = OnwardProver()
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """No answer: StepNotSolved."""

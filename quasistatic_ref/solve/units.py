@@ -227,15 +227,13 @@ def natural_step(step: StepData, units: Units) -> StepData:
     extra = step.extra
     phi = c.phi / (rho * ell)
     J = c.J * (S / ell)
-    return StepData(
-        h=step.h,
+    return step.replace(
         K_q=step.K_q * np.outer(S_a, S_a),
         M_u=step.M_u * np.outer(S_u, S_u),
         tau_a=step.tau_a * S_a / rho,
         tau_u=step.tau_u * S_u / rho,
         delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
         contacts=Contacts(c.name, phi, c.n, c.d1, c.d2, J, c.mu_v, c.mu_omega, c.rows),
-        cone=step.cone,
         extra=Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell)),
     )
 

@@ -46,7 +46,7 @@ def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
 def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before():
     step = pinch(grip=5.0)
     solver = NoSolver(step, "none")
-    cold, warm = (solver.optimum(solver.in_both_units(step), None) for _ in range(2))
+    cold, warm = (solver.prover.optimum(solver.in_both_units(step), None) for _ in range(2))
     assert cold.walks > warm.walks == 0
     for name in ("delta_q", "net", "slack"):
         assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()

@@ -48,7 +48,7 @@ def by_fast(step: StepData) -> object:
     answer: NaturalAnswer | None = None
     with suppress(StepNotSolved):  # the exact method starts cold
         answer = solver.answer(both, ACCURACY)
-    return solver.optimum(both, answer)
+    return solver.prover.optimum(both, answer)
 
 
 def outcome(step: StepData) -> str:

@@ -62,11 +62,11 @@ class NativeSolver(BackendSolver):
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )
 
-    def takes(self, step: StepData) -> bool:
+    def fits(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
         # Steps of one run share their layout of rows: an identity test, which takes no time.
         alike = step.row_layout is self.template.row_layout and sizes(step) == self.sizes
-        return alike or super().takes(step)
+        return alike or super().fits(step)
 
     def write(self, both: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""

@@ -15,6 +15,7 @@ from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
+from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.cones import cone
@@ -46,6 +47,40 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     return FastSolver(step, name)
 
 
+class GuessProver(Prover):
+    """What tries a guess of the working set before the exact method, and keeps what H gives.
+
+    Attributes
+    ----------
+    proofs : Proofs
+        Of the steps that are certified.
+    bound : FloatBound or None
+        For the H of the step whose error was bounded last.
+    """
+
+    def __init__(self) -> None:
+        self.proofs = Proofs()
+        self.bound: Any = None
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum: proved on a guess of its working set, or found by the exact method."""
+        return self.proofs.optimum(both, answer)
+
+    def norm(self, both: StepInBothUnits) -> Norm:
+        """The norm ||.||_H of a step."""
+        assert isinstance(both, DenseStepInBothUnits)
+        return both.hessian.norm
+
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
+        """A bound of the relative error [-]: in float64, and in balls where that is open."""
+        assert isinstance(both, DenseStepInBothUnits)
+        H = both.hessian.natural_H
+        if self.bound is None or self.bound.H is not H:
+            self.bound = needed_part("large.float_bound", RESIDUAL).FloatBound(H)
+        error: float = self.bound.step_error(both, delta_q, lam)
+        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
+
+
 class FastSolver(NativeSolver):
     """A backend's own interface, with what is kept while H stays.
 
@@ -58,18 +93,13 @@ class FastSolver(NativeSolver):
 
     Attributes
     ----------
-    proofs : Proofs
-        Of the steps that are certified.
-    bound : FloatBound or None
-        For the H of the step whose error was bounded last.
     written : Units or None
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
-        self.proofs = Proofs()
-        self.bound: Any = None
+        self.prover = GuessProver()
         self.written: Units | None = None
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
@@ -89,21 +119,3 @@ class FastSolver(NativeSolver):
         if out_of_reach is None and self.adapter.ORDER == "C":
             both.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
         return out_of_reach
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step."""
-        assert isinstance(both, DenseStepInBothUnits)
-        return both.hessian.norm
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum: proved on a guess of its working set, or found by the exact method."""
-        return self.proofs.optimum(both, answer)
-
-    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """A bound of the relative error [-]: in float64, and in balls where that is open."""
-        assert isinstance(both, DenseStepInBothUnits)
-        H = both.hessian.natural_H
-        if self.bound is None or self.bound.H is not H:
-            self.bound = needed_part("large.float_bound", RESIDUAL).FloatBound(H)
-        error: float = self.bound.step_error(both, delta_q, lam)
-        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)

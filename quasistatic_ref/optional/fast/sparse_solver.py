@@ -17,6 +17,7 @@ from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import BACKENDS, Options
+from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import Array, Mask, StepData
@@ -45,6 +46,25 @@ def reachable(options: Options, rows: int) -> Options:
     return options | gaps | most
 
 
+class SparseProver(Prover):
+    """What proves large steps, group by group."""
+
+    def __init__(self) -> None:
+        self.proofs = Proofs()
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum."""
+        return self.proofs.optimum(both, answer)
+
+    def norm(self, both: StepInBothUnits) -> Norm:
+        """The norm ||.||_H of a step."""
+        return self.proofs.norm()
+
+    def error_bound(self, both: Any, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        return float(both.error_bound(delta_q, lam))
+
+
 class SparseSolver(NativeSolver):
     """The pattern of large steps of one kind, and a backend that takes sparse matrices.
 
@@ -68,16 +88,8 @@ class SparseSolver(NativeSolver):
         if name not in able:
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
-        self.proofs = Proofs()
         super().__init__(template, name)
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum."""
-        return self.proofs.optimum(both, answer)
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step."""
-        return self.proofs.norm()
+        self.prover = SparseProver()
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""
@@ -87,7 +99,7 @@ class SparseSolver(NativeSolver):
         m, n = A.shape
         return SparseProgram(kind.bound.H, kind.P, np.zeros(n), A, np.zeros(m))
 
-    def takes(self, step: StepData) -> bool:
+    def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
         return bool(self.kind.pattern.fits(step))
 
@@ -113,10 +125,6 @@ class SparseSolver(NativeSolver):
         own: Any = StandardForm(self.kind.pattern.H, form.g, A, form.b)
         both: StepInBothUnits = self.kind.in_both_units(step, own)
         return both
-
-    def error_bound(self, both: Any, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        return float(both.error_bound(delta_q, lam))
 
     def write(self, both: Any) -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""

@@ -79,9 +79,9 @@ def test_the_natural_form_stays_that_of_the_step_when_it_is_written(backend, far
 
 def test_only_a_step_of_the_same_layout_and_sizes_is_taken(rng):
     solver = NativeSolver(random_step(rng), "daqp")
-    assert solver.takes(random_step(rng))
-    assert not solver.takes(random_step(rng, rows=(4, 6, 6)))
-    assert not solver.takes(random_step(rng, n_a=4, n_u=3))
+    assert solver.fits(random_step(rng))
+    assert not solver.fits(random_step(rng, rows=(4, 6, 6)))
+    assert not solver.fits(random_step(rng, n_a=4, n_u=3))
 
 
 def test_a_step_without_rows_needs_no_backend(rng):

@@ -36,7 +36,7 @@ def optimum_of(step):
     answer = None
     with suppress(StepNotSolved):  # of the backend: the exact method starts from cold
         answer = solver.answer(both, ACCURACY)
-    return solver.optimum(both, answer), len(solver.proofs.parts)
+    return solver.prover.optimum(both, answer), len(solver.prover.proofs.parts)
 
 
 @pytest.mark.extra("fast")
@@ -64,7 +64,7 @@ def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
     for _ in range(2):
         result = some.simulator.step(q, np.zeros(0), some.force)
         q = result.q
-    assert len(some.simulator.solver.proofs.parts) >= 5
+    assert len(some.simulator.solver.prover.proofs.parts) >= 5
     whole = form_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
     assert result.solution.delta_q.tobytes() == whole.delta_q.tobytes()
     assert unlike(optimum_of(result.step)[0], whole) == []
@@ -78,9 +78,9 @@ def test_groups_are_kept_while_h_and_what_couples_them_stay():
     others = step.replace(h=2 * step.h), step.replace(M_u=2 * step.M_u), step
     for other in (step, *others):
         assert solve_step(other, solver) == solve_step(other, "daqp", fast=True)
-        before = solver.proofs.parts
+        before = solver.prover.proofs.parts
         solve_step(other, solver)
-        assert solver.proofs.parts is before
+        assert solver.prover.proofs.parts is before
 
 
 def numbered(counts, rng):
@@ -100,7 +100,7 @@ def test_equal_groups_have_any_numbers_of_own_rows(counts):
     solver = solver_for(step, "daqp", fast=True)
     assert bits(solve_step(step, solver).delta_q) == bits(solve_step(step, NONE).delta_q)
     kept = {}
-    for part in solver.proofs.parts:
+    for part in solver.prover.proofs.parts:
         kept.setdefault(id(part.kept), set()).add(len(part.group.extra_rows))
     assert all(len(numbers) == 1 for numbers in kept.values())
 

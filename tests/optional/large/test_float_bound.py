@@ -46,7 +46,7 @@ def sparse_bound_of(step, delta_q, lam):
     """The same by sparse matrices."""
     sparse = in_blocks(step)
     solver = SparseSolver(sparse, "clarabel")
-    return solver.error_bound(solver.in_both_units(sparse), delta_q, lam)
+    return solver.prover.error_bound(solver.in_both_units(sparse), delta_q, lam)
 
 
 BOTH = (dense_bound_of, sparse_bound_of)

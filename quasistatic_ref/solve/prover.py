@@ -1,0 +1,64 @@
+"""What proves the optimum of a step, whichever backend has answered, and measures that answer."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
+from quasistatic_ref.certify.norm import Norm, energy_norm
+from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.solve.backends import RESIDUAL
+from quasistatic_ref.solve.units import StepInBothUnits
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    from quasistatic_ref.solve.solver import NaturalAnswer
+
+
+class Prover:
+    """The exact method. Its optimum does not depend on where it starts."""
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum, sought from where an answer shows it to be, or from cold.
+
+        Raises
+        ------
+        StepInfeasible, StepIllPosed
+        """
+        warm = []
+        if answer is not None:
+            form = both.natural_form
+            warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
+        return step_optimum(both.si_step, warm)
+
+    def norm(self, both: StepInBothUnits) -> Norm:
+        """The norm ||.||_H of a step, in which errors and lengths are measured."""
+        return energy_norm(both.si_step.H)
+
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
+
+        Infinite where none is known, as in a curved cone.
+        """
+        if not cone(both.si_step.cone).polyhedral:
+            return math.inf
+        bounds = needed_part("large.bound", RESIDUAL)
+        bound: float = bounds.error_bound(both.si_step, delta_q, lam)
+        return bound
+
+
+class OnwardProver(Prover):
+    """The exact method, from the working set of the step before: it needs no answer."""
+
+    def __init__(self) -> None:
+        self._before: tuple[int, ...] = ()
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum; an `answer` is not looked at. Errors are those of the base."""
+        step = both.si_step
+        optimum = step_optimum(step, [i for i in self._before if i < step.m])
+        self._before = optimum.working_set
+        return optimum
