@@ -46,6 +46,7 @@ _HOMES = {
     "solve.solve": "solve_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.opinion": "second_opinion",
+    "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step",
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",

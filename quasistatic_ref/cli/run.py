@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.parts import needed_part, part
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.parts import needed_package, needed_part, part
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
@@ -24,12 +24,21 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     scenario = parser.add_argument(
         "scenario",
-        help="a TOML file, or the name of an installed scenario (bunny_grasp, ...)",
+        help="a TOML file, the name of an installed scenario (bunny_grasp, ...), or a MuJoCo scene "
+        "(.xml)",
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
     shared.add_resume(parser)
+    parser.add_argument(
+        "--targets",
+        metavar="FILE.csv|KEY,KEY,...",
+        help="of a MuJoCo scene: a table of t and controls or targets of joints, or keyframes",
+    )
+    parser.add_argument(
+        "--keyframe", metavar="KEY", help="of a MuJoCo scene: the keyframe in which it starts"
+    )
     parser.add_argument(
         "--sweep",
         action="append",
@@ -70,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
 
     With ``--strict`` a run with a grave finding ends with status 1.
     """
-    scenario = load_scenario(options.scenario, shared.scenario_settings(options))
+    scenario = scenario_given(options)
     path = options.out / f"{scenario.path.stem}.npz"
     saved = (
         needed_part("runs.saved_files", "--resume") if options.resume else part("runs.saved_files")
@@ -167,6 +176,36 @@ def run(options: argparse.Namespace) -> int:
     written = [str(file) for file in (path, *tables.values(), view) if file is not None]
     print(f"wrote {' and '.join(written)}")
     return status
+
+
+def scenario_given(options: argparse.Namespace) -> Scenario:
+    """The scenario of a file or a name, or a MuJoCo scene.
+
+    Raises
+    ------
+    InputError
+        If it cannot be, or an option is for the other kind.
+    """
+    settings = shared.scenario_settings(options)
+    path = Path(options.scenario)
+    if path.suffix != ".xml":
+        for option in ("targets", "keyframe"):
+            if getattr(options, option) is not None:
+                raise InputError("is for a MuJoCo scene (.xml)", field=f"--{option}")
+        return load_scenario(options.scenario, settings)
+    guests = needed_part("guests.scene", "a MuJoCo scene")
+    mjcf = needed_part("mjcf.mjcf", "a MuJoCo scene")
+    with about_file(path):
+        model, _ = mjcf.compiled_model(path, options.roots, simulated=True)
+        needed_package("mujoco", "engines", "run").set_mju_user_warning(lambda text: None)
+        start = needed_part("guests.settled", "--keyframe").settled(model, 0.0, options.keyframe)
+        data = None if options.keyframe is None else start
+        given = options.targets
+        table = given is None or given.endswith(".csv")
+        targets = given if table else given.split(",")
+        scene: Scenario = guests.mujoco_scenario(model, data, targets, settings, path)
+    shared.progress_line(options, guests.words(scene))
+    return scene
 
 
 def worst_residual(trajectory: Trajectory) -> float | None:

@@ -327,15 +327,20 @@ def page(every: list[Found]) -> str:
     )
 
 
+def install(folder: Path) -> None:
+    """Put the packages into a folder, if it is empty."""
+    if not any(folder.iterdir()):
+        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target"]
+        subprocess.run([*pip, str(folder), *PACKAGES], check=True)
+
+
 def main() -> int:
     """Ask all models, write the page, and return the exit status."""
     options = asked(__doc__, folder=Path, out=Path)
     with tempfile.TemporaryDirectory() as own, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated
         folder = options.folder or Path(own)
-        if not any(folder.iterdir()):
-            pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target"]
-            subprocess.run([*pip, str(folder), *PACKAGES], check=True)
+        install(folder)
         all_of_them = (census(path, folder) for path in sorted(folder.rglob("*.xml")))
         every = [found for found in all_of_them if found is not None]
     shown(page(every), options.out)

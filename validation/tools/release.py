@@ -110,6 +110,7 @@ RESULTS = (
     to_file("kills"),
     to_file("mistakes"),
     to_file("guests"),
+    to_file("mujoco_runs"),
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
 from quasistatic_ref.parts import needed_part
@@ -60,7 +59,7 @@ class Run(Start):
     def contacts(self, k: int) -> Contacts:
         """The contacts of step k."""
         kinematics = self.system.kinematics(self["q"][k])
-        points = closest_points(self.pairs, kinematics)
+        points = self.simulator.closest_points(kinematics)
         return contacts_of(self.system, self.pairs, points, kinematics)
 
     def step_data(self, k: int) -> StepData:

@@ -6,7 +6,7 @@ and its force at the state to tau_k = K_q delta_q_bar, Eq. (1). All else is a co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -74,12 +74,17 @@ def loads(state: Still) -> Loads:
         if servo.k and not saturated(state, i, servo.m):
             springs.append(servo)
             of_springs += data.actuator_force[i] * servo.m
+    check_stiff(springs)
+    others = data.qfrc_smooth - of_springs  # MuJoCo's sum of all forces, of gravity to xfrc_applied
+    return Loads(tuple(springs), of_springs, others, tuple(left_out))
+
+
+def check_stiff(springs: Iterable[Spring]) -> None:
+    """Refuse servos and springs of negative stiffness: ModelError, naming one."""
     for spring in springs:
         if spring.k < 0:
             problem = "pushes away from its target, so that K_q is not positive definite"
             raise ModelError(problem, field=spring.field, value=spring.k)
-    others = data.qfrc_smooth - of_springs  # MuJoCo's sum of all forces, of gravity to xfrc_applied
-    return Loads(tuple(springs), of_springs, others, tuple(left_out))
 
 
 def passive_springs(state: Still) -> Iterator[Spring]:

@@ -185,13 +185,36 @@ def with_friction(
     Raises
     ------
     ModelError
+        As :func:`joint_friction`.
+    """
+    heavy = np.concatenate([step.h**2 * np.diag(step.K_q), np.diag(step.M_u)])
+    rises, names = joint_friction(state, tied.T, heavy)
+    if names:
+        step = needed_part("extensions.rises", "frictionloss").with_rises(step, rises)
+    return step, np.concatenate([tied.dofs, np.full(len(names), -1)]), names
+
+
+def joint_friction(state: Still, T: Array, heavy: Array) -> tuple[Rises, list[str]]:
+    """What ``frictionloss`` appends to a step, and its names.
+
+    Parameters
+    ----------
+    state : Still
+    T : ndarray, shape (nv, n)
+        MuJoCo's displacement, per unit of the coordinates [-].
+    heavy : ndarray, shape (n,)
+        Diagonal of h H [kg, kg m^2].
+
+    Raises
+    ------
+    ModelError
         Naming a tendon of several coordinates that has friction.
     """
     J, rows = state.rows("FRICTION_DOF", "FRICTION_TENDON")
     losses = state.data.efc_frictionloss[rows]
-    numbers, loads_of_rises, names = [], [], []
-    rubs = moved(state, J, tied.T)
-    for row, along, loss in zip(rows.tolist(), rubs, losses.tolist(), strict=True):
+    numbers: list[int] = []
+    loads_of_rises, names = [], []
+    for row, along, loss in zip(rows.tolist(), moved(state, J, T), losses.tolist(), strict=True):
         on = np.flatnonzero(along).tolist()
         name = friction_name(state, row)
         if len(on) > 1:
@@ -201,11 +224,8 @@ def with_friction(
             numbers.append(i)
             loads_of_rises.append(abs(along[i]) * loss)
             names.append(f"friction of {name}")
-    heavy = np.concatenate([step.h**2 * np.diag(step.K_q), np.diag(step.M_u)])
-    if numbers:
-        rises = Rises(np.array(loads_of_rises), LIGHT * heavy[numbers], np.array(numbers))
-        step = needed_part("extensions.rises", "frictionloss").with_rises(step, rises)
-    return step, np.concatenate([tied.dofs, np.full(len(numbers), -1)]), names
+    rises = Rises(np.array(loads_of_rises), LIGHT * heavy[numbers], np.array(numbers))
+    return rises, names
 
 
 def friction_name(state: Still, row: int) -> str:

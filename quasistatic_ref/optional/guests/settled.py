@@ -52,9 +52,9 @@ def settled(
     if not 0 <= seconds < np.inf:
         raise InputError("must be zero or more seconds", field="settle", value=seconds)
     if keyframe is not None:
-        mujoco.mj_resetDataKeyframe(model, data, _number(mujoco, model, "KEY", keyframe))
+        mujoco.mj_resetDataKeyframe(model, data, numbered(mujoco, model, "KEY", keyframe))
     for name, value in (control or {}).items():
-        data.ctrl[_number(mujoco, model, "ACTUATOR", name)] = value
+        data.ctrl[numbered(mujoco, model, "ACTUATOR", name)] = value
     run(model, data, seconds)
     return data
 
@@ -102,8 +102,8 @@ def _resets(mujoco: Any, data: Any) -> int:
     return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)
 
 
-def _number(mujoco: Any, model: Any, kind: str, name: str | int) -> int:
-    """The number of a keyframe or actuator, by its name or number."""
+def numbered(mujoco: Any, model: Any, kind: str, name: str | int) -> int:
+    """The number of a keyframe or actuator, by its name or number; InputError if there is none."""
     count = {"KEY": model.nkey, "ACTUATOR": model.nu}[kind]
     of = getattr(mujoco.mjtObj, f"mjOBJ_{kind}")
     names = [mujoco.mj_id2name(model, of, i) or str(i) for i in range(count)]

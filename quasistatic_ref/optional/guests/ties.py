@@ -12,7 +12,7 @@ from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, Mask
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import FULL_RANK
 
@@ -104,12 +104,13 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
 
 
 def limits(
-    state: Still, scale: Natural, basis: Array, as_is: bool
+    state: Still, scale: Natural, basis: Array, as_is: bool, in_place: bool = False
 ) -> tuple[Extra, tuple[str, ...]]:
     """All limits of joints and tendons: T' of the gradient of a gap, times delta_q, >= -gap.
 
     Gaps below zero count as zero unless `as_is`. `basis` is that of the equalities, (r, n) [-]. The
-    second result says which limits are left out, since nothing moves what they limit.
+    second result says which limits are left out, since nothing moves what they limit; `in_place`
+    has rows in their places that hold nothing, so that their number is the same at every q.
     """
     found = []
     left_out: list[str] = []
@@ -127,13 +128,14 @@ def limits(
         if not (state.disables("LIMIT") or state.disables("CONSTRAINT")):
             held |= {*np.flatnonzero(limited)} - {*of}  # MuJoCo has no row if all of it is zero
         left_out += [f"limit of {state.words(kind.lower(), i)}: {HELD}" for i in sorted(held)]
-        kept = np.flatnonzero(~empty)
         b = -(gaps if as_is else np.maximum(gaps, 0.0))
-        found.append(([names[k] for k in kept], J[kept] @ scale.T, b[kept]))
+        found.append(_of_places(names, J @ scale.T, b, ~empty, in_place))
     return _rows(found, scale.T.shape[1]), tuple(left_out)
 
 
-def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
+def equalities(
+    state: Still, tied: Tied, scale: Natural, as_is: bool, in_place: bool = False
+) -> Held:
     """The equalities that T does not satisfy, each as two rows.
 
     Parameters
@@ -144,6 +146,8 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
         Of the coordinates that remain.
     as_is : bool
         Whether their residuals are closed in the step.
+    in_place : bool
+        As of :func:`limits`.
 
     Raises
     ------
@@ -178,9 +182,14 @@ def equalities(state: Still, tied: Tied, scale: Natural, as_is: bool) -> Held:
             problem = 'contradicts other equalities, which depth = "closed" takes as they stand'
             raise ModelError(problem, field=name, value=float(residuals[k]))
         left_out.append(f"{name}: {HELD}")
-    names = [state.words("equality", i) for i in state.data.efc_id[rows[kept]]]
-    b = -residuals[kept]
-    both = _rows([(names, A[kept], b), (names, -A[kept], -b)], A.shape[1])
+    own = np.flatnonzero(~np.isin(rows, tied.eliminated))
+    names = [state.words("equality", i) for i in state.data.efc_id[rows[own]]]
+    kept_here = np.isin(own, kept)
+    both = _rows(
+        [_of_places(names, side * A[own], -side * residuals[own], kept_here, in_place)
+         for side in (1.0, -1.0)],
+        A.shape[1],
+    )  # fmt: skip
     return Held(both, basis, tuple(dict.fromkeys(left_out)))
 
 
@@ -190,6 +199,15 @@ def together(*parts: Extra) -> Extra:
     A = np.concatenate([part.A for part in parts])
     b = np.concatenate([part.b for part in parts])
     return Extra(tuple(f"{name} ({k})" for k, name in enumerate(names)), A, b)
+
+
+def _of_places(
+    names: list[str], A: Array, b: Array, kept: Mask, in_place: bool
+) -> tuple[list[str], Array, Array]:
+    """The rows that are kept; or all, those that are not as 0 >= -1."""
+    if in_place:
+        return names, np.where(kept[:, None], A, 0.0), np.where(kept, b, -1.0)
+    return [name for name, holds in zip(names, kept, strict=True) if holds], A[kept], b[kept]
 
 
 def _rows(parts: Sequence[tuple[list[str], Array, Array]], n: int) -> Extra:

@@ -248,7 +248,8 @@ def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
     """Of a contact that bears load; ``"sticking"`` where the record does not know it."""
     if run.header["record"] != "full":
         return "sticking"
-    motion = run["J"][k, j] @ run["delta_q"][k]
+    delta_q = run["delta_q"][k]  # without private rises, which J has
+    motion = run["J"][k, j][:, : len(delta_q)] @ delta_q
     along = np.abs(frame[:2] @ motion[:3]).max()
     turning = run["mu_omega"][j] * abs(motion[3])
     return "sliding" if max(along, turning) > SLIP else "sticking"

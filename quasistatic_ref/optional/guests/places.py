@@ -1,0 +1,230 @@
+"""What may touch in a MuJoCo model: pairs of geoms, and places for their contacts in every step."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.separations import OWN
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests.still import Still
+from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    Shape,
+    Sphere,
+)
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import FILLED
+
+ALL = 1e6
+"""Gap at which MuJoCo's filters alone decide what may touch [m]."""
+ONE, TWO = ("SPHERE", "ELLIPSOID"), ("CAPSULE",)
+MANY, BOXES = 4, 8
+"""Places of a pair: one of what is round, two of a capsule, and of two boxes as many as a face cut
+by a face has corners; no other pair has more than four contacts that matter."""
+
+
+class Places:
+    """Pairs of geoms that MuJoCo's filters let touch, and the places of their contacts.
+
+    Parameters
+    ----------
+    state : Still
+        Its gaps become those of a run.
+    margin : float
+        Gap up to which MuJoCo looks for contacts [m].
+
+    Attributes
+    ----------
+    pairs : tuple of ContactPair
+    shapes : dict of int to PlacedShape
+        Of the geoms of the pairs, by number; the world has those of bodies that never move.
+    first : ndarray of int, shape (pairs,)
+        Place of the nearest contact of each pair.
+
+    Raises
+    ------
+    ModelError
+        If friction differs in two directions, or a geom is a field.
+    """
+
+    def __init__(self, state: Still, margin: float) -> None:
+        if not 0 < margin < FILLED:
+            raise ModelError("must be greater than 0", field="margin", value=margin)
+        self.margin = margin
+        self.shapes: dict[int, PlacedShape] = {}
+        self.geoms = np.zeros((0, 2), dtype=np.int64)
+        pairs = []
+        geoms = []
+        for touch in _filtered(state):
+            a, b = sorted(touch.geom.tolist(), key=lambda g: (state.model.geom_type[g], g))
+            pairs.append(self._pair(state, touch, a, b))
+            geoms.append((a, b))
+        self.pairs = tuple(pairs)
+        self.geoms = np.array(geoms, dtype=np.int64).reshape(-1, 2)
+        self.counts = np.array([pair.n_c for pair in pairs], dtype=np.int64)
+        self.first = np.cumsum(self.counts) - self.counts
+        self.number = np.full((state.model.ngeom,) * 2, -1)
+        self.number[self.geoms[:, 0], self.geoms[:, 1]] = np.arange(len(pairs))
+        self.number[self.geoms[:, 1], self.geoms[:, 0]] = np.arange(len(pairs))
+        for gaps, share in _gaps(state.own):
+            gaps += share * margin
+
+    def _pair(self, state: Still, touch: Any, a: int, b: int) -> ContactPair:
+        sides = [self.shapes.setdefault(g, _placed(state, g)) for g in (a, b)]
+        mu = touch.friction
+        name = f"{_tree(state, a)}-{_tree(state, b)}({sides[0].name}, {sides[1].name})"
+        if touch.dim > 1 and mu[0] != mu[1]:
+            problem = "differs in its two directions, for which there is no cone; use one for both"
+            raise ModelError(problem, field=f"contact[{name}].friction", value=mu[:2].tolist())
+        kinds = {_kind(state, g) for g in (a, b)}
+        k = BOXES if kinds == {"BOX"} else MANY
+        k = 1 if kinds & {*ONE} else 2 if kinds & {*TWO} else k
+        return ContactPair(
+            name=name,
+            alpha=sides[0],
+            beta=sides[1],
+            mu_v=float(mu[0]) if touch.dim > 1 else 0.0,
+            mu_omega=float(mu[2]) if touch.dim > 3 else 0.0,
+            rows=6 if touch.dim > 3 else 4,
+            k=k,
+        )
+
+    def points(self, state: Still) -> ClosestPoints:
+        """The contacts of all pairs in their places, each pair's in ascending distance.
+
+        phi is MuJoCo's distance less its margin; alpha and beta are on the surfaces. Places beyond
+        those of a pair's contacts repeat its nearest one at the distance ``FILLED``, or twice its
+        own. A pair that is farther apart than the margin has the centres of its geoms there.
+        """
+        data = state.data
+        found = data.contact
+        used = np.flatnonzero(np.isin(found.exclude, USED_OR_IN_GAP))
+        geoms = np.asarray(found.geom).reshape(-1, 2)[used]
+        pair = self.number[geoms[:, 0], geoms[:, 1]]
+        phi = (found.dist - found.includemargin)[used]
+        order = np.lexsort((used, phi, pair))
+        order = order[pair[order] >= 0]
+        used, geoms, pair, phi = used[order], geoms[order], pair[order], phi[order]
+        rank = np.arange(len(pair)) - np.searchsorted(pair, pair)
+        kept = rank < self.counts[pair]
+        used, geoms, pair, phi, rank = (x[kept] for x in (used, geoms, pair, phi, rank))
+        turned = np.where(geoms[:, 0] == self.geoms[pair, 0], 1.0, -1.0)[:, None]
+        n = turned * found.frame.reshape(-1, 9)[used, :3]
+        half = found.dist[used, None] / 2 * n
+        middle = found.pos.reshape(-1, 3)[used]
+
+        centres = data.geom_xpos[self.geoms]
+        between = centres[:, 1] - centres[:, 0]
+        length = np.linalg.norm(between, axis=1, keepdims=True)
+        apart = np.where(length > 0, between / np.where(length > 0, length, 1.0), [0.0, 0.0, 1.0])
+        of_place = np.repeat(np.arange(len(self.pairs)), self.counts)
+        every = ClosestPoints(
+            phi=np.full(len(of_place), FILLED),
+            alpha=centres[of_place, 0],
+            beta=centres[of_place, 1],
+            n=apart[of_place],
+            point=np.arange(len(of_place)) - self.first[of_place],
+            tie=np.full(len(of_place), OWN),
+        )
+        nearest = rank == 0
+        if len(pair):  # every place of a pair is its nearest contact, only farther
+            of_pair = np.full(len(self.pairs), -1)
+            of_pair[pair[nearest]] = np.flatnonzero(nearest)
+            like = of_pair[of_place]
+            near = np.flatnonzero(like >= 0)
+            like = like[near]
+            every.phi[near] = np.maximum(FILLED, 2 * phi[like])
+            for field, values in ((every.alpha, middle - half), (every.beta, middle + half),
+                                  (every.n, n)):  # fmt: skip
+                field[near] = values[like]
+                field[self.first[pair] + rank] = values
+            every.phi[self.first[pair] + rank] = phi
+        return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The pair of each place."""
+        return contact_layout(self.pairs).names
+
+
+def _filtered(state: Still) -> list[Any]:
+    """One contact of each pair that may touch, by MuJoCo's own filters.
+
+    All geoms but planes are balls there, which touch whatever they are near to.
+    """
+    mujoco = state.mujoco
+    balls = copy.copy(state.own)
+    plane, ball = int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_SPHERE)
+    balls.geom_type[:] = np.where(balls.geom_type == plane, plane, ball)
+    for gaps, _ in _gaps(balls):
+        gaps[:] = ALL
+    data = copy.copy(state.data)
+    mujoco.mj_kinematics(balls, data)
+    mujoco.mj_collision(balls, data)
+    found = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
+    return [found[geoms] for geoms in sorted(found)]
+
+
+def _gaps(model: Any) -> tuple[tuple[Array, float], ...]:
+    """What decides from which gap on MuJoCo has a contact; those of two geoms or bodies add up."""
+    return (model.geom_gap, 0.5), (model.pair_gap, 1.0), (model.body_margin, 0.5)
+
+
+def _tree(state: Still, g: int) -> str:
+    """The tree of a geom, or the world."""
+    model = state.model
+    body = model.geom_bodyid[g]
+    return state.called("body", model.body_rootid[body]) if model.body_weldid[body] else "world"
+
+
+def _placed(state: Still, g: int) -> PlacedShape:
+    """A geom in the frame of its body, or in the world if that never moves."""
+    model, data = state.model, state.data
+    body = int(model.geom_bodyid[g])
+    name = state.name("geom", g) or f"geom{g}"
+    if not model.body_weldid[body]:
+        state.mujoco.mj_kinematics(model, data)
+        R, t = data.geom_xmat[g].reshape(3, 3).copy(), data.geom_xpos[g].copy()
+        return PlacedShape(name, 0, R, t, _shape(state, g))
+    turn = np.zeros(9)
+    state.mujoco.mju_quat2Mat(turn, model.geom_quat[g])
+    return PlacedShape(name, body, turn.reshape(3, 3), model.geom_pos[g].copy(), _shape(state, g))
+
+
+def _kind(state: Still, g: int) -> str:
+    """The kind of a geom, such as ``"BOX"``."""
+    kind = state.mujoco.mjtGeom(int(state.model.geom_type[g]))
+    return str(kind.name).removeprefix("mjGEOM_")
+
+
+def _shape(state: Still, g: int) -> Shape:
+    model = state.model
+    size: Array = model.geom_size[g]
+    kind = _kind(state, g)
+    if kind == "PLANE":
+        return HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+    if kind == "SPHERE":
+        return Sphere(size[0])
+    if kind in ("CAPSULE", "CYLINDER"):
+        return {"CAPSULE": Capsule, "CYLINDER": Cylinder}[kind](size[0], size[1])
+    if kind in ("BOX", "ELLIPSOID"):
+        return {"BOX": Box, "ELLIPSOID": Ellipsoid}[kind](size)
+    if kind != "MESH":
+        problem = "has no places in a run; use meshes or other shapes"
+        raise ModelError(problem, field=f"{state.words('geom', g)}.type", value=kind.lower())
+    mesh = model.geom_dataid[g]
+    first = int(model.mesh_vertadr[mesh])
+    vertices = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])]
+    return convex_hull(vertices.astype(np.float64))

@@ -1,0 +1,491 @@
+"""A MuJoCo model as a system: its kinematics, masses, forces and closest points at any q."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from threading import RLock
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.configuration import UnitParts
+from quasistatic_ref.model.coordinates import with_shape
+from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
+from quasistatic_ref.model.joints.ball import Ball
+from quasistatic_ref.model.joints.floating import Floating
+from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.named import Named
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.guests import ties
+from quasistatic_ref.optional.guests.fates import check, kind_of, named
+from quasistatic_ref.optional.guests.loads import (
+    Spring,
+    check_stiff,
+    disabled,
+    loads,
+    passive_springs,
+    stiffness,
+)
+from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
+from quasistatic_ref.optional.guests.natural import Natural
+from quasistatic_ref.optional.guests.places import Places
+from quasistatic_ref.optional.guests.still import Still, still
+from quasistatic_ref.solve.units import coordinate_units
+from quasistatic_ref.step.arrays import Array, Mask, read_only
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.tolerances import FULL_RANK
+
+KINDS: dict[str, tuple[type[Joint], list[int]]] = {
+    "FREE": (Floating, [0, 1, 2, 4, 5, 6, 3]),
+    "BALL": (Ball, [1, 2, 3, 0]),
+    "SLIDE": (Prismatic, [0]),
+    "HINGE": (Revolute, [0]),
+}
+"""Joints by MuJoCo's types, and where in its entries of qpos those of q are."""
+NOTHING = '<robot name="mujoco"><link name="body"/></robot>'
+"""In place of the URDF of a body, whose visual elements a page would show."""
+ELSEWHERE = 0.1
+"""How far from the start springs are looked at once more [m, rad]."""
+
+
+class Columns(ColumnMap):
+    """Which of MuJoCo's velocities move a body, and with which coordinates.
+
+    Parameters
+    ----------
+    moves : ndarray, shape (L, 1, nv)
+        1 where a velocity moves a body [-].
+    T : ndarray, shape (nv, n_v)
+        MuJoCo's displacement, per unit of the coordinates [-].
+    """
+
+    def __init__(self, moves: Array, T: Array) -> None:
+        self.moves = moves
+        self.T = T
+        self.n_v = T.shape[1]
+        self.owner = np.abs(T).argmax(axis=1)
+
+    @cached_property
+    def coordinates(self) -> Array:
+        """T, shape (nv, n_v) [-]."""
+        return self.T
+
+    def of_coordinates(self, columns: Array) -> Array:
+        """`columns` of MuJoCo's velocities, (..., nv), per unit of delta_q, (..., n_v) [m, rad]."""
+        per_unit: Array = columns @ self.T
+        return per_unit
+
+
+@dataclass(frozen=True, eq=False)
+class Placed(Kinematics):
+    """Where every body is, how it moves, and what MuJoCo finds closest.
+
+    Parameters
+    ----------
+    points : ClosestPoints, optional
+    """
+
+    points: ClosestPoints | None = None
+
+
+class MujocoSystem(System):
+    """A MuJoCo model behind the names that a step asks a system for.
+
+    ``Simulator.step`` asks for: actuated_difference, gravity_force, integrate, kinematics, links,
+    lock, M_u, n_a, n_v.
+
+    Links are MuJoCo's bodies, ``TREE/BODY``, bodies the trees of the world. Coordinates are
+    MuJoCo's velocities, without those that equalities of joints take away, the actuated ones first:
+    of a free joint along the world's axes and about the body's own. q has the same order, and
+    quaternions [x y z w]. Forces of servos and springs are K_q (q_bar_a - q_a): where a servo's
+    force is at the end of its range, :meth:`target` is no farther than that force reaches. Motors
+    are external forces, by :meth:`motors`.
+
+    Parameters
+    ----------
+    model : mujoco.MjModel
+    data : mujoco.MjData
+        Where a run starts; neither is changed. Controls, activations, bodies with ``mocap`` and
+        applied forces stay.
+    h : float
+        Time step, for natural units [s].
+    springs : mapping of str to float
+        Stiffness of springs towards targets of joints [N/m, N m/rad].
+    margin : float
+        Gap up to which MuJoCo looks for contacts [m].
+
+    Attributes
+    ----------
+    K_q : ndarray, shape (n_a, n_a)
+    places : Places
+        What may touch.
+    springs : tuple of Spring
+    rises : Rises
+        Friction of joints.
+
+    Raises
+    ------
+    ModelError
+        Naming element and field of what no run can say.
+    """
+
+    def __init__(
+        self, model: Any, data: Any, h: float, springs: Mapping[str, float], margin: float
+    ) -> None:
+        self._made_of((copy.copy(model), copy.copy(data), h, dict(springs), margin))
+
+    def __getstate__(self) -> Any:
+        return self._given
+
+    def __setstate__(self, given: Any) -> None:
+        self._made_of(given)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, MujocoSystem) and self.texts == other.texts
+
+    def __hash__(self) -> int:
+        return hash(self.texts)
+
+    def _made_of(self, given: tuple[Any, Any, float, dict[str, float], float]) -> None:
+        model, data, h, springs, margin = self._given = given
+        self.model = model
+        self.lock = RLock()
+        self._latest: tuple[bytes, Kinematics] | None = None
+        self._at: bytes | None = None
+        state = self._state = still(model, data)
+        check(state)
+        check_run(state)
+        self.places = Places(state, margin)
+        state.run()
+        self._qpos = state.data.qpos.copy()
+        of_state = loads(state)
+        self.ignored = of_state.left_out
+        self.own = {name: self._own_spring(name, k) for name, k in springs.items()}
+        self.springs = self._springs()
+        check_stiff(self.springs)
+        of_state = replace(of_state, springs=self.springs)
+        tied = ties.tied_joints(state, ("JOINT",), of_state.heavy(state.M, h))
+        self._taken = tied.eliminated
+        self._follow = followers(state, tied)
+        order, self.n_a, self.K_q = actuated(state, of_state, tied.T)
+        self.T = tied.T[:, order]
+        self.dofs = tied.dofs[order]
+        self._make_joints()
+        diagonal = np.concatenate([h * np.diag(self.K_q), np.diag(self.M_u(self.q_start)) / h])
+        self.scale = Natural(state, self.T, coordinate_units(diagonal))
+        self.rises, _ = joint_friction(state, self.T, h * diagonal)
+        self.rows = self._rows(self.state(self.q_start))
+        self._make_bodies()
+        self._check_constant()
+
+    def _springs(self) -> tuple[Spring, ...]:
+        """All springs and servos at the state, saturated ones too."""
+        state = self._state
+        servos = (
+            Spring(named(state, "actuator_biasprm", i), stiffness(state, i), state.moments[i])
+            for i in self._servos()
+        )
+        return (*passive_springs(state), *servos, *self.own.values())
+
+    def _servos(self) -> list[int]:
+        """The actuators whose force falls with their length."""
+        state = self._state
+        return [i for i in range(self.model.nu) if stiffness(state, i) and not disabled(state, i)]
+
+    def _own_spring(self, name: str, k: float) -> Spring:
+        """The spring of a joint that has targets of its own."""
+        dof = self.axis_of(name)
+        if any(self._state.moments[i, dof] for i in self._servos()):
+            problem = "has a servo; name that in the table of targets instead"
+            raise ModelError(problem, field=f"stiffness.{name}", value=k)
+        return Spring(f"stiffness.{name}", float(k), np.eye(self.model.nv)[dof])
+
+    def axis_of(self, name: str) -> int:
+        """Where the velocity of a hinge or slide stands; ModelError if it is no such joint."""
+        state = self._state
+        j = state.mujoco.mj_name2id(self.model, state.mujoco.mjtObj.mjOBJ_JOINT, name)
+        if j < 0 or kind_of(state, "jnt_type", j) not in ("HINGE", "SLIDE"):
+            raise ModelError("is no hinge or slide of the model", field="joint", value=name)
+        return int(self.model.jnt_dofadr[j])
+
+    def _make_joints(self) -> None:
+        """Joints, in the order of their coordinates, and where their entries of qpos are."""
+        state, model = self._state, self.model
+        trees = self._trees()
+        joints: list[Joint] = []
+        entries: list[int] = []
+        v = 0
+        while v < len(self.dofs):
+            j = int(model.dof_jntid[self.dofs[v]])
+            kind, own = KINDS[kind_of(state, "jnt_type", j)]
+            first = len(entries)
+            entries += [int(model.jnt_qposadr[j]) + i for i in own]
+            n = max(1, len(own) - 1)
+            tree = trees[model.jnt_bodyid[j]]
+            name = "base" if kind is Floating else state.name("joint", j) or f"joint{j}"
+            ends = tuple(model.jnt_range[j].tolist()) if model.jnt_limited[j] and n == 1 else None
+            at = slice(first, len(entries)), slice(v, v + n)
+            joints.append(kind(f"{tree}/{name}", v < self.n_a, *at, ends))
+            v += n
+        self._entries = np.array(entries)
+        self.joints = tuple(joints)
+        self.named = Named(self.joints)
+        self._actuated = [joint for joint in joints if joint.actuated]
+        self.units, self.actuated_units = UnitParts(joints), UnitParts(self._actuated)
+        self.coordinates = tuple(c for joint in joints for c in joint.coordinates)
+        self.n_q, self.n_v = len(entries), len(self.dofs)
+        self.n_u = self.n_v - self.n_a
+        self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self._actuated)
+        self.q_start = read_only(self._qpos[self._entries])
+        moves = np.zeros((model.nbody, 1, model.nv))
+        for body in range(1, model.nbody):
+            moves[body] = moves[model.body_parentid[body]]
+            first = model.body_dofadr[body]
+            moves[body, 0, first : first + model.body_dofnum[body]] = 1.0
+        self.column_map = Columns(moves, self.T)
+
+    def _trees(self) -> list[str]:
+        """The tree of each body by its name, which no other tree has."""
+        state, model = self._state, self.model
+        names = ["world"]
+        for body in range(1, model.nbody):
+            if model.body_parentid[body]:
+                names.append(names[model.body_parentid[body]])
+                continue
+            own = state.name("body", body) or f"body{body}"
+            own = "".join("_" if c in "/#*" or c.isspace() else c for c in own)
+            names.append(f"{own}_{body}" if own in names else own)
+        return names
+
+    def _make_bodies(self) -> None:
+        state, model = self._state, self.model
+        trees = self._trees()
+        own = [state.name("body", i) or f"body{i}" for i in range(model.nbody)]
+        self.links = ("world", *(f"{trees[i]}/{own[i]}" for i in range(1, model.nbody)))
+        self._roots = {trees[i]: i for i in range(1, model.nbody) if not model.body_parentid[i]}
+        moving = {joint.name.partition("/")[0] for joint in self.joints}
+        self.bodies = tuple(Body(tree, NOTHING) for tree in self._roots if tree in moving)
+        binary = np.empty((state.mujoco.mj_sizeModel(model), 1), np.uint8)
+        state.mujoco.mj_saveModel(model, None, binary)
+        digest = hashlib.sha256(binary.tobytes() + repr(self._given[2:]).encode()).hexdigest()
+        self.texts = (digest,) * len(self.bodies)
+        self.masses = model.body_mass.copy()
+        self.centres = model.body_ipos.copy()
+        R = np.zeros((model.nbody, 9))
+        for turn, quaternion in zip(R, model.body_iquat, strict=True):
+            state.mujoco.mju_quat2Mat(turn, quaternion)
+        axes = R.reshape(-1, 3, 3)
+        self.inertias = axes * model.body_inertia[:, None] @ axes.transpose(0, 2, 1)
+        self.shapes = tuple(s for s in self.places.shapes.values() if s.link)
+        self.mimics = ()
+        self.notes = ()
+        self.constant_mass_matrix = False
+        self.varying_mass = None
+        self.mass_blocks = np.zeros((0, 6, 6))
+
+    def _check_constant(self) -> None:
+        """Refuse springs whose gradient depends on q: K_q is that of the whole run."""
+        away = np.where(np.arange(self.n_v) % 2, -ELSEWHERE, ELSEWHERE)
+        self.state(self.integrate(self.q_start, away))
+        for then, now in zip(self.springs, self._springs(), strict=True):
+            if np.abs(now.m - then.m).max() > FULL_RANK * np.abs(then.m).max():
+                problem = "pulls along a length whose gradient changes with q, and K_q is that of "
+                problem += "the whole run; a run has springs of joints and of fixed tendons"
+                raise ModelError(problem, field=then.field)
+
+    def qpos(self, q: Array) -> Array:
+        """MuJoCo's configuration at q, shape (nq,) [m, rad, -]."""
+        qpos: Array = self._qpos.copy()
+        qpos[self._entries] = q
+        for _ in self._follow:  # one may follow another
+            for first, second, (a, b) in self._follow:
+                along = qpos[second] - self.model.qpos0[second] if second >= 0 else 0.0
+                qpos[first] = self.model.qpos0[first] + a + b * along
+        return qpos
+
+    def state(self, q: Array) -> Still:
+        """MuJoCo's state at q, at rest; the same object at every q."""
+        q = with_shape(q, "q", (self.n_q,))
+        bits = q.tobytes()
+        if self._at != bits:
+            self.units.check(q)
+            self._at = None
+            self._state.data.qpos[:] = self.qpos(q)
+            self._state.data.ctrl[:] = self._given[1].ctrl
+            self._state.run()
+            self._at = bits
+        return self._state
+
+    def kinematics(self, q: Array) -> Kinematics:
+        """Pose and Jacobian of every body at q, and the closest points."""
+        bits = np.asarray(q).tobytes()
+        if self._latest is None or self._latest[0] != bits:
+            state = self.state(q)
+            data, model = state.data, self.model
+            omega, along = data.cdof[:, :3], data.cdof[:, 3:]  # about the centre of the tree
+            centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
+            columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
+            R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
+            points = self.places.points(state)
+            self._latest = bits, Placed(R, t, columns, self.column_map, points)
+        return self._latest[1]
+
+    def M_u(self, q: Array) -> Array:
+        """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
+        T_u = self.T[:, self.n_a :]
+        M = T_u.T @ self.state(q).M @ T_u
+        symmetric: Array = (M + M.T) / 2
+        return symmetric
+
+    def gravity_force(self, q: Array, gravity: ArrayLike) -> Array:
+        """All forces but those of springs and actuators, shape (n_v,) [N, N m].
+
+        Gravity is the model's; `gravity`, shape (3,) [m/s^2], is not read.
+        """
+        data = self.state(q).data
+        force: Array = self.T.T @ (data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring)
+        return force + 0.0
+
+    def motors(self, q: Array, control: Array) -> Array:
+        """The force of all actuators but servos at a `control`, (nu,), shape (n_v,) [N, N m]."""
+        return np.asarray(self.T.T @ self._driven(q, control)[1]) + 0.0
+
+    def _driven(self, q: Array, control: Array) -> tuple[Array, Array]:
+        """Forces of servos, within their ranges, and of other actuators at q, (nv,) each."""
+        state = self.state(q)
+        data = state.data
+        before = data.ctrl.copy()
+        data.ctrl[:] = control
+        state.mujoco.mj_fwdActuation(state.own, data)
+        servos = self._servos()
+        moments = state.moments
+        force = data.actuator_force[servos] @ moments[servos]
+        # Where a servo acts, what the range of a joint or tendon takes away is the servo's.
+        taken = data.qfrc_actuator - data.actuator_force @ moments
+        force = force + np.where(moments[servos].any(axis=0), taken, 0.0)
+        others = data.qfrc_actuator - force
+        data.ctrl[:] = before
+        state.mujoco.mj_fwdActuation(state.own, data)
+        return force, others
+
+    def target(self, q: Array, control: Array, positions: Mapping[str, float]) -> Array:
+        """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,).
+
+        Parameters
+        ----------
+        q : ndarray, shape (n_q,)
+        control : ndarray, shape (nu,)
+            [the actuators' units].
+        positions : mapping of str to float
+            Targets of joints that have springs of their own [m, rad].
+        """
+        force = self._driven(q, control)[0] + self.state(q).data.qfrc_spring
+        qpos = self.qpos(q)
+        for name, spring in self.own.items():
+            entry = self.model.joint(name).qposadr[0]
+            position = positions.get(name, self._qpos[entry])
+            force += spring.k * (position - qpos[entry]) * spring.m
+        ahead = np.linalg.solve(self.K_q, (self.T.T @ force)[: self.n_a])
+        return self.integrate(q, np.concatenate([ahead, np.zeros(self.n_u)]))[: self.n_q_a]
+
+    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+        """From q_a of q to a target, shape (n_a,)."""
+        self.actuated_units.check(q_a)
+        return self.difference(q, self.with_actuated(q, q_a))[: self.n_a]
+
+    def _rows(self, state: Still) -> Extra:
+        """Limits, and equalities that take no coordinate away."""
+        tied = ties.Tied(self.dofs, self.T, self._taken)
+        held = ties.equalities(state, tied, self.scale, as_is=True, in_place=True)
+        limits, _ = ties.limits(state, self.scale, held.basis, as_is=True, in_place=True)
+        return ties.together(limits, held.rows)
+
+    def extension(self, q: Array) -> Extension:
+        """Limits, equalities and joint friction at q."""
+        return Extension(rows=self._rows(self.state(q)), rises=self.rises)
+
+    def integrate(self, q: Array, delta_q: Array) -> Array:
+        """Configuration q (+) delta_q by ``mj_integratePos``, shape (n_q,)."""
+        self.units.check(with_shape(q, "q", (self.n_q,)))
+        qpos = self.qpos(q)
+        moved_by = self.T @ with_shape(delta_q, "delta_q", (self.n_v,))
+        self._state.mujoco.mj_integratePos(self.model, qpos, moved_by, 1.0)
+        return np.asarray(qpos[self._entries])
+
+    def difference(self, q: Array, q_next: Array) -> Array:
+        """Change delta_q = q_next (-) q by ``mj_differentiatePos``, shape (n_v,)."""
+        change = np.zeros(self.model.nv)
+        here, there = self.qpos(q), self.qpos(q_next)
+        self._state.mujoco.mj_differentiatePos(self.model, change, 1.0, here, there)
+        return np.asarray(change[self.dofs])
+
+    def neutral(self) -> Array:
+        """MuJoCo's first configuration, shape (n_q,)."""
+        return np.asarray(self.model.qpos0[self._entries])
+
+    def load(
+        self,
+        q: Array,
+        name: str,
+        force: ArrayLike = (0.0, 0.0, 0.0),
+        torque: ArrayLike = (0.0, 0.0, 0.0),
+        at: ArrayLike | None = None,
+    ) -> Array:
+        """Generalised force of a force and torque on a link, shape (n_v,); see ``System.load``."""
+        here, i = self.kinematics(q), self.link(name)
+        arm = here.R[i] @ self.centres[i] if at is None else np.asarray(at) - here.t[i]
+        push = np.asarray(force, dtype=np.float64)
+        moment = np.asarray(torque) + np.cross(arm, push)
+        return np.asarray(here.J[i].T @ np.concatenate([push, moment]))
+
+
+def check_run(state: Still) -> None:
+    """Refuse what a state can say and a run cannot: ModelError, naming element and field."""
+    model = state.model
+    loose: Mask = model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1]
+    for i in np.flatnonzero(loose & (model.tendon_stiffness > 0)).tolist():
+        problem = "has a range in which the spring is slack, and K_q is that of a whole run"
+        raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
+    sticky = "pulls at every gap within the margin of a run; leave it out"
+    for i in range(model.nu):
+        if kind_of(state, "actuator_trntype", i) == "BODY":
+            raise ModelError(sticky, field=f"{state.words('actuator', i)}.body")
+    for field in ("geom_adhesion", "pair_adhesion"):
+        for i in np.flatnonzero(getattr(model, field))[:1].tolist():
+            raise ModelError(sticky, field=named(state, field, i))
+
+
+def followers(state: Still, tied: ties.Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
+    """Joints that follow others: their entries of qpos, the other's (-1: none), and a line.
+
+    Raises
+    ------
+    ModelError
+        Naming an equality of higher order, or one that takes another joint than its first.
+    """
+    model = state.model
+    found = []
+    for row in tied.eliminated:
+        i = int(state.data.efc_id[row])
+        a, b, *higher = model.eq_data[i, :5].tolist()
+        if any(higher):
+            problem = "couples joints by more than a line; a run has a and b of polycoef"
+            raise ModelError(problem, field=f"{state.words('equality', i)}.polycoef", value=higher)
+        first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
+        of_second = int(model.jnt_qposadr[second]) if second >= 0 else -1
+        found.append((int(model.jnt_qposadr[first]), of_second, (a, b)))
+    taken = {int(model.jnt_dofadr[model.eq_obj1id[state.data.efc_id[r]]]) for r in tied.eliminated}
+    if taken & set(tied.dofs.tolist()):
+        raise ModelError("of joints tie a joint twice; leave one out", field="equality")
+    return found

@@ -1,0 +1,259 @@
+"""A MuJoCo scene that runs."""
+
+import copy
+import sys
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed
+from quasistatic_ref.optional.guests.mujoco import mujoco_step
+from quasistatic_ref.optional.guests.scene import MujocoScenario, mujoco_scenario
+from quasistatic_ref.optional.guests.system import MujocoSystem
+from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import FILLED
+
+G, KP, RANGE, RUB, MASS = 9.81, 2000.0, 6.0, 0.1, 0.1
+HAND = 0.3
+"""Mass of the hand with its fingers [kg]."""
+SCENE = f"""<mujoco><size memory="1M"/><default><default class="pad">
+<geom type="box" size=".005 .01 .02" mass=".05" condim="4" friction=".8 .01" conaffinity="0"/>
+</default></default><worldbody>
+<geom name="floor" type="plane" size="1 1 .1" conaffinity="0"/>
+<body name="hand" pos="0 0 .1"><joint name="lift" type="slide" axis="0 0 1" range="-.2 .3"/>
+<geom size=".01" pos="0 0 .1" mass=".2" contype="0" conaffinity="0"/>
+<body name="left" pos="-.05 0 0"><joint name="l" type="slide" axis="1 0 0" frictionloss="{RUB}"/>
+<geom name="left" class="pad"/></body>
+<body name="right" pos=".05 0 0"><joint name="r" type="slide" axis="-1 0 0"/>
+<geom name="right" class="pad"/></body>
+</body>
+<body name="ball" pos="0 0 .1"><freejoint/>
+<geom name="ball" size=".03" mass="{MASS}" contype="0"/></body>
+<geom name="post" size=".07" conaffinity="0"/>
+</worldbody>
+<equality><joint joint1="r" joint2="l"/></equality>
+<actuator><position name="up" joint="lift" kp="{KP}"/>
+<position name="grip" joint="l" kp="400" forcerange="-{RANGE} {RANGE}"/></actuator>
+<keyframe><key name="open" qpos="0 0 0 0 0 .1 1 0 0 0"/>
+<key name="closed" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl="0 .04"/>
+<key name="raised" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl=".05 .04"/></keyframe></mujoco>"""
+
+
+def model(text: str = SCENE) -> Any:
+    """A model of MuJoCo's."""
+    return mujoco.MjModel.from_xml_string(text)
+
+
+def grasp(t: float) -> dict[str, float]:
+    """Close for 0.06 s, lift for 0.1 s by 1 mm a step, and wait."""
+    return {"grip": min(t, 0.06) / 0.06 * 0.04, "up": float(np.clip(t - 0.06, 0, 0.1) * 0.1)}
+
+
+@pytest.fixture(scope="module")
+def lifted() -> tuple[MujocoScenario, Any]:
+    """The scene, and a run of it."""
+    scene = mujoco_scenario(model(), targets=grasp, steps=24)
+    return scene, scene.run(progress=False)
+
+
+def test_a_gripper_lifts_what_it_holds(lifted: tuple[MujocoScenario, Any]) -> None:
+    """At the end its servo carries (hand + ball) g, and gives way by that over kp.
+
+    Before it had let go of the post, that was hand g: the ball rises by 0.01 less the difference.
+    """
+    scene, run = lifted
+    assert set(run.certificate.tolist()) == {"exact"}
+    rise = scene.system.of(run.q[-1], "ball.z") - 0.1
+    assert rise == pytest.approx(0.01 - MASS * G / KP, abs=2e-6)
+    # Both fingers move by one coordinate: its force is that of both, but for joint friction.
+    normal = run.pair_forces()["ball-hand(ball, left)"][-1, 0]
+    assert abs(2 * abs(normal) - RANGE) <= RUB * (1 + 1e-6)
+
+
+def test_the_step_is_that_of_the_state() -> None:
+    """`mujoco_step` of the same state, whose gaps it takes as they are, has the same numbers."""
+    text = SCENE.replace('<equality><joint joint1="r" joint2="l"/></equality>', "").replace(
+        "</actuator>", '<position joint="r" kp="300"/></actuator>'
+    )
+    own = model(text)
+    data = mujoco.MjData(own)
+    data.ctrl[:] = [0.01, 0.013, 0.02]
+    data.qpos[1:3] = 0.0175
+    scene = mujoco_scenario(own, data)
+    step = scene.simulator().step(scene.system.q_start, scene.targets(0.01, scene.system.q_start))  # type: ignore[call-arg]
+    expected, _ = mujoco_step(own, data, scene.h, depth="as is")
+    for name in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
+        np.testing.assert_allclose(getattr(step.step, name), getattr(expected, name), atol=1e-14)
+    found = {
+        c.partition("(")[2].partition(",")[0]: i for i, c in enumerate(step.step.contacts.name)
+    }
+    assert found.keys() >= {"post"}
+    near = [i for i, phi in enumerate(step.step.contacts.phi) if phi < 0]
+    assert len(near) == len(expected.contacts.phi) == 2
+    for mine, theirs in zip(
+        sorted(near, key=lambda i: tuple(np.abs(step.step.contacts.n[i]).round(3))),
+        sorted(range(2), key=lambda i: tuple(np.abs(expected.contacts.n[i]).round(3))),
+        strict=True,
+    ):
+        a, b = step.step.contacts, expected.contacts
+        assert a.phi[mine] == pytest.approx(b.phi[theirs], abs=1e-15)
+        np.testing.assert_allclose(
+            np.einsum("i,ij->j", a.n[mine], a.J[mine, :3]),
+            np.einsum("i,ij->j", b.n[theirs], b.J[theirs, :3]),
+            atol=1e-14,
+        )
+        assert a.rows[mine] == b.rows[theirs]
+
+
+def test_the_docstring_names_all_that_a_step_asks_for(lifted: tuple[MujocoScenario, Any]) -> None:
+    """What files of others ask a system for while a step is taken."""
+    asked: set[str] = set()
+
+    class Listening(MujocoSystem):
+        def __getattribute__(self, name: str) -> Any:
+            if "simulator.py" in sys._getframe(1).f_code.co_filename:
+                asked.add(name)
+            return super().__getattribute__(name)
+
+    scene, run = lifted
+    simulator = scene.simulator()
+    system = copy.copy(scene.system)
+    system.__class__ = Listening
+    vars(simulator)["system"] = system
+    simulator.step(run.q[0], run.q_bar_a[0])
+    said = (MujocoSystem.__doc__ or "").partition("asks for: ")[2].partition(".")[0]
+    assert asked == set(said.replace("\n", " ").replace(" ", "").split(","))
+
+
+def test_gaps_change_as_their_jacobians_say(lifted: tuple[MujocoScenario, Any]) -> None:
+    """phi(q (+) e) - phi(q - e) = 2 n'J e up to e^3, by central differences."""
+    scene, run = lifted
+    system = scene.of_mujoco
+    simulator = scene.simulator()
+    q = system.q_start
+
+    def phi(delta_q: Array) -> Array:
+        return simulator.closest_points(system.kinematics(system.integrate(q, delta_q))).phi
+
+    contacts = simulator.step(q, run.q_bar_a[0]).step.contacts
+    rows = np.einsum("jc,jci->ji", contacts.n, contacts.J[:, :3])[:, : system.n_v]
+    near = contacts.phi < FILLED
+    for i, e in enumerate(1e-6 * np.eye(system.n_v)):
+        rate = (phi(e) - phi(-e))[near] / 2e-6
+        np.testing.assert_allclose(rate, rows[near, i], atol=2e-8)
+
+
+class Stop(Observer):
+    """Ctrl-C before a step."""
+
+    def before(self, recorder: Any) -> None:
+        """After five steps."""
+        if recorder.steps == 5:
+            raise KeyboardInterrupt
+
+
+def test_a_run_that_is_interrupted_is_resumed_to_the_same_bits(
+    lifted: tuple[MujocoScenario, Any], tmp_path: Path
+) -> None:
+    """All arrays of the whole run."""
+    run = lifted[1]
+    short = mujoco_scenario(model(), targets=grasp, steps=8)
+    path = tmp_path / "run.npz"
+    with pytest.raises(RunFailed, match="interrupted"):
+        short.run(progress=False, save=path, save_every=0, observers=[Stop()])
+    other = mujoco_scenario(model(SCENE.replace(".8 .01", ".7 .01")), targets=grasp, steps=8)
+    with pytest.raises(InputError):
+        other.run(progress=False, save=path, resume=True)
+    short.run(progress=False, save=path, save_every=0, resume=True)
+    for name, array in trajectory_read(path).arrays.items():
+        np.testing.assert_array_equal(array, run[name][: len(array)])
+
+
+def test_a_body_that_crosses_the_margin_in_one_step_is_found() -> None:
+    """A ball 8 mm above the floor, pulled down by a motor with h^2 f / m = 20 mm a step."""
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
+    <body pos="0 0 .108"><joint name="z" type="slide" axis="0 0 1"/><geom size=".1" mass="1"/>
+    </body></worldbody><actuator><motor name="down" joint="z"/></actuator></mujoco>"""
+    scene = mujoco_scenario(model(text), targets=lambda t: {"down": -200.0}, steps=1, margin=0.004)
+    (finding,) = [f for f in scene.run(progress=False).findings if f.name == "crossed margin"]
+    assert finding.grave
+    assert finding.numbers["depth_mm"] == pytest.approx(12.0)
+
+
+BALL = '<body name="b"><joint name="j" type="hinge"/><geom size=".1"/>{}</body>'
+
+
+@pytest.mark.parametrize(
+    ("body", "rest", "field"),
+    [
+        ('<joint name="k"/>', '<equality><joint joint1="j" joint2="k" polycoef="0 0 1 0 0"/>'
+         "</equality>", "polycoef"),
+        ('<site name="s" pos=".1 0 0"/>', '<actuator><general biastype="affine" site="s" '
+         'refsite="f" gear="1 0 0 0 0 0" biasprm="0 -1 0"/></actuator>', "biasprm"),
+        ("", '<actuator><adhesion body="b" ctrlrange="0 1"/></actuator>', "actuator[0].body"),
+        ("", '<actuator><position joint="j" kp="-3"/></actuator>', "biasprm"),
+        ("", '<tendon><fixed stiffness="1" springlength="0 1"><joint joint="j" coef="1"/></fixed>'
+         "</tendon>", "springlength"),
+        ('<body pos="0 0 1"><joint/><geom size=".1"/></body>', '<contact><pair geom1="g" '
+         'geom2="f" friction="1 .5"/></contact>', "friction"),
+    ],
+)  # fmt: skip
+def test_what_no_run_has_is_refused_before_the_first_step(body: str, rest: str, field: str) -> None:
+    """By element and field."""
+    text = BALL.format(body).replace("<geom", '<geom name="g"', 1)
+    world = f'<worldbody><geom name="f" size=".1"/><site name="f"/>{text}</worldbody>'
+    with pytest.raises(QuasistaticError) as refused:
+        mujoco_scenario(model(f"<mujoco>{world}{rest}</mujoco>"))
+    assert field in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "says"),
+    [
+        ("time,up\n0,1\n", "begin with a row"),
+        ("t,up\n0,1,2\n", "row 2"),
+        ("t,up\n0,1\n0,2\n", "increase"),
+        ("t,lift\n0,1\n", "no actuator"),
+        ("t,up\n0,x\n", "row 2"),
+    ],
+)
+def test_a_table_that_is_none_is_refused(table: str, says: str, tmp_path: Path) -> None:
+    """With the file's name."""
+    path = tmp_path / "targets.csv"
+    path.write_text(table)
+    with pytest.raises(InputError, match=says):
+        mujoco_scenario(model(), targets=path)
+
+
+def test_joints_without_servos_have_springs_and_fields_their_names() -> None:
+    """A joint gives way by load / k; one with a servo takes no spring."""
+    text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
+    stiff = {"stiffness.lift": 1000.0, "stiffness.l": 1e6, "stiffness.r": 1e6}
+    scene = mujoco_scenario(model(text), settings=stiff, targets=lambda t: {"lift": 0.01}, steps=1)
+    run = scene.run(progress=False)
+    assert scene.system.of(run.q[-1], "hand/lift") == pytest.approx(0.01 - HAND * G / 1000)
+    with pytest.raises(InputError, match="has a servo"):
+        mujoco_scenario(model(), settings={"stiffness.lift": 1.0})
+    with pytest.raises(InputError, match=r"fast.*not for a MuJoCo scene"):
+        mujoco_scenario(model(), fast=True)
+
+
+def test_the_command_runs_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """With keyframes, a table and a page."""
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    out = ["--out", str(tmp_path), "--set", "steps=4"]
+    assert main(["run", str(path), "--targets", "open,closed,raised", "--view", *out]) == 0
+    assert "4 of 4 steps exact" in capsys.readouterr().out
+    assert (tmp_path / "scene.html").stat().st_size > 1000
+    run = trajectory_read(tmp_path / "scene.npz")
+    # Halfway the controls are those of "closed".
+    assert run.q_bar_a[1, 0] == pytest.approx(0.0, abs=1e-12)
+    assert run.q_bar_a[3, 0] == pytest.approx(0.05, abs=1e-12)
+    assert main(["run", "bunny_grasp", "--targets", "x.csv"]) == 2
