@@ -44,6 +44,7 @@ _HOMES = {
     "step.extension": "Extension",
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
+    "optional.guests.drake": "drake_step",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.opinion": "second_opinion",
     "optional.guests.scene": "mujoco_scenario",
