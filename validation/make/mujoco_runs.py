@@ -6,7 +6,8 @@ with motors alone have springs, and turn by 0.1, and so do those of a robot that
 body with ``mocap``, which lets go. One of them, in which a robot lifts a block, begins
 where MuJoCo's own simulation has brought its open fingers, and is interrupted once and resumed.
 Next to each a scene of ours runs with as many coordinates and rows, within 10 %: free bodies
-above a floor, each with a dome of points; the cost of steps is compared in turn, by the processor.
+above a floor, or the last link of an arm, each with a dome of points. The cost of steps is compared
+in turn, by the processor.
 Exit status 1 if a step is not certified, the block is not lifted, or steps of more than one scene
 cost three times those of ours.
 """
@@ -41,18 +42,18 @@ from validation.tools.scripts import asked, shown
 
 mujoco = import_module("mujoco")
 SAWYER = "metaworld/assets/sawyer_xyz"
-HANDS = "gymnasium_robotics/envs/assets"
+GYM = "gymnasium_robotics/envs"
 LIFT = f"{SAWYER}/sawyer_reach_push_pick_and_place.xml"
 SCENES = (
     LIFT, f"{SAWYER}/sawyer_push_v3.xml", f"{SAWYER}/sawyer_dial.xml",
     "metaworld/assets/objects/soccer_ball.xml", "metaworld/assets/objects/mug.xml",
-    f"{HANDS}/hand/reach.xml", f"{HANDS}/mujoco/assets/ant.xml",
-    f"{HANDS}/mujoco/assets/half_cheetah.xml", f"{HANDS}/mujoco/assets/walker2d.xml",
-    f"{HANDS}/mujoco/assets/pusher.xml", "dm_control/suite/reacher.xml",
+    f"{GYM}/assets/hand/reach.xml", f"{GYM}/mujoco/assets/ant.xml",
+    f"{GYM}/mujoco/assets/half_cheetah.xml", f"{GYM}/mujoco/assets/walker2d.xml",
+    f"{GYM}/mujoco/assets/pusher.xml", "dm_control/suite/reacher.xml",
     "dm_control/suite/finger.xml", "dm_control/suite/ball_in_cup.xml",
     "dm_control/suite/cheetah.xml", "dm_control/third_party/kinova/jaco_hand.xml",
     "robosuite/models/assets/grippers/panda_gripper.xml",
-    "robosuite/models/assets/grippers/robotiq_gripper_140.xml",
+    "robosuite/models/assets/grippers/rethink_gripper.xml",
     "robosuite/models/assets/objects/door.xml", "robosuite/models/assets/robots/baxter/robot.xml",
     "myosuite/envs/myo/assets/leg_soccer/soccer_assets/soccer_scene/soccer_ball.xml",
 )  # fmt: skip
@@ -180,9 +181,9 @@ def lifting(model: Any) -> MujocoScenario:
 def like(scene: MujocoScenario, rows: int) -> tuple[Simulator, Any]:
     """A scene of ours with as many coordinates and about as many rows, and where it starts."""
     n_v = scene.system.n_v
-    free = max(1, (n_v - 1) // 6)
+    free = (n_v - 1) // 6
     arm = n_v - 6 * free
-    k = max(1, round(rows / 4 / free))
+    k = max(1, round(rows / 4 / max(1, free)))
     dome = [[0.05 * np.sin(a) * np.cos(2.4 * i), 0.05 * np.sin(a) * np.sin(2.4 * i),
              -0.05 * np.cos(a)] for i, a in enumerate(np.linspace(0, 1, k))]  # fmt: skip
     links = "".join(
@@ -198,14 +199,15 @@ def like(scene: MujocoScenario, rows: int) -> tuple[Simulator, Any]:
     robot = f'<robot name="arm">{links}{joints}</robot>'
     system = System([Body("arm", robot, actuated="all", xyz=(0, 0, 1)), *bodies] if arm else bodies)
     floor = PlacedShape.in_world("floor", HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0))
+    touching = [f"b{i}" for i in range(free)] or [f"arm/l{arm}"]
     pairs = [
         ContactPair(
             f"p{i}", floor,
-            PlacedShape(f"c{i}", system.link(f"b{i}"), np.eye(3), np.zeros(3),
+            PlacedShape(f"c{i}", system.link(link), np.eye(3), np.zeros(3),
                         PointCloud(np.array(dome))),
             mu_v=0.5, mu_omega=0.0, rows=4, k=k,
         )
-        for i in range(free)
+        for i, link in enumerate(touching)
     ]  # fmt: skip
     return Simulator(system, pairs, h=0.01, K_q=STIFF if arm else np.zeros((0, 0))), system.q_start
 

@@ -47,7 +47,8 @@ def drake_step(
     h : float
         Time step [s].
     stiffness : mapping of str to float
-        Of actuated joints, which have one coordinate [N/m, N m/rad].
+        Of actuated joints, which have one coordinate [N/m, N m/rad], by name; ``arm::elbow`` where
+        several model instances have one of that name.
     targets : mapping of str to float, optional
         Their targets [m, rad]; by default where they are.
     margin : float
@@ -69,8 +70,10 @@ def drake_step(
     own = plant.CreateDefaultContext()
     own.SetTimeStateAndParametersFrom(context)
     plant.SetVelocities(own, np.zeros(plant.num_velocities()))
-    joints = {j.name(): j for i in plant.GetJointIndices() if (j := plant.get_joint(i))}
-    K, of_springs = springs(drake, plant, own, joints, stiffness, targets or {})
+    joints = {
+        scoped(plant, joint): joint for joint in map(plant.get_joint, plant.GetJointIndices())
+    }
+    K, of_springs = springs(drake, plant, own, named(joints), stiffness, targets or {})
     moving = [j for j in joints.values() if j.num_velocities() and not j.is_locked(own)]
     free = np.sort([j.velocity_start() + i for j in moving for i in range(j.num_velocities())])
     dofs = np.concatenate([free[K[free] > 0], free[K[free] == 0]])
@@ -92,6 +95,17 @@ def drake_step(
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
     left_out = tuple(words(plant, context))
     return step, Coordinates(names, dofs, T, left_out, 0.0)
+
+
+def scoped(plant: Any, joint: Any) -> str:
+    """The name of a joint behind that of its model instance, ``arm::elbow``."""
+    return f"{plant.GetModelInstanceName(joint.model_instance())}::{joint.name()}"
+
+
+def named(joints: Mapping[str, Any]) -> dict[str, Any]:
+    """Joints by their scoped names, and by their own where these are unique."""
+    own = [joint.name() for joint in joints.values()]
+    return {**joints, **{j.name(): j for j in joints.values() if own.count(j.name()) == 1}}
 
 
 def check(plant: Any) -> None:

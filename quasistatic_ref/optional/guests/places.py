@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.still import Still
@@ -152,11 +152,6 @@ class Places:
                 field[self.first[pair] + rank] = values
             every.phi[self.first[pair] + rank] = phi
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The pair of each place."""
-        return contact_layout(self.pairs).names
 
 
 def _filtered(state: Still) -> list[Any]:

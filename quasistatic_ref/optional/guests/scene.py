@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from io import StringIO
 from pathlib import Path
 from typing import Any, cast
@@ -21,13 +21,14 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.guests.settled import numbered
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.scenario.overrides import apply_settings
+from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets, piecewise_linear
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -56,7 +57,7 @@ class MujocoSimulator(Simulator):
         return points
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MujocoScenario(Scenario):
     """A MuJoCo scene, checked and ready to run; made by :func:`mujoco_scenario`.
 
@@ -66,7 +67,7 @@ class MujocoScenario(Scenario):
         Controls of all actuators, shape (nu,), and positions of joints by name, at a time [s].
     """
 
-    controls: Callable[[float], tuple[Array, dict[str, float]]] = field(kw_only=True)
+    controls: Callable[[float], tuple[Array, dict[str, float]]]
 
     @property
     def of_mujoco(self) -> MujocoSystem:
@@ -78,20 +79,8 @@ class MujocoScenario(Scenario):
         if extension is not None:
             raise InputError("is not taken by a MuJoCo scene", field="extension")
         system = self.of_mujoco
-        return MujocoSimulator(
-            system,
-            self.pairs,
-            h=self.h,
-            K_q=self.K_q,
-            gravity=self.gravity.tolist(),
-            gravity_acts=self.gravity_acts,
-            backend=self.backend,
-            accuracy=self.accuracy,
-            certify=self.certify,
-            cone=self.cone,
-            extension=system.extension if system.rows.names or len(system.rises) else None,
-            limits=self.limits,
-        )
+        own = system.extension if system.rows.names or len(system.rises) else None
+        return MujocoSimulator(**self.settings(), extension=own)
 
     @property
     def force(self) -> Callable[[float, Array], Array]:
@@ -145,7 +134,7 @@ def mujoco_scenario(
     model: Any,
     data: Any = None,
     targets: Driven = None,
-    settings: Sequence[str] | Mapping[str, Any] = (),
+    settings: Changes = (),
     path: str | Path = "scene.xml",
     **fields: Any,
 ) -> MujocoScenario:
@@ -221,6 +210,7 @@ def mujoco_scenario(
     if cone == ELLIPSOID and of_equalities:
         problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
         raise ModelError(problem, field=of_equalities[0].partition(" (")[0])
+    certify = value(solver, SOLVER, "certify")
     controls = controls_of(mujoco, model, data, steps * h, targets, system)
     free = system.q_start[: system.n_q_a]
     gravity = (
@@ -238,9 +228,17 @@ def mujoco_scenario(
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
         targets=Drawn(free, (), lambda t, q: system.target(q, *controls(t))),
-        backend=value(solver, SOLVER, "backend") or Scenario.backend,
+        backend=usable_backend(
+            value(solver, SOLVER, "backend"),
+            system,
+            system.places.pairs,
+            cone,
+            certify,
+            False,
+            True,
+        ),
         accuracy=value(solver, SOLVER, "accuracy"),
-        certify=value(solver, SOLVER, "certify"),
+        certify=certify,
         record=value(top, TOP, "record"),
         cone=cone,
         limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),

@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import columns_at
+from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
@@ -44,7 +46,7 @@ from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.tolerances import FULL_RANK
+from quasistatic_ref.tolerances import FILLED, FULL_RANK
 
 KINDS: dict[str, tuple[type[Joint], list[int]]] = {
     "FREE": (Floating, [0, 1, 2, 4, 5, 6, 3]),
@@ -167,6 +169,7 @@ class MujocoSystem(System):
         check(state)
         check_run(state)
         self.places = Places(state, margin)
+        self.layout = contact_layout(self.places.pairs)
         state.run()
         self._qpos = state.data.qpos.copy()
         of_state = loads(state)
@@ -337,9 +340,26 @@ class MujocoSystem(System):
             centre = data.subtree_com[model.body_rootid[model.dof_bodyid]]
             columns = np.concatenate([(along - np.cross(omega, centre)).T, omega.T])
             R, t = data.xmat.reshape(-1, 3, 3).copy(), data.xpos.copy()
-            points = self.places.points(state)
+            points = self._freed(self.places.points(state), columns)
             self._latest = bits, Placed(R, t, columns, self.column_map, points)
         return self._latest[1]
+
+    def _freed(self, points: ClosestPoints, columns: Array) -> ClosestPoints:
+        """The same places, in which a contact that nothing can open bears nothing.
+
+        Its bodies are in each other, and no joint moves them along its normal.
+        """
+        deep = np.flatnonzero(points.phi < 0)
+        if not len(deep):
+            return points
+        n = points.n[deep]
+        links = np.stack([self.layout.link_alpha[deep], self.layout.link_beta[deep]])
+        of_sides = columns_at(columns, np.array([points.alpha[deep], points.beta[deep]]), n)
+        of_alpha, of_beta = (self.column_map.moves[links] * of_sides)[:, :, :3]
+        held = deep[self.scale.empty(np.einsum("jc,jci->ji", n, of_beta - of_alpha))]
+        phi = points.phi.copy()
+        phi[held] = FILLED
+        return points._replace(phi=phi)
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix, with armatures, shape (n_u, n_u)."""
