@@ -57,7 +57,7 @@ def test_the_names_are_those_that_dir_shows():
     assert len(set(NAMES)) == len(NAMES)
 
 
-@pytest.mark.parametrize("name", marked(NAMES, dict.fromkeys(JAX, "jax")))
+@pytest.mark.parametrize("name", marked(NAMES, dict.fromkeys(JAX, "jax") | {"drake_step": "drake"}))
 def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = getattr(qr, name).__doc__

@@ -64,6 +64,25 @@ def drake_step(
     ------
     ModelError
         Naming what no step can say.
+
+    Examples
+    --------
+    >>> import pydrake.all as drake
+    >>> builder = drake.DiagramBuilder()
+    >>> plant, _ = drake.AddMultibodyPlantSceneGraph(builder, 0.0)
+    >>> ball = plant.AddRigidBody("ball", drake.SpatialInertia.SolidSphereWithMass(0.3, 0.1))
+    >>> rubs, at = drake.CoulombFriction(0.5, 0.5), drake.RigidTransform([0, 0, 0.1])
+    >>> here = drake.RigidTransform()
+    >>> _ = plant.RegisterCollisionGeometry(ball, here, drake.Sphere(0.1), "ball", rubs)
+    >>> floor = drake.HalfSpace()
+    >>> _ = plant.RegisterCollisionGeometry(plant.world_body(), here, floor, "floor", rubs)
+    >>> plant.Finalize()
+    >>> root = builder.Build().CreateDefaultContext()
+    >>> context = plant.GetMyContextFromRoot(root)
+    >>> plant.SetFreeBodyPose(context, ball, at)
+    >>> step, coordinates = qr.drake_step(plant, context, h=0.01, stiffness={})
+    >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
+    np.float64(2.943)
     """
     drake = needed_package("pydrake.all", "drake", "drake_step")
     check(plant)
