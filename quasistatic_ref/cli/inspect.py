@@ -63,6 +63,7 @@ def system_record(
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
         ],
+        "positions": [name for joint in system.joints for name in joint.positions],
         "mimics": [asdict(mimic) for mimic in system.mimics],
         "n_a": system.n_a,
         "n_u": system.n_u,
@@ -161,6 +162,7 @@ def _print(record: dict[str, Any]) -> None:
         stiffness = f"{c['K_q']:g} {'N/m' if c['unit'] == 'm' else 'N m/rad'}" if "K_q" in c else ""
         rows.append((c["name"], c["unit"], "yes" if c["actuated"] else "no", stiffness))
     shared.print_rows(rows)
+    shared.print_wrapped(f"the entries of q: {', '.join(record['positions'])}")
     for m in record["mimics"]:
         print(f"{m['name']} = {m['multiplier']:g} * {m['of']} + {m['offset']:g}")
     print()

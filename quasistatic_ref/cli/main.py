@@ -29,6 +29,8 @@ COMMANDS = {
     "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
     "targets": "write targets of joints that move a link along straight lines between poses",
     "extract": "write one step of a trajectory as a step file",
+    "serve": "answer steps that another program asks for, one at a time, over a pipe",
+    "compare": "say where the run of another program leaves the reference, and why",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers",
@@ -40,7 +42,18 @@ COMMANDS = {
 }
 SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""
-LABS = ("demo", "vectors", "validate", "study", "figures", "bench", "schema", SWEEP)
+LABS = (
+    "demo",
+    "serve",
+    "compare",
+    "vectors",
+    "validate",
+    "study",
+    "figures",
+    "bench",
+    "schema",
+    SWEEP,
+)
 """Commands that do something with the core rather than are part of it."""
 
 

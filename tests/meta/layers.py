@@ -56,6 +56,7 @@ LAB = (
     "lab/clouds",
     "lab/program",
     "lab/vectors",
+    "lab/oracle",
     "lab/study",
     "lab/bench",
     "lab/reality",

@@ -79,6 +79,7 @@ class Environment:
         words[0] = str(self.home / "bin" / words[0])
         return subprocess.run(
             words, cwd=place or self.folder, env=settings, capture_output=True, text=True,
+            stdin=subprocess.DEVNULL,
         )  # fmt: skip
 
 

@@ -7,17 +7,18 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.lab.commands.vectors_report import run_pack, run_report, vectors_given
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.folders import vectors_folder
 
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
-    "report": "write what an implementation passed: a page, a badge, and a record",
+    "report": "say what an implementation passed, and write it as a badge that holds it all",
     "challenge": "ask a program new cases, and show the smallest that it gets wrong",
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
     "pack": "write the vectors as one archive to be kept, with its SHA-256",
 }
-OUT = {"own": "answers", "report": "conformance", "pack": "."}
+OUT = {"own": "answers", "report": "badge.svg", "pack": "."}
 """Where an action writes; ``vectors`` otherwise."""
 
 
@@ -38,7 +39,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             action.add_argument("--only", metavar="PREFIX", action="append", default=[], help=words)
             action.add_argument("--case", metavar="ID", help="one case alone, number by number")
         else:
-            shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
+            file = {"metavar": "FILE", "help": "file for the badge"} if name == "report" else {}
+            shared.add(action, "--out", default=Path(OUT.get(name, "vectors")), **file)
         if name == "report":
             words = "its name and version; by default as the answers name themselves"
             action.add_argument("--implementation", metavar="NAME", help=words)
@@ -70,8 +72,6 @@ def _add_challenge(action: argparse.ArgumentParser) -> None:
     say("--jobs", type=int, default=1, metavar="J", help="processes that make cases (1)")
     say("--first", action="store_true", help="end after the first round that finds something")
     say("--again", type=Path, metavar="FILE", help="ask the case of a counterexample once more")
-    words = "answer cases on standard input: exactly, or as this package does in float64"
-    say("--serve", nargs="?", const="exact", choices=("exact", "own"), help=words)
     _add_digits(action)
     shared.add(action, "--out", default=Path("counterexamples"))
     shared.add(action, "--json")
@@ -92,7 +92,7 @@ def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
     from quasistatic_ref.lab.vectors.check.scope import scope_read
 
-    source = vectors_given(options)
+    source = _vectors(options)
     only = [options.case] if options.case else options.only
     report = check_answers(options.answers, source, options.layers, only=only,
                            digits=options.digits, scope=scope_read(options.scope))  # fmt: skip
@@ -126,10 +126,49 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
             shared.print_rows(side_by_side(record["output"], one.output))
 
 
+def _vectors(options: argparse.Namespace) -> Path:
+    """The folder of vectors of ``--vectors``; by default that which comes along."""
+    folder: Path | None = options.vectors
+    return vectors_folder() if folder is None else folder
+
+
+def _report(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.check.scope import scope_read
+    from quasistatic_ref.lab.vectors.conformance.badge import badge
+    from quasistatic_ref.lab.vectors.conformance.conformance import conformance
+
+    found = conformance(
+        options.answers, _vectors(options), options.implementation, options.digits,
+        scope_read(options.scope),
+    )  # fmt: skip
+    text_written(options.out, badge(found))
+    if options.json:
+        shared.print_json(found.record)
+        return found.report.status
+    if not options.quiet:
+        shared.print_rows(found.report.rows)
+        for sentence in found.sentences:
+            shared.print_wrapped(sentence)
+        print(f"wrote {options.out}")
+    elif not found.report.ok:
+        print(f"quasistatic-ref: {found.message}", file=sys.stderr)
+    return found.report.status
+
+
+def _pack(options: argparse.Namespace) -> int:
+    from quasistatic_ref.lab.vectors.pack import packed
+
+    path, code = packed(_vectors(options), options.out)
+    if not options.quiet:
+        print(f"wrote {path}")
+        print(f"SHA-256 {code}")
+    return 0
+
+
 def _generate(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.generate import generated
 
-    counts = generated(vectors_given(options), options.out, not options.quiet)
+    counts = generated(_vectors(options), options.out, not options.quiet)
     shared.print_rows([("layer", "cases"), *((name, str(n)) for name, n in counts.items())])
     print(f"wrote {sum(counts.values())} cases to {options.out}")
     return 0
@@ -141,16 +180,16 @@ def _own(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.layers import LAYERS
 
     names = [check_layer(name) for name in options.layers or LAYERS]
-    for path in own_written(vectors_given(options), options.out, names, not options.quiet):
+    for path in own_written(_vectors(options), options.out, names, not options.quiet):
         print(path)
     return 0
 
 
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
-    "report": run_report,
+    "report": _report,
     "challenge": _challenge,
     "generate": _generate,
     "own": _own,
-    "pack": run_pack,
+    "pack": _pack,
 }

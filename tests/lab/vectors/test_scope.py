@@ -10,7 +10,7 @@ from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
-from quasistatic_ref.lab.vectors.conformance.files import conformance
+from quasistatic_ref.lab.vectors.conformance.conformance import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
 from tests.lab.vectors.material import VECTORS, cases, expected, in_float32, right_answers
 

@@ -10,22 +10,18 @@ from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge, sent_again
-from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 
 
 def challenge_status(options: argparse.Namespace) -> int:
-    """Serve, ask one case again, or challenge; the exit status.
+    """Ask one case again, or challenge; the exit status.
 
     Raises
     ------
     InputError
         Of options that cannot be, and of a program that does not start.
     """
-    if options.serve is not None:
-        served(sys.stdin, sys.stdout, options.serve)
-        return 0
     if options.program is None:
         raise InputError("is missing: the program that is challenged", field="--command")
     for name in ("cases", "seconds", "timeout", "jobs", "digits"):

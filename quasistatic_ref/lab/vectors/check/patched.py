@@ -20,7 +20,8 @@ Program = Callable[[str, Json], Json]
 
 
 @cache
-def _text(file: str) -> str:
+def text_of_file(file: str) -> str:
+    """The text of a file of the program."""
     return (files(plain_program) / file).read_text("utf-8")
 
 
@@ -29,7 +30,7 @@ def _code(file: str, text: str) -> CodeType:
     return compile(text, file, "exec")
 
 
-def patched_texts(patch: str, text_of: Callable[[str], str] = _text) -> dict[str, str]:
+def patched_texts(patch: str, text_of: Callable[[str], str] = text_of_file) -> dict[str, str]:
     """The files that a patch changes.
 
     Parameters
@@ -68,8 +69,18 @@ def patched_texts(patch: str, text_of: Callable[[str], str] = _text) -> dict[str
 @cache
 def program(patch: str = "") -> Program:
     """The program, with a patch or without: a copy of its own."""
+    return program_of(patched_texts(patch))
+
+
+def program_of(changed: dict[str, str]) -> Program:
+    """The program with other texts of some of its files: a copy of its own.
+
+    Parameters
+    ----------
+    changed : dict of str to str
+        By file, as ``rows.py``.
+    """
     name = f"{plain_program.__name__}_{len(sys.modules)}_copy"
-    changed = patched_texts(patch)
     copies = {name: ModuleType(name)}
     sys.modules[name] = copies[name]
     try:
@@ -78,7 +89,7 @@ def program(patch: str = "") -> Program:
             copy.__package__ = name
             sys.modules[copy.__name__] = copies[copy.__name__] = copy
             file = f"{module}.py"
-            exec(_code(file, changed.get(file) or _text(file)), vars(copy))
+            exec(_code(file, changed.get(file) or text_of_file(file)), vars(copy))
     finally:
         for one in copies:
             del sys.modules[one]

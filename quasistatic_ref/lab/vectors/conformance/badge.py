@@ -1,11 +1,14 @@
 """A badge as SVG: one line that says against what, and exactly what was passed.
 
-Equal bytes for equal results. Texts are given their widths, so that no font of the reader's makes
+The file is the whole report: its description has all sentences, its metadata the record. Equal
+bytes for equal results. Texts are given their widths, so that no font of the reader's makes
 them overlap.
 """
 
+import json
 from html import escape
 
+from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 
 LABEL, GREEN, AMBER, RED, GREY = "#444444", "#1a7f37", "#8f5a00", "#b42318", "#57606a"
@@ -57,10 +60,12 @@ def badge(conformance: Conformance) -> str:
         f'<text x="{x:.1f}" y="14" textLength="{part:.1f}">{escape(text)}</text>'
         for x, part, text in zip((MARGIN, left + MARGIN), parts, (label, message), strict=True)
     )
+    said = "\n".join([*aligned(conformance.report.rows), *conformance.sentences])
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + right:.1f}" height="20" '
         f'viewBox="0 0 {left + right:.1f} 20" role="img" aria-label="{whole}">'
-        f"<title>{whole}</title>{shapes}"
+        f"<title>{whole}</title>\n<desc>{escape(said)}</desc>\n"
+        f"<metadata>{escape(json.dumps(conformance.record))}</metadata>\n{shapes}"
         '<g fill="#ffffff" font-family="Verdana,DejaVu Sans,Geneva,sans-serif" font-size="11">'
         f"{''.join(texts)}</g></svg>\n"
     )

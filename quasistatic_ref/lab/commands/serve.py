@@ -1,0 +1,40 @@
+"""``serve [SCENE ...]``: answer steps that another program asks for, over a pipe."""
+
+import argparse
+import sys
+
+from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.oracle.pipes import lines_served, numbers_served
+from quasistatic_ref.lab.oracle.served import Scenes
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of this command."""
+    words = "scenes that are known from the start: TOML files, or names of installed ones"
+    scenes = parser.add_argument("scenes", nargs="*", metavar="SCENE", help=words)
+    shared.completed(scenes, scenario_names, ".toml")
+    shared.add(parser, *shared.SOLVER, "--law", "--set", "--root")
+    words = "numbers in binary form in place of lines of JSON; scenes are those of the command"
+    parser.add_argument("--binary", action="store_true", help=words)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve until standard input ends.
+
+    Raises
+    ------
+    InputError
+        If a scene cannot be loaded, or numbers are asked for in binary form without any.
+    """
+    scenes = Scenes(shared.scenario_settings(options))
+    for scene in options.scenes:
+        scenes.add(scene)
+    if options.binary:
+        if not scenes.by_name:
+            raise InputError("is missing: numbers in binary form are of a scene", field="SCENE")
+        numbers_served(scenes, sys.stdin.buffer, sys.stdout.buffer)
+    else:
+        lines_served(scenes, sys.stdin, sys.stdout)
+    return 0

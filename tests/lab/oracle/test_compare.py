@@ -1,0 +1,126 @@
+"""A run that is wrong is told by step, layer, contact and cause; a right one is right."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.oracle import causes
+from quasistatic_ref.lab.oracle import comparison as comparison_of_runs
+from quasistatic_ref.lab.oracle.comparison import compared
+from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
+from quasistatic_ref.lab.oracle.scene_case import states_by
+from quasistatic_ref.lab.vectors.check.patched import program
+from tests.extras import marked
+
+PUSHED = "block_push"
+
+
+def table(path, scenario, q, first=0):
+    with path.open("w", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["t", *positions(scenario)])
+        for k, row in enumerate(q, first):
+            out.writerow([k * scenario.h, *row.tolist()])
+    return path
+
+
+def run_with(tmp_path, scene, patch, steps):
+    scenario = qr.load_scenario(scene)
+    made = program(patch)
+    q = states_by(scenario, lambda case: made("step", case), steps)
+    return table(tmp_path / "run.csv", scenario, q)
+
+
+def comparison(tmp_path, scene, patch, steps):
+    scenario = qr.load_scenario(scene)
+    return compared(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
+
+
+OF_ALL_KINDS = marked(["bunny_grasp", "stack", "panda_push"], {"panda_push": "robots"})
+
+
+@pytest.mark.parametrize("name", OF_ALL_KINDS)
+def test_the_plain_program_takes_the_step_of_a_scenario(name):
+    scenario = qr.load_scenario(name, steps=1)
+    q = states_by(scenario, lambda case: program()("step", case), 1)[-1]
+    own = scenario.run(progress=False).q[-1]
+    assert np.abs(scenario.system.difference(q, own)).max() < 1e-14
+
+
+def test_the_packages_own_run_is_right_from_npz_and_from_a_table(tmp_path, capsys):
+    scenario = qr.load_scenario(PUSHED, steps=5)
+    trajectory = scenario.run(progress=False)
+    run = str(trajectory.save(tmp_path / "run.npz"))
+    assert main(["compare", PUSHED, run, "--quiet"]) == 0
+    assert "5 steps, each as the reference takes it" in capsys.readouterr().out
+    path = table(tmp_path / "run.csv", scenario, trajectory.q[1:], first=1)
+    assert main(["compare", PUSHED, str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["steps"] == 5
+
+
+def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys):
+    patch = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
+    run = run_with(tmp_path, PUSHED, patch, 40)
+    assert main(["compare", PUSHED, str(run), "--quiet"]) == 1
+    said = " ".join(capsys.readouterr().out.split())
+    assert "is the first that is another" in said
+    assert "layer rows, contact " in said
+    assert "looks like sign of b: a row reads phi + A delta_q >= 0" in said
+
+
+def test_a_bug_of_one_line_is_found_in_its_layer(tmp_path, monkeypatch):
+    monkeypatch.setattr(causes, "FILES", ("mechanism",))  # the others take some seconds
+    turned = "mechanism.py:\n- slip = v_beta - v_alpha\n+ slip = v_beta"
+    found = comparison(tmp_path, PUSHED, turned, 60)
+    assert found.layers == ("jacobian",)
+    assert found.contact.startswith("push(")
+    assert any("'slip = v_beta - v_alpha' were 'slip = v_beta'" in cause.sentence
+               for cause in found.causes)  # fmt: skip
+
+
+def test_what_nothing_explains_has_a_layer_by_its_forces_alone(tmp_path, monkeypatch):
+    monkeypatch.setattr(comparison_of_runs, "causes", lambda *_: [])
+    patch = "distance.py:\n- phi = n @ (beta - pose_h[1]) - offset"
+    patch += "\n+ phi = n @ (beta - pose_h[1]) - offset + np.sin(beta[0]) * 1e-4"
+    found = comparison(tmp_path, PUSHED, patch, 60)
+    assert found.causes == ()
+    assert "distance" in found.layers
+    assert found.contact
+
+
+def test_numbers_of_few_digits_are_known_as_such_and_rest_is_not():
+    moving = np.random.default_rng(1).normal(size=(20, 7))
+    assert resolution(moving) == 0.0
+    assert resolution(moving.round(6)) == 1e-6
+    assert 1e-8 < resolution(moving.astype(np.float32).astype(float)) < 1e-6
+    assert resolution(np.tile([0.0, 0.05, 1.0], (20, 1))) == 0.0
+
+
+BAD = {
+    "t": ("t: is not among its columns", lambda rows: [["s", *rows[0][1:]], *rows[1:]]),
+    "times": ("t: must grow by h", lambda rows: [*rows[:2], [0.5, *rows[2][1:]], *rows[3:]]),
+    "words": ("row 3, ", lambda rows: [*rows[:2], [0.01, "x", *rows[2][2:]], *rows[3:]]),
+    "one row": ("is not a run", lambda rows: rows[:1]),
+}
+
+
+@pytest.mark.parametrize(("words", "change"), BAD.values(), ids=BAD)
+def test_a_table_that_is_no_run_gets_one_sentence(words, change, tmp_path, capsys):
+    path = run_with(tmp_path, PUSHED, "", 3)
+    rows = list(csv.reader(path.read_text().splitlines()))
+    with path.open("w", newline="") as file:
+        csv.writer(file).writerows(change(rows))
+    assert main(["compare", PUSHED, str(path)]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_a_scene_that_cases_cannot_hold_is_compared_without_causes():
+    scenario = qr.load_scenario("sphere_spin", law="coulomb", steps=3)
+    q = scenario.run(progress=False).q.copy()
+    q[2:, 0] += 1e-3
+    found = compared(scenario, OtherRun(0, q, 0.0))
+    assert (found.first.k, found.causes) == (1, ())
