@@ -111,7 +111,7 @@ np.set_printoptions(precision=8, suppress=False)  # a page before may have chang
 PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
 CLOSED_FORMS = (
-    "derivations", "certificates", "cones", "sensitivity", "derivatives", "distances",
+    "derivations", "certificates", "cones", "derivatives", "distances",
     "extensions", "time_step", "proofs", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""

@@ -456,39 +456,9 @@ def lifting():
     return {v: MASS * v / (4 - MASS * G) for v in (10, 30, 100, 300)}
 
 
-def sweep():
-    """Largest rotations of the sweep bunny_torsion [deg], and the deepest penetration [mm]."""
-    tables = {}
-    for heading in ("mu_omega and h", "stiffness of the grip", "closest points", "cone"):
-        rows = list(table("../studies/bunny_torsion/report.md", heading))
-        tables[heading] = [{plain(column): cell for column, cell in row.items()} for row in rows]
-    angle = "bunny.largest_rotation_deg"
-
-    def angles(heading, keeps):
-        return [float(row[angle]) for row in tables[heading] if keeps(row)]
-
-    cones = angles("cone", lambda row: True)
-    points = tables["closest points"]
-    return {
-        "none": angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) == 0),
-        "1 mm": angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) == 0.001),
-        "more": max(angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) >= 0.002)),
-        "soft": min(angles("stiffness of the grip", lambda row: float(row["K_width, N/m"]) <= 500)),
-        "many points": angles("closest points", lambda row: float(row["k, -"]) >= 5),
-        "deepest": -1e3
-        * min(
-            float(value)
-            for row in points
-            for name, value in row.items()
-            if name.endswith("least_distance_m")
-        ),
-        "cones": max(cones) - min(cones),
-    }
-
-
 def dials():
     """Median digits of contact-qp-2 with default settings, in the families that its page names."""
-    families = table("../studies/default/report.md", "By problem family")
+    families = table("../studies/default/summary.md", "By problem family")
     piqp = [float(row["native:piqp"]) for row in families]
     daqp = {name: families[name]["cvxpy:daqp"] for name in ("near_copies", "copies")}
     return daqp | {"least": min(piqp), "most": max(piqp)}

@@ -1,7 +1,5 @@
 """Numbers and printed output in README and docs/ are those of the results that they come from."""
 
-import re
-
 import pytest
 
 from quasistatic_ref.cli.main import main
@@ -19,7 +17,6 @@ PRINTED = {
     "docs/quickstart.md": "tests/quoted.toml: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/does_my_contact_hold.md": "tests/optional/guests/test_opinion.py",
-    "docs/guides/run_a_study.md": "below",
     "docs/findings.md": "tests/optional/doctor/test_observer.py and test_findings.py",
 }
 """Pages with text that a command printed, and what holds it."""
@@ -42,15 +39,6 @@ def test_every_number_with_a_unit_has_a_source_or_is_given_by_the_page(page):
 
 def test_every_page_with_printed_text_has_a_test_of_it():
     assert [page for page in PAGES if printed(text(page))] == sorted(PRINTED)
-
-
-def test_the_study_of_the_guide_prints_what_the_page_shows(tmp_path, monkeypatch, capsys):
-    page = text("docs/guides/run_a_study.md")
-    monkeypatch.chdir(tmp_path)
-    (study,) = re.findall(r"^```toml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    (tmp_path / "my_study.toml").write_text(study)
-    assert main(["study", "run", "my_study.toml", "--out", "my_study", "--quiet"]) == 0
-    assert capsys.readouterr().out.splitlines() == printed(page)[0].splitlines()
 
 
 def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys):

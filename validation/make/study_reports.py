@@ -1,9 +1,10 @@
 """The committed studies made again: ``python -m validation.make.study_reports [NAME...]``.
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
-that the numbers of the committed report are those of the committed rows. ``--report`` runs
+that the numbers of the committed summary are those of the committed rows. ``--report`` runs
 nothing: it judges the claims of the rows that are there again, by today's files of options, and
-reports them.
+reports them. Of the report, the figures and the sections that pages show are kept; whoever wants
+all of it writes it from the rows, by ``quasistatic-ref study report validation/studies/NAME``.
 
 ``bunny_torsion`` compares no solvers. It is the grasp with other values, run as by ``run --sweep``,
 but for 3 s whatever h is.
@@ -14,10 +15,14 @@ import tempfile
 import time
 
 from quasistatic_ref.cli.main import main as command
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.page.parts import Report
 from quasistatic_ref.lab.study.measuring.judging import judged_again, repacked
 from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
 from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from validation.tools.scripts import ROOT, asked
 
@@ -38,7 +43,16 @@ AXES = {
     "closest points": (Axis("k", K, (1, 2, 5, 10)),),
     "cone": (Axis("cone", ("cone",), ("pyramid", "facets-8", "product")),),
 }
+SHOWN = {"Who solves what", "Every interface", "Tolerances and digits", "By problem family",
+         "Steps in order", *AXES}  # fmt: skip
+"""Sections that are kept."""
 SWEEPS = [Sweep(name, "bunny_grasp", 3.0, axes) for name, axes in AXES.items()]
+
+
+def summary(report: Report) -> str:
+    """The page of what is kept of a report."""
+    shown = tuple(section for section in report.sections if section.title in SHOWN)
+    return markdown_page(Report(report.title, shown))
 
 
 def made(name: str, run: bool) -> None:
@@ -59,7 +73,9 @@ def made(name: str, run: bool) -> None:
             if command(["study", *step]):
                 sys.exit(f"study {step[0]} of {name} failed")
             print(f"{name}: {step[0]} ended after {time.perf_counter() - begun:.0f} s")
-    (FOLDER / name / "report.html").unlink()  # the same as Markdown and PNG; made at will
+    text_written(FOLDER / name / "summary.md", summary(study_report(out)))
+    for page in ("report.html", "report.md"):
+        (FOLDER / name / page).unlink()
 
 
 if __name__ == "__main__":

@@ -30,7 +30,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.metadata import distributions
 from pathlib import Path
-from textwrap import dedent
 
 from validation.tools.installs import (
     ACTIONS,
@@ -38,7 +37,6 @@ from validation.tools.installs import (
     COMMANDS,
     MARKED,
     REFUSED,
-    SCRIPTS,
     WALK_FILES,
 )
 from validation.tools.scripts import ROOT, asked, environment
@@ -126,17 +124,16 @@ def largest(home: Path) -> str:
     return ", ".join(f"{name} {size:.0f}" for name, size in named)
 
 
-def python_code(page: str, word: str) -> str:
-    """The fenced blocks of Python on a page of the checkout that hold a word, one after another."""
-    text = (ROOT / page).read_text("utf-8")
-    blocks = re.findall(r"^( *)```python\n(.*?)^\1```", text, re.MULTILINE | re.DOTALL)
-    return "\n".join(dedent(block) for _, block in blocks if word in block)
+def readme_code() -> str:
+    """The example of README."""
+    text = (ROOT / "README.md").read_text("utf-8")
+    (block,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    return str(block)
 
 
 def faults(at: Environment, extra: str) -> list[str]:
     """What is wrong with the commands of an extra, each printed as it runs."""
-    scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
-    for name, text in (scripts | WALK_FILES).items():
+    for name, text in {"readme.py": readme_code(), **WALK_FILES}.items():
         (at.folder / name).write_text(text, "utf-8")
     wrong = []
     for line in COMMANDS[extra]:

@@ -16,7 +16,7 @@ OWN = tuple(
 """Scenarios whose robots come along."""
 
 SHELL = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-FILE = re.compile(r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)^```", re.MULTILINE | re.DOTALL)
+EXAMPLES = ROOT / "docs" / "examples"
 
 
 def shell_lines(markdown: str) -> tuple[str, ...]:
@@ -28,9 +28,12 @@ def shell_lines(markdown: str) -> tuple[str, ...]:
 
 WALK = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
 """From a URDF to a picture: the page of which a newcomer types every command."""
-OPINION = (ROOT / "docs" / "guides" / "does_my_contact_hold.md").read_text("utf-8")
-WALK_FILES = dict(FILE.findall(WALK + OPINION))
-"""Their files, by the captions that name them."""
+WALK_FILES = {
+    path.name: path.read_text("utf-8")
+    for pattern in ("first_scene/*", "opinion/*", "diffcp_agrees.py")
+    for path in sorted(EXAMPLES.glob(pattern))
+}
+"""Its files, and those that other pages give to be downloaded."""
 
 ROBOTS = (
     "quasistatic-ref run panda_push --set steps=20 --json",
@@ -112,7 +115,7 @@ COMMANDS = {
     "drake": ("quasistatic-ref validate drake",),
     "pandas": PANDAS,
     "parquet": PARQUET,
-    "diff": ("python diff.py",),
+    "diff": ("python diffcp_agrees.py",),
     "jax": JAX,
     "study": STUDY,
     "notebooks": (
@@ -138,12 +141,6 @@ ACTIONS = {
 """Words that name a command below ``study`` or ``vectors``."""
 MARKED = ("fast", "jax", "node", "robots", "all")
 """Extras that tests need, by the marker ``extra``."""
-
-SCRIPTS = {
-    "readme.py": ("README.md", "solve_step"),
-    "diff.py": ("docs/sensitivity.md", "DIFFCP"),
-}
-"""Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
 
 REFUSED = {
     "base": {

@@ -14,7 +14,9 @@ from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.optional.fast.compiled.library import compiler
 from tests.lab.study import made_store
 
-PAGE = (Path(__file__).parents[3] / "docs" / "guides" / "add_your_solver.md").read_text("utf-8")
+DOCS = Path(__file__).parents[3] / "docs"
+PAGE = (DOCS / "guides" / "add_your_solver.md").read_text("utf-8")
+PROGRAM = (DOCS / "examples" / "hildreth.c").read_text("utf-8")
 
 
 def blocks(language):
@@ -25,10 +27,10 @@ def blocks(language):
 def folder(tmp_path, monkeypatch, importable):
     """An empty folder in which what the page shows was done: files, a compiler, a package."""
     monkeypatch.chdir(tmp_path)
-    (function,), (program,), (study, entries) = map(blocks, ("python", "c", "toml"))
+    (function,), (study, entries) = map(blocks, ("python", "toml"))
     Path("my_solver.py").write_text(function)
     Path("my_study.toml").write_text(study)
-    Path("hildreth.c").write_text(program)
+    Path("hildreth.c").write_text(PROGRAM)
     command = [*compiler(), "-O2", "-Wall", "-o", "hildreth", "hildreth.c", "-lm"]
     made = subprocess.run(command, capture_output=True, text=True)
     assert (made.returncode, made.stderr) == (0, "")

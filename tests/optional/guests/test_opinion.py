@@ -15,10 +15,9 @@ from quasistatic_ref.optional.guests.opinion import Opinion
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
 from tests.quoted import ROOT, flat, printed
-from validation.tools.installs import FILE
+from validation.tools.installs import WALK_FILES
 
 PAGE = (ROOT / "docs/guides/does_my_contact_hold.md").read_text("utf-8")
-SCENES = dict(FILE.findall(PAGE))
 NOSLIP = 'impratio="10" noslip_iterations="10"'
 WEAK = {"left": 0.001, "right": 0.001}
 GRAVITY = 9.81
@@ -36,11 +35,11 @@ def held(text: str) -> str:
 
 
 GUIDE = {
-    "capsule": (SCENES["capsule.xml"], 2, "grip"),
-    "mug": (SCENES["mug.xml"], 0, "grip"),
-    "mug, condim 4": (held(SCENES["mug.xml"]), 2, "grip"),
-    "mug, condim 4, weak": (held(SCENES["mug.xml"]), 0, "grip", WEAK),
-    "block": (SCENES["block.xml"], 2),
+    "capsule": (WALK_FILES["capsule.xml"], 2, "grip"),
+    "mug": (WALK_FILES["mug.xml"], 0, "grip"),
+    "mug, condim 4": (held(WALK_FILES["mug.xml"]), 2, "grip"),
+    "mug, condim 4, weak": (held(WALK_FILES["mug.xml"]), 0, "grip", WEAK),
+    "block": (WALK_FILES["block.xml"], 2),
 }
 
 
@@ -78,7 +77,7 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(
 
 def test_mujoco_creeps_as_its_documentation_says() -> None:
     """Slips are f R / b along each tangent of an elliptic contact, R with impratio in it."""
-    model = mujoco.MjModel.from_xml_string(SCENES["capsule.xml"])
+    model = mujoco.MjModel.from_xml_string(WALK_FILES["capsule.xml"])
     data = settled(model, 2, "grip")
     mujoco.mj_forward(model, data)
     force = np.zeros(6)
@@ -93,9 +92,9 @@ def test_mujoco_creeps_as_its_documentation_says() -> None:
 
 def test_options_that_are_named_end_the_creep(opinions: dict[str, Opinion]) -> None:
     assert [one.kind for one in opinions["capsule"].findings] == ["creeps"]
-    slower = SCENES["capsule.xml"].replace('impratio="1"', NOSLIP)
+    slower = WALK_FILES["capsule.xml"].replace('impratio="1"', NOSLIP)
     assert asked(slower, 2, "grip").findings == ()
-    slower = held(SCENES["mug.xml"]).replace('impratio="100"', NOSLIP)
+    slower = held(WALK_FILES["mug.xml"]).replace('impratio="100"', NOSLIP)
     assert asked(slower, 2, "grip").findings == ()
 
 
@@ -103,7 +102,7 @@ def test_options_that_are_named_end_the_creep(opinions: dict[str, Opinion]) -> N
 def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal: float) -> None:
     """2 mu N of m g, N = kp (control - position)."""
     control = dict.fromkeys(WEAK, normal / 1000 + 0.0001)
-    opinion = asked(held(SCENES["mug.xml"]), 0, "grip", control)
+    opinion = asked(held(WALK_FILES["mug.xml"]), 0, "grip", control)
     (found,) = opinion.findings
     assert (found.kind, found.body) == ("slides", "mug")
     assert found.number == pytest.approx(2 * 0.8 * normal / (0.3 * GRAVITY), rel=0.02)
@@ -180,7 +179,7 @@ def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(
     tmp_path: Any, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene = tmp_path / "block.xml"
-    scene.write_text(SCENES["block.xml"])
+    scene.write_text(WALK_FILES["block.xml"])
     command = ["opinion", str(scene), "--settle", "0.5", "--json", "--out", str(tmp_path / "out")]
     assert main(command) == 1
     record = json.loads(capsys.readouterr().out)
@@ -217,7 +216,7 @@ def test_what_cannot_be_asked_ends_with_2_and_is_named(
 
 
 def test_a_simulation_that_is_unstable_is_refused() -> None:
-    text = SCENES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
+    text = WALK_FILES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
         asked(text, 20, "grip")
 
