@@ -6,6 +6,7 @@ it.
 """
 
 import ast
+import json
 import re
 import sys
 from importlib.util import find_spec
@@ -22,6 +23,7 @@ from quasistatic_ref import __version__  # noqa: E402 the path has to be there f
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.study.file.fields import TABLES as STUDY  # noqa: E402 the path has to be there first
 from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
+from validation.tools.lectures import LECTURES, lesson, notebook  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -142,6 +144,7 @@ def setup(app):
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
     app.connect("html-page-context", _navigation_kept, priority=400)  # furo's is 500
+    app.connect("build-finished", _notebooks_written)
 
 
 def _expanded(app, docname, source):
@@ -149,13 +152,14 @@ def _expanded(app, docname, source):
 
     ``% fields of a scenario`` and ``% fields of a study`` are the tables by which these are read,
     ``% modules of quasistatic_ref/FOLDER`` is every module of that folder, ``% examples`` each
-    example.
+    example, ``% lessons`` each notebook of the course.
     """
     up = "../" * docname.count("/")
     text = source[0]
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
     text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
+    text = text.replace("\n% lessons\n", "\n" + "\n".join(map(_lesson, LECTURES)))
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% fields of a study\n", "\n" + reference_page(STUDY))
     text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
@@ -238,6 +242,27 @@ def _example(name):
 ```
 :::
 """
+
+
+def _lesson(name):
+    """A notebook of the course as part of a page: answers folded away, and its address."""
+    (_, head), *parts = lesson(name)
+    lines = [f"#{head}", f'<a href="../lessons/{name}.ipynb" download>{name}.ipynb</a>']
+    for kind, source in parts[1:-1]:  # without what counts the marks
+        code = source if kind == "text" else f"```python\n{source}\n```"
+        folded = f":::{{admonition}} Answer\n:collapsible: closed\n\n{code}\n:::"
+        lines.append(folded if kind == "answer" else code)
+    return "\n\n".join(lines)
+
+
+def _notebooks_written(app, failure):
+    """The notebooks that pages give to be downloaded."""
+    if failure is None and app.builder.format == "html":
+        folder = Path(app.outdir) / "lessons"
+        folder.mkdir(exist_ok=True)
+        for name in LECTURES:
+            text = json.dumps(notebook(name, answers=False), indent=1)
+            (folder / f"{name}.ipynb").write_text(text + "\n", "utf-8")
 
 
 # -- Docstrings are read in the source first: some habits of theirs are no markup ---------------

@@ -75,7 +75,8 @@ PAGE = """# States of others as steps
 
 Made by `python -m validation.make.guests` with MuJoCo {version}, of {packages}. Of their MJCF
 files, {models} load and have coordinates. Each settles in MuJoCo for 1.5 s (3000 steps at most),
-and its state is a step of 10 ms.
+and its state is a step of 10 ms. {quiet} of them touch nothing, are answered and have no finding:
+they have no row.
 
 {answered} are answered ({kinds}), {refused} refused. A step takes {middle:.0f} ms (median) and
 {longest:.1f} s at most. In {balanced} answers the forces, added up from MuJoCo's arrays, are in
@@ -303,6 +304,7 @@ def page(every: list[Found]) -> str:
          f"{f.ours:.4g}{'*' * f.several}", f"{f.off:.0e}", f"{f.theirs_off[0]:.0e}",
          len(f.left_out), differs(f), f.opinion)
         for f in every
+        if f.contacts or f.refused or f.opinion
     ]  # fmt: skip
     kinds = Counter(f.kind for f in answered)
     seconds = [f.seconds for f in answered]
@@ -310,6 +312,7 @@ def page(every: list[Found]) -> str:
         version=mujoco.__version__,
         packages=", ".join(PACKAGES),
         models=len(every),
+        quiet=len(every) - len(rows),
         answered=len(answered),
         refused=len(every) - len(answered),
         rest=len(rest),

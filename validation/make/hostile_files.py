@@ -117,7 +117,7 @@ def given(known: dict[str, Reader], number: int) -> tuple[str, str, Path]:
     path = Path(known[name].file)
     path.unlink(missing_ok=True)
     PLACES[place](path)
-    return what, name, path
+    return f"in the place of any file: {place}", name, path
 
 
 def bomb_names(names: list[str]) -> list[str]:

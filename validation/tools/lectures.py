@@ -1,15 +1,17 @@
 """Make the notebook of each lecture: text, tasks, and cells that say whether an answer is right.
 
-Run ``python -m validation.tools.lectures [--out FOLDER] [--answers] [--run]`` (extra
-``notebooks``). A lecture is a file of ``docs/lectures/`` whose cells begin with ``# %% setup``,
-``task``, ``answer`` or ``check``. Notebooks have no answers by default. With --run, each is
-executed with its answers; exit status 1 if one fails, gives less than all marks, or takes a minute
-of the processor.
+Run ``python -m validation.tools.lectures [--out FOLDER] [--answers] [--run]``. A lecture is a file
+of ``docs/lectures/`` whose cells begin with ``# %% setup``, ``task``, ``answer`` or ``check``.
+Notebooks have no answers by default. With --run (extra ``notebooks``), each is executed with its
+answers; exit status 1 if one fails, gives less than all marks, or takes a minute of the processor.
+The site shows each as a page, and gives its notebook to be downloaded.
 """
 
 import ast
+import json
 import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -63,10 +65,8 @@ def marks(name: str, answers: bool) -> dict[str, bool]:
     return dict(space["marks"])
 
 
-def notebook(name: str, answers: bool, *last: str) -> Any:
-    """A lecture as a notebook, with more code at its end."""
-    from validation.tools.notebooks import book
-
+def lesson(name: str) -> list[tuple[str, str]]:
+    """What a lecture shows, in order: ``text``, ``task``, ``answer`` after it, and ``code``."""
     text, parts = cells(name)
     title, _, body = text.partition("\n")
     made = [("text", f"# {title}\n{body}"), ("code", GRADES)]
@@ -75,17 +75,35 @@ def notebook(name: str, answers: bool, *last: str) -> Any:
             question = ast.get_docstring(ast.parse(code)) or ""
             made.append(("text", f"**Task.** {question}"))
             code = re.sub(r'\A""".*?"""\s*', "", code, count=1, flags=re.S)
-        if kind != ("task" if answers else "answer"):
-            made.append(("code", code))
-    return book([*made, *(("code", code) for code in (TOTAL, *last))])
+        made.append((kind if kind in ("task", "answer") else "code", code))
+    return [*made, ("code", TOTAL)]
+
+
+def book(parts: Iterable[tuple[str, str]]) -> dict[str, Any]:
+    """A notebook of Jupyter's format: cells of ``text``, or of code."""
+    made: list[dict[str, Any]] = []
+    for kind, source in parts:
+        cell = {"id": f"cell-{len(made)}", "metadata": {}, "source": source}  # the same every time
+        if kind == "text":
+            made.append({"cell_type": "markdown", **cell})
+        else:
+            made.append({"cell_type": "code", "execution_count": None, "outputs": [], **cell})
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    return {"cells": made, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def notebook(name: str, answers: bool, *last: str) -> dict[str, Any]:
+    """A lecture as a notebook, with more code at its end."""
+    left_out = "task" if answers else "answer"
+    shown = [part for part in lesson(name) if part[0] != left_out]
+    return book([*shown, *(("code", code) for code in last)])
 
 
 def fault(name: str) -> str:
     """What is wrong with a notebook that has its answers, or nothing."""
     from validation.tools.notebooks import executed
 
-    made = notebook(name, True, SPENT)
-    executed(made)
+    made = executed(notebook(name, True, SPENT))
     said, seconds = (cell.outputs[0]["text"].strip() for cell in made.cells[-2:])
     took = float(seconds)
     print(f"{name}: {said}, {took:.1f} s", flush=True)
@@ -95,12 +113,11 @@ def fault(name: str) -> str:
 
 def main() -> int:
     """Write, and run."""
-    import nbformat
-
     options = asked(__doc__, out=Path("lectures"), answers=False, run=False)
     options.out.mkdir(parents=True, exist_ok=True)
     for name in LECTURES:
-        nbformat.write(notebook(name, options.answers), options.out / f"{name}.ipynb")
+        text = json.dumps(notebook(name, options.answers), indent=1) + "\n"
+        (options.out / f"{name}.ipynb").write_text(text, "utf-8")
     print(f"wrote {len(LECTURES)} notebooks to {options.out}")
     wrong = [fault(name) for name in LECTURES] if options.run else []
     print("\n".join(filter(None, wrong)), end="")

@@ -7,12 +7,14 @@ Run ``python -m validation.tools.notebooks [NAME ...] [--out FOLDER]``, with the
 import ast
 import sys
 import time
-from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import repeat
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
+from validation.tools.lectures import book
 from validation.tools.scripts import asked
 
 try:
@@ -23,14 +25,13 @@ try:
 except ModuleNotFoundError as error:
     sys.exit(f"needs {error.name}: pip install 'quasistatic-ref[notebooks]'")
 
-KERNEL = {"name": "python3", "display_name": "Python 3", "language": "python"}
 KERNELS = 2
 """Notebooks that run at the same time."""
 PATIENCE = 600
 """Longest run of a cell [s]."""
 
 
-def notebook(name: str) -> nbformat.NotebookNode:
+def notebook(name: str) -> dict[str, Any]:
     """An example as a notebook: its text, its code, its numbers, its figure."""
     path = Path(example(name).__file__)
     text, code = parts(path.read_text("utf-8"))
@@ -47,24 +48,15 @@ DRAWN = """from quasistatic_ref.optional.show.figures import figure_style
 
 with figure_style():
     page = figure()"""
-CELLS = {"text": nbformat.v4.new_markdown_cell, "code": nbformat.v4.new_code_cell}
 
 
-def book(cells: Iterable[tuple[str, str]]) -> nbformat.NotebookNode:
-    """A notebook of cells: ``"text"`` or ``"code"``, and what stands in it."""
-    made = nbformat.v4.new_notebook()
-    made.cells = [CELLS[kind](source) for kind, source in cells]
-    for k, cell in enumerate(made.cells):
-        cell["id"] = f"cell-{k}"  # the same every time
-    made.metadata["kernelspec"] = KERNEL
-    return made
-
-
-def executed(made: nbformat.NotebookNode) -> None:
-    """Run a notebook in place, spoken to through files of its own: no ports."""
+def executed(content: dict[str, Any]) -> nbformat.NotebookNode:
+    """A notebook that has run, spoken to through files of its own: no ports."""
+    made = nbformat.from_dict(content)
     with TemporaryDirectory() as folder:
         config = Config({"KernelManager": {"transport": "ipc", "ip": f"{folder}/kernel"}})
         NotebookClient(made, timeout=PATIENCE, config=config).execute()
+    return made
 
 
 def parts(source: str) -> tuple[str, str]:
@@ -74,13 +66,14 @@ def parts(source: str) -> tuple[str, str]:
     return ast.get_docstring(tree) or "", "\n".join(lines[tree.body[1].lineno - 1 :])
 
 
-def run(name: str, made: nbformat.NotebookNode) -> str:
-    """Run a notebook in place; what is wrong with it, or nothing."""
+def run(name: str, out: Path) -> str:
+    """Run a notebook, and write it; what is wrong with it, or nothing."""
     start = time.perf_counter()
     try:
-        executed(made)
+        made = executed(notebook(name))
     except CellExecutionError as error:
         return f"{name}: {error}"
+    nbformat.write(made, out / f"{name}.ipynb")
     print(f"{name}: {time.perf_counter() - start:.1f} s", flush=True)
     numbers, drawn = (cell.outputs for cell in made.cells[2:])
     results = [output for output in numbers if output.output_type == "execute_result"]
@@ -94,12 +87,10 @@ def main() -> int:
     """Every notebook, or those that are named."""
     options = asked(__doc__, EXAMPLES, out=Path("notebooks"))
     options.out.mkdir(parents=True, exist_ok=True)
-    made = {name: notebook(name) for name in options.names or EXAMPLES}
+    names = options.names or EXAMPLES
     with ThreadPoolExecutor(KERNELS) as pool:
-        wrong = [fault for fault in pool.map(run, made, made.values()) if fault]
-    for name, content in made.items():
-        nbformat.write(content, options.out / f"{name}.ipynb")
-    print(f"wrote {len(made)} notebooks to {options.out}")
+        wrong = [fault for fault in pool.map(run, names, repeat(options.out)) if fault]
+    print(f"wrote {len(names) - len(wrong)} notebooks to {options.out}")
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0
 

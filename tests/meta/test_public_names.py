@@ -1,0 +1,56 @@
+"""What users write is frozen: names with their parameters, formats, fields of files and commands.
+
+A change stands in the changelog, old and new, and in the list, which ``python -m
+tests.meta.test_public_names`` writes again.
+"""
+
+import inspect
+from pathlib import Path
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli import main, solution_files
+from quasistatic_ref.cli.main import _actions as leaves
+from quasistatic_ref.cli.main import command_parser
+from quasistatic_ref.lab.study.file import fields
+from quasistatic_ref.lab.vectors import versions
+from quasistatic_ref.optional.runs import saved_files
+from quasistatic_ref.scenario import scenario_table
+from quasistatic_ref.simulate import trajectory
+from quasistatic_ref.step import files
+
+FORMATS = {
+    files.STEP_FORMAT: files.VERSION,
+    solution_files.SOLUTION_FORMAT: solution_files.VERSION,
+    scenario_table.FORMAT: scenario_table.VERSION,
+    trajectory.FORMAT: trajectory.VERSION,
+    saved_files.FORMAT: saved_files.VERSION,
+    fields.FORMAT: fields.VERSION,
+    versions.FORMAT: versions.FORMAT_VERSION,
+}
+LIST = Path(__file__).parents[1] / "public_names.txt"
+
+
+def frozen():
+    """A line for each name, format, table of a file, and command with its options."""
+    for name in sorted({*qr.__all__} - {"__version__"}):
+        try:
+            parameters = inspect.signature(getattr(qr, name)).parameters
+        except ValueError:  # an error that is given a sentence
+            parameters = ()
+        yield f"qr.{name}({', '.join(parameters)})"
+    for name, version in FORMATS.items():
+        yield f"{name} {version}"
+    for file, tables in (("scenario", scenario_table.TABLES), ("study", fields.TABLES)):
+        for table, own in tables.items():
+            yield f"{file}, {table}: {' '.join(sorted(own))}"
+    for leaf in sorted(leaves(command_parser(main.COMMANDS)), key=lambda leaf: leaf.prog):
+        options = (word for action in leaf._actions for word in action.option_strings)
+        yield " ".join([leaf.prog, *sorted(options)])
+
+
+def test_public_names_are_those_of_the_list():
+    assert LIST.read_text("utf-8").splitlines() == list(frozen())
+
+
+if __name__ == "__main__":
+    LIST.write_text("\n".join(frozen()) + "\n", "utf-8")
