@@ -6,6 +6,7 @@ The equations are the paper's, 1 to 13, with tests in tests/equations. Our own r
 
 import ast
 import re
+from importlib import import_module
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -78,3 +79,15 @@ def test_every_result_has_a_test_by_random_instances():
     pages = (path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md"))
     results = {int(n) for page in pages for n in DEFINED.findall(page)}
     assert tested == results
+
+
+def test_a_file_of_c_names_first_the_function_that_it_repeats_and_the_test_that_compares_them():
+    compiled = PACKAGE / "optional" / "fast" / "compiled" / "source"
+    for file in [*compiled.glob("*.c"), compiled / "fixed_point.h"]:
+        first = file.read_text().partition("\n\n")[0]
+        (test,) = re.findall(r"with (test_\w+\.py)|core: (test_\w+\.py)", first)
+        assert (ROOT / "tests" / "optional" / "fast" / "compiled" / "".join(test)).exists(), file
+        named = re.findall(r"\b(?!docs)(\w+(?:/\w+)+)\.(\w+)", first)
+        assert named or "No function of the core" in first, file
+        for module, name in named:
+            assert hasattr(import_module(f"quasistatic_ref.{module.replace('/', '.')}"), name), file

@@ -1,5 +1,5 @@
-/* The operations that all other files are made of, on numbers that show what a compiler has made of
-   them: selftest.py knows the bits and digits of the results. */
+/* No function of the core: test_selftest.py. The operations that all other files are made of, on numbers
+   that show what a compiler has made of them: selftest.py knows the bits and digits of the results. */
 
 #include "proof.h"
 

@@ -1,5 +1,5 @@
-/* Candidates for the contacts of two solids: corners on the other one, crossings, the closest pair.
-   contact/distance and contact/tied_faces. */
+/* contact/distance.every_candidate, with test_solids.py: candidates for the contacts of two solids, which
+   are corners on the other one (contact/tied_faces), crossings, the closest pair. */
 
 #include "solids.h"
 

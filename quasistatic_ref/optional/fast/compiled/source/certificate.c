@@ -1,4 +1,4 @@
-/* The optimum on a guessed working set, proved and rounded correctly: docs/exactness.md.
+/* certify/exact.group_optimum on a guess, with test_fast_certificate.py: docs/exactness.md.
 
    All numbers are in natural units, y = h lam: h H x - A_W'y = h g and A_W x = b_W. */
 

@@ -1,4 +1,4 @@
-/* Closest points of clouds on solids, among a short list of the points of each cloud.
+/* contact/distance.pair_closest_points of a cloud, from few of its points, with test_fast_pairs.py.
 
    docs/distances.md derives the two bounds that keep all other points out. */
 

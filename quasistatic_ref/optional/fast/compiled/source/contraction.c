@@ -1,4 +1,4 @@
-/* An inverse in float64, and what it proves: that a matrix is regular, and how far z is from z*.
+/* certify/minimiser.inverse, in float64 with a bound, with test_fast_certificate.py: how far z is from z*.
 
    With e = z* - z, r = f - K z and G = I - R K: e = R r + G e. If w >= |R| |r|, w > 0 and
    |G| w <= w / 2, let t be the largest |e_i| / w_i. Then |e| <= w + t w / 2, so that t <= 2; and I - G

@@ -1,4 +1,4 @@
-/* Where edges of boxes and meshes, or lines of capsules, cross along the pair's normal: contact/crossings. */
+/* contact/crossings.edge_crossings of boxes, meshes and lines of capsules, with test_solids.py. */
 
 #include "solids.h"
 

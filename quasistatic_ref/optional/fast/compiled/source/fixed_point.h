@@ -1,4 +1,4 @@
-/* Numbers of fixed point that are never rounded: whole multiples of 2^-896.
+/* certify/rational.Dyadic in whole multiples of 2^-896, never rounded, with test_fast_fixed_point.py.
 
    A Number is the sum of d[j] 2^(56 (j - 16)) over its digits from `low` to below `high`; digits
    are from -2^55 to 2^55, those of a float64, of which there are two at most, inside of +-2^56.

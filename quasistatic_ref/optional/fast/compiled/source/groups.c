@@ -1,5 +1,5 @@
-/* The groups of a step, each posed as a step of its own, in natural units of its own, and proved on
-   the rows that an answer presses: step/groups, optional/fast/proofs. */
+/* step/groups.group_steps, each in natural units of its own, with test_groups.py; and each proved on the
+   rows that an answer presses: optional/fast/proofs. */
 
 #include <string.h>
 

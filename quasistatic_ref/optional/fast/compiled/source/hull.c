@@ -1,4 +1,4 @@
-/* How far points are from a convex mesh: shapes/hull. */
+/* shapes/hull.distance_to_hull, with test_fast_pairs.py. */
 
 #include "solid.h"
 

@@ -1,4 +1,4 @@
-/* The system of a working set, without rounding, and one correction of its solution.
+/* certify/minimiser.rational_solution, one correction of it, with test_fast_certificate.py.
 
        ( h H  -A_W' ) (x)   (h g)
        ( A_W     0  ) (y) = (b_W),   y = h lam,   all in natural units. */

@@ -1,4 +1,4 @@
-/* solve/units: the natural units of a step, and its program in these.
+/* solve/units.units_of, and the program in these units, with test_natural.py.
 
    Units are powers of two, of lengths that are sums; BLAS takes those in an order of its own. A
    unit is decided only if it is the same for all that the sums of any order may come to. */

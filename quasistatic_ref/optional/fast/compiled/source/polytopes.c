@@ -1,4 +1,4 @@
-/* Closest points of two boxes, capsules or meshes: contact/solids/polytope_pair. */
+/* contact/solids/polytope_pair.polytope_pair of boxes, capsules and meshes, with test_solids.py. */
 
 #include "solids.h"
 

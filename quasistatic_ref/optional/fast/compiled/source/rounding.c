@@ -1,4 +1,4 @@
-/* The float64 nearest to a number of fixed point that is known to within a bound. */
+/* certify/rounding.nearest_numbers of fixed point within a bound, with test_fast_rounding.py. */
 
 #include <math.h>
 

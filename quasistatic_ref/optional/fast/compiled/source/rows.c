@@ -1,4 +1,4 @@
-/* Tangents, J, A and b of contacts from their closest points, Eqs. (2)-(8); the load of Eq. (13). */
+/* contact/jacobian.ContactGeometry.contacts, step/standard_form, Eqs. (2)-(8), with test_fast.py. */
 
 #include "scene.h"
 #include "solid.h"

@@ -1,4 +1,4 @@
-/* model/screw: sums q (+) delta_q and differences q_next (-) q of all joints.
+/* model/system.System.integrate and actuated_difference (model/screw), with test_fast.py.
 
    Sines and angles are correctly rounded: those of long double, where their error leaves no doubt
    about that, or else those of Python. */

@@ -1,4 +1,4 @@
-/* Closest points of pairs of solids: the ordinary case of contact/distance.
+/* contact/distance.pair_closest_points of two solids, in the ordinary case, with test_solids.py.
 
    Where a normal is one of several, or bodies are too far away for float64, a pair is not decided
    here, and Python measures it. */

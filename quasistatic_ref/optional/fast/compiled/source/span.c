@@ -1,4 +1,4 @@
-/* Whether rows combine those of the working set by how the rows of a contact are combined. */
+/* certify/dependence.follow, by how the rows of a contact are combined, with test_zeros.py. */
 
 #include "proof.h"
 

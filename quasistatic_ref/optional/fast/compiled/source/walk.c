@@ -1,5 +1,5 @@
-/* Other guesses of a working set: independent rows of one that has too many, and where walks in
-   float64 lead from one that is wrong. And by walks, which rows without slack some motion opens.
+/* certify/active_set.dual_active_set in float64, with test_walk.py: other guesses, independent rows of one
+   that has too many, where walks lead from a wrong one; which rows without slack some motion opens.
 
    A backend does not see rows that are violated by less than its tolerance, nor multipliers of the
    size of rounding, of which bodies at rest on each other have many. The proof of a guess does: it

@@ -1,5 +1,5 @@
-/* Zeros of the optimum on a working set, and what the rows without slack mean, decided without
-   rounding: docs/proofs.md.
+/* certify/dependence.follow and certify/degeneracy, with test_zeros.py: zeros of the optimum, and what
+   rows without slack mean, without rounding: docs/proofs.md.
 
    K z = f is solved modulo powers of p = 2^56 - 5. The digits of z to the base p, the last first, are
    d = K^-1 r mod p, where r is f at first, and (r - K d) / p from then on. */
