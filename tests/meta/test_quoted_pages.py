@@ -15,6 +15,7 @@ PRINTED = {
     "README.md": "tests/meta/test_readme.py",
     "docs/contributing.md": "tests/meta/test_reading_path.py: the calls of a step",
     "docs/quickstart.md": "tests/quoted.toml: the lines of demo",
+    "docs/guides/ask_step_by_step.md": "tests/lab/oracle/test_compare.py",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/does_my_contact_hold.md": "tests/optional/guests/test_opinion.py",
     "docs/findings.md": "tests/optional/doctor/test_observer.py and test_findings.py",

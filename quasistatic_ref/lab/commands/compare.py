@@ -74,9 +74,10 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
     else:
         off = first.off[np.abs(first.off).argmax()]
         name = _largest(found, scenario)
+        unit = scenario.system.coordinates[int(np.abs(first.off).argmax())].unit
         lines.append(
             f"step {first.k} (t = {first.k * scenario.h:g} s) is the first that is another: "
-            f"{first.digits:.1f} digits, {name} ends {off:.3g} too far; "
+            f"{first.digits:.1f} digits, {name} is off by {off:.3g} {unit}; "
             f"{found.steps} steps were compared"
         )
         layers = " or ".join(found.layers)
