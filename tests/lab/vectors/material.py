@@ -15,9 +15,8 @@ from quasistatic_ref.lab.vectors.trees import mapped
 
 ROOT = Path(__file__).parents[3]
 VECTORS = ROOT / "validation" / "vectors"
-JAVASCRIPT = LAYERS[1:7]
 NUMPY = LAYERS[:8]
-"""Layers that the runner in JavaScript and the plain program answer."""
+"""Layers that the plain program answers."""
 
 
 @functools.cache

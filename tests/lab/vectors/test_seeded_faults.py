@@ -1,25 +1,19 @@
-"""Mistakes planted in programs that work: each is caught, and the checker names it."""
-
-import json
-import shlex
-import subprocess
+"""Mistakes planted in the plain program: each is caught, and the checker names it."""
 
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
-from quasistatic_ref.lab.vectors.check.table import FACTOR, MISTAKES
+from quasistatic_ref.lab.vectors.check.table import FACTOR
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import (
     by_size,
-    cases,
     expected,
     report_on,
     right_answers,
     small_cases,
 )
-from validation.make import planted_bugs
 
 IMPOSSIBLE = (ArithmeticError, LookupError, TypeError, ValueError)
 """What a patched program raises in cases in which the mistake cannot be made."""
@@ -33,12 +27,11 @@ PATCHES = {
 NAMED = {
     (name, layer): patch
     for name, layer, patch in reversed(PATCHES.values())
-    if layer not in ("distance", "step")  # slower; those of JavaScript are named below
+    if layer not in ("distance", "step")  # slower
 }
 """The first patch of each mistake in each layer."""
 ALIKE = ["spin sign", "spin rows exchanged"]
 """Of a wrench: each is the other sign of the torque."""
-BUGS = {bug["name"]: bug for bug in planted_bugs.bugs()}
 
 
 def answered(layer, asked, patch):
@@ -48,16 +41,6 @@ def answered(layer, asked, patch):
             yield case, program(patch)(layer, case.input)
         except IMPOSSIBLE:
             continue
-
-
-def javascript(layer, asked, command):
-    """What a runner in JavaScript answers, by id; nothing of what it does not support."""
-    lines = [json.dumps({"id": c.id, "layer": layer, "input": c.input}) for c in asked]
-    said = subprocess.run(
-        shlex.split(command), input="\n".join(lines), capture_output=True, text=True, check=True
-    )
-    replies = [json.loads(line) for line in said.stdout.splitlines()[1:]]
-    return {reply["id"]: reply["output"] for reply in replies if "output" in reply}
 
 
 @pytest.mark.parametrize(("name", "layer", "patch"), PATCHES.values(), ids=PATCHES)
@@ -75,26 +58,6 @@ def test_a_patch_is_named(name, layer):
     assert report.count("failed") > 0
     wanted = ALIKE if layer == "wrench" and name in ALIKE else [name]
     assert [mistake.name for mistake in report.mistakes] == wanted
-
-
-@pytest.mark.extra("node")
-@pytest.mark.parametrize("name", BUGS)
-def test_a_bug_planted_in_javascript_is_named(name, tmp_path):
-    bug = BUGS[name]
-    planted_bugs.planted(bug["patch"], tmp_path)
-    layer = bug["patch"].partition("\n")[0].partition(": ")[2]
-    asked = cases("step") if layer == "step" else small_cases(layer)
-    command = planted_bugs.JAVASCRIPT.format(folder=tmp_path)
-    report = report_on(layer, javascript(layer, asked, command))
-    assert report.count("failed") > 0
-    named = [bug["mistake"]] if bug["mistake"] else []  # some have no name
-    assert [mistake.name for mistake in report.mistakes] == named
-
-
-def test_every_mistake_that_is_recognised_is_planted_in_javascript_too():
-    known = {one.name for one in MISTAKES if set(one.predictions) - {"derivative"}}
-    assert known == {bug["mistake"] for bug in BUGS.values()} - {""}
-    assert len(known) == 39
 
 
 def test_a_patch_whose_line_is_not_in_the_program_is_refused():

@@ -32,16 +32,23 @@ func floats(x []Number) []float64 {
 func inner(a, b []Number) Number {
 	sum := number(0)
 	for i := range a {
-		sum.Add(sum, times(a[i], b[i]))
+		if a[i].Sign() != 0 && b[i].Sign() != 0 {
+			sum.Add(sum, times(a[i], b[i]))
+		}
 	}
 	return sum
 }
 
-// solve is the solution of a symmetric positive definite system, by Cholesky's factors L D L'.
-func solve(matrix [][]Number, right []Number) []Number {
-	n := len(right)
-	L, D, x := make([][]Number, n), make([]Number, n), make([]Number, n)
-	for i := 0; i < n; i++ {
+// Factors are Cholesky's L D L' of a symmetric positive definite matrix.
+type Factors struct {
+	L [][]Number
+	D []Number
+}
+
+func factors(matrix [][]Number) Factors {
+	n := len(matrix)
+	L, D := make([][]Number, n), make([]Number, n)
+	for i := range L {
 		L[i] = make([]Number, n)
 		for j := 0; j <= i; j++ {
 			sum := matrix[i][j]
@@ -55,16 +62,20 @@ func solve(matrix [][]Number, right []Number) []Number {
 			}
 		}
 	}
-	for i := 0; i < n; i++ {
-		x[i] = right[i]
+	return Factors{L, D}
+}
+
+func (f Factors) solve(right []Number) []Number {
+	x := append([]Number{}, right...)
+	for i := range x {
 		for k := 0; k < i; k++ {
-			x[i] = minus(x[i], times(L[i][k], x[k]))
+			x[i] = minus(x[i], times(f.L[i][k], x[k]))
 		}
 	}
-	for i := n - 1; i >= 0; i-- {
-		x[i] = over(x[i], D[i])
-		for k := i + 1; k < n; k++ {
-			x[i] = minus(x[i], times(L[k][i], x[k]))
+	for i := len(x) - 1; i >= 0; i-- {
+		x[i] = over(x[i], f.D[i])
+		for k := i + 1; k < len(x); k++ {
+			x[i] = minus(x[i], times(f.L[k][i], x[k]))
 		}
 	}
 	return x
@@ -101,7 +112,7 @@ func multipliers(S [][]Number, s []Number) (lam []Number, farkas []float64) {
 				}
 				right[a] = S[i][p]
 			}
-			r := solve(matrix, right)
+			r := factors(matrix).solve(right)
 			for a := range r {
 				if tiny(number(0).Abs(r[a]), number(1)) {
 					r[a] = number(0)
@@ -163,14 +174,15 @@ func certificate(count, p int, working []int, r []Number) []float64 {
 }
 
 type Program struct {
-	H    [][]float64
-	G    []float64
-	A    [][]float64
-	B    []float64
-	S    [][]Number
-	s    []Number
-	rows [][]Number
-	free []Number
+	H       [][]float64
+	G       []float64
+	A       [][]float64
+	B       []float64
+	S       [][]Number
+	s       []Number
+	rows    [][]Number
+	free    []Number
+	hessian Factors
 }
 
 // prepare makes S = A H^-1 A' and s = A H^-1 g - b.
@@ -179,11 +191,12 @@ func (p *Program) prepare() {
 	for i := range p.H {
 		H = append(H, numbers(p.H[i]))
 	}
-	p.free = solve(H, numbers(p.G))
+	p.hessian = factors(H)
+	p.free = p.hessian.solve(numbers(p.G))
 	for i := range p.A {
 		row := numbers(p.A[i])
 		p.rows = append(p.rows, row)
-		columns = append(columns, solve(H, row))
+		columns = append(columns, p.hessian.solve(row))
 		p.s = append(p.s, minus(inner(row, p.free), number(p.B[i])))
 	}
 	for i := range p.rows {
@@ -206,10 +219,6 @@ func (p *Program) optimum() map[string]any {
 	if farkas != nil {
 		return map[string]any{"farkas": farkas}
 	}
-	var H [][]Number
-	for i := range p.H {
-		H = append(H, numbers(p.H[i]))
-	}
 	n := len(p.G)
 	impulse := make([]Number, n)
 	total := numbers(p.G)
@@ -220,7 +229,7 @@ func (p *Program) optimum() map[string]any {
 		}
 		total[j] = plus(total[j], impulse[j])
 	}
-	x := solve(H, total)
+	x := p.hessian.solve(total)
 	slack := make([]Number, len(p.rows))
 	for i := range p.rows {
 		slack[i] = minus(inner(p.rows[i], x), number(p.B[i]))

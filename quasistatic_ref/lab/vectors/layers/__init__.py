@@ -6,7 +6,7 @@ held against it. The oracle is
 - in ``selection``, ``jacobian``, ``rows``, ``wrench`` and ``integrate``, and for poses, tangents,
   H, g and forces of a ``step``: the plain program (``lab/program``) over exact numbers. Against it,
   the plain program in float64 tests rounding alone. Its formulas are tested by `own` and by the
-  JavaScript runner, which share no line with it;
+  ports of ``validation/ports``, which share no line with it;
 - for distances: ``vectors/distances``, which shares with the plain program rotations, the corners
   of shapes and the rules by which contacts are kept, and no distance;
 - for optima: the core's exact method. The plain program checks the conditions of each optimum;

@@ -1,0 +1,53 @@
+"""The ports' formulas are changed one place at a time, and names have places in them."""
+
+import re
+
+import pytest
+
+from quasistatic_ref.lab.vectors.check.table import MISTAKES
+from validation.make.port_changes import RULES, changes, switched
+from validation.make.port_mutants import causes, kept_apart
+from validation.tools.ports import PORTS, texts
+
+LIBRARIES = {
+    "go": {"bufio", "encoding/json", "fmt", "math", "math/big", "os", "path/filepath", "sort"},
+    "cpp": {
+        *("algorithm", "array", "cmath", "fstream", "iostream", "map", "numeric", "stdexcept"),
+        *("string", "vector", "gmpxx.h", "nlohmann/json.hpp"),
+    },
+}
+INCLUDED = {
+    "go": re.compile(r'^(?:import |\t)"([\w/]+)"$', re.MULTILINE),
+    "cpp": re.compile(r"^#include <(.*)>$", re.MULTILINE),
+}
+
+
+@pytest.mark.parametrize("name", LIBRARIES)
+def test_a_port_needs_nothing_of_this_package(name):
+    included = {one for text in texts(name).values() for one in INCLUDED[name].findall(text)}
+    assert included == LIBRARIES[name]
+
+
+@pytest.mark.parametrize("name", LIBRARIES)
+def test_a_change_is_of_one_line_and_each_kind_occurs(name):
+    found = list(changes(PORTS / name))
+    assert {one.kind for one in found} == {kind for kind, _, _ in RULES}
+    assert len({one.name for one in found}) == len(found) > 1000
+    for one in found:
+        lines = texts(name)[one.file].splitlines(keepends=True)
+        assert lines[one.line] == one.old != one.new
+        assert one.new.count("\n") == 1
+    apart = sum(kept_apart(one.name) for one in found)
+    assert 0.4 * len(found) < apart < 0.6 * len(found)
+
+
+def test_a_line_in_cpp_is_the_old_one_or_the_new_one():
+    first = next(one for one in changes(PORTS / "cpp") if one.old.strip().startswith("double w ="))
+    old, new = first.old.strip(), first.new.strip()
+    assert switched(first, 7) == (
+        f"double w = MUTANT == 7 ? double({new[11:-1]}) : double({old[11:-1]});"
+    )
+
+
+def test_every_mistake_that_is_named_has_its_places():
+    assert {one.name for one in MISTAKES if set(one.predictions) - {"derivative"}} <= set(causes())

@@ -1,0 +1,462 @@
+"""Mistakes in programs that the checker's rules were not written with, and what it says of each.
+
+Run ``python -m validation.make.port_mutants --records FILE --out FILE`` (hours; name a port for it
+alone). Every formula of the ports in ``validation/ports``, which were written from the README of
+the vectors, is changed mechanically, one place at a time (``port_changes``). Of the changed
+programs those are kept, ``--each`` of each port at most, that answer another number in a
+committed or random case. Each of these is
+
+- checked with the committed vectors, as ``vectors check`` does, layer by layer until something
+  fails, and
+- challenged, as ``vectors challenge`` does by default: 1,000 cases from seed 0, until something is
+  found. What is found is named in the same way; its case is not made smaller, which changes no
+  name.
+
+Half of the mutants, by a hash of their names, is kept apart: no rule is written while looking at
+them, and the page counts them only. The records have what is known of each, and a second run goes
+on from there; ``--each 0`` prints the page of what they hold. ``--part 0 --parts 2`` tries every
+other change.
+
+Exit status 1 if a right port is found wrong, or a mutant not at all.
+"""
+
+import hashlib
+import json
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import tomllib
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case
+from quasistatic_ref.lab.vectors.challenge.rounds import ROUND
+from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.compare import leaves
+from quasistatic_ref.lab.vectors.check.folder import answer_judged
+from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
+from quasistatic_ref.lab.vectors.check.scope import scope_read
+from quasistatic_ref.lab.vectors.check.verdict import FAILED
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.layers import LAYERS
+from validation.make.port_changes import Change, changes, switched
+from validation.tools.ports import PORTS, built, texts
+from validation.tools.scripts import ROOT, asked, shown
+
+VECTORS = ROOT / "validation" / "vectors"
+CAUSES = PORTS / "causes.toml"
+CASES = 1000
+"""Of a challenge by default."""
+MORE = 12
+"""Further cases of a layer in which something fails, by which a challenge names it."""
+PROCESSOR = 20
+"""After which a program is ended: it hangs [s]."""
+MEMORY = 2**31
+"""That it may ask for [B]."""
+EACH = 150
+"""Mutants of each port."""
+OTHER = 1e-6
+"""A number is another one from here on, relative to the largest of its field [-]."""
+ENVIRONMENT = {**os.environ, "GOGC": "800", "GOMAXPROCS": "1"}
+SWITCH = """#include <cstdlib>
+inline const int MUTANT = std::getenv("MUTANT") ? std::atoi(std::getenv("MUTANT")) : 0;
+"""
+"""Which mutant the program in C++ is, which is compiled once with all of them."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A case that is asked, and what is expected of it."""
+
+    id: str
+    layer: str
+    case: Json
+    record: Json
+
+
+@dataclass(frozen=True)
+class Program:
+    """How a program is started."""
+
+    path: Path
+    environment: Mapping[str, str] = field(default_factory=lambda: ENVIRONMENT)
+
+
+@dataclass
+class Found:
+    """What one way of looking says of a mutant.
+
+    Parameters
+    ----------
+    layer : str
+        The first that fails.
+    names : list of str
+        Of the mistakes that are named there.
+    kind : str
+        ``wrong``, ``error`` or ``hang``; empty if nothing is found.
+    """
+
+    layer: str = ""
+    names: list[str] = field(default_factory=list)
+    kind: str = ""
+
+
+@dataclass
+class Trial:
+    """What became of a mutant.
+
+    Parameters
+    ----------
+    name, kind : str
+    where : str
+        The function, and the line that was changed.
+    apart : bool
+        Whether it is of the half that no rule is written for.
+    outcome : str
+        ``other`` if it answers another number, else ``same`` or ``no program``.
+    check, challenge : Found
+    """
+
+    name: str
+    kind: str
+    where: str
+    apart: bool
+    outcome: str = "same"
+    check: Found = field(default_factory=Found)
+    challenge: Found = field(default_factory=Found)
+
+
+@dataclass
+class Seen:
+    """What some cases came to: whether an answer is another one, what fails, what is right."""
+
+    other: bool = False
+    failed: dict[str, list[Failed]] = field(default_factory=dict)
+    right: dict[str, list[Failed]] = field(default_factory=dict)
+    trouble: str = ""
+
+    def add(self, more: "Seen") -> None:
+        """What further cases came to."""
+        self.other = self.other or more.other
+        self.trouble = self.trouble or more.trouble
+        for mine, theirs in ((self.failed, more.failed), (self.right, more.right)):
+            for layer, ones in theirs.items():
+                mine.setdefault(layer, []).extend(ones)
+
+    @property
+    def found(self) -> Found:
+        """What is found, and named: in the first layer that fails."""
+        for layer in LAYERS:
+            if layer in self.failed:
+                with np.errstate(all="ignore"):  # answers may be any numbers
+                    named = mistakes_of(layer, self.failed[layer], self.right.get(layer, []))
+                return Found(layer, [one.name for one in named], self.trouble or "wrong")
+        return Found(kind=self.trouble)
+
+
+class Port:
+    """A port and its right answers.
+
+    Parameters
+    ----------
+    name : str
+    work : Path
+        A folder for programs.
+    """
+
+    def __init__(self, name: str, work: Path) -> None:
+        self.name = name
+        self.scope = scope_read(PORTS / name / "scope.toml")
+        self._work = work
+        self._right: dict[str, str] = {}
+        self._judged: dict[str, Failed] = {}
+        self.false_alarms: list[str] = []
+        self.program = Program(work / name)
+        if said := built(name, self.program.path):
+            raise SystemExit(said)
+
+    def within(self, questions: Sequence[Question]) -> list[Question]:
+        """Those that are of its scope."""
+        return [q for q in questions if self.scope.holds(q.layer, q.case, q.record)]
+
+    def mutants(self, most: int, part: int, parts: int) -> Iterator[tuple[Change, Program | None]]:
+        """Changes with their programs; None for one that does not compile."""
+        if self.name == "cpp":
+            yield from list(self._switched(most))[part::parts]
+            return
+        for change in list(changes(PORTS / self.name))[part::parts]:
+            lines = texts(self.name)[change.file].splitlines(keepends=True)
+            lines[change.line] = change.new
+            path = self._work / "mutant"
+            said = built(self.name, path, {change.file: "".join(lines)})
+            yield change, None if said else Program(path)
+
+    def _switched(self, most: int) -> Iterator[tuple[Change, Program]]:
+        """One program with many mutants, one a line; of what does not compile there is none."""
+        left: dict[tuple[str, int], tuple[int, Change, str]] = {}
+        for number, change in enumerate(changes(PORTS / self.name), 1):
+            text = switched(change, number)
+            if text is not None and len(left) < most:
+                left.setdefault((change.file, change.line), (number, change, text))
+        path = self._work / "switched"
+        while True:
+            lines = {file: text.splitlines() for file, text in texts(self.name).items()}
+            for (file, line), (_, _, text) in left.items():
+                lines[file][line] = text
+            changed = {file: "\n".join(text) + "\n" for file, text in lines.items()}
+            changed["main.cpp"] = SWITCH + changed["main.cpp"]
+            said = built(self.name, path, changed)
+            if not said:
+                break
+            places = re.findall(r"(\w+\.hpp):(\d+)[:,]", said)
+            wrong = {(file, int(line) - 1) for file, line in places} & left.keys()
+            if not wrong:
+                raise SystemExit(said)
+            for key in wrong:
+                del left[key]
+        for number, change, _ in left.values():
+            yield change, Program(path, {**ENVIRONMENT, "MUTANT": str(number)})
+
+    def look(self, program: Program, questions: Sequence[Question]) -> Seen:
+        """Ask a program, and judge what it answers otherwise than the port does."""
+        self._know(questions)
+        given = replies(program, questions)
+        seen = Seen()
+        for q in questions:
+            if q.id not in given:
+                return Seen(True, seen.failed, seen.right, "hang")
+            if given[q.id] == self._right[q.id]:
+                seen.right.setdefault(q.layer, []).append(self._judged[q.id])
+            elif '"output"' not in given[q.id]:
+                seen.other, seen.trouble = True, "error"
+            else:
+                seen.other = seen.other or differs(q, self._right[q.id], given[q.id])
+                one = self._verdict(q, given[q.id])
+                side = seen.failed if one.verdict.verdict == FAILED else seen.right
+                side.setdefault(q.layer, []).append(one)
+        return seen
+
+    def _know(self, questions: Sequence[Question]) -> None:
+        new = [q for q in questions if q.id not in self._right]
+        self._right |= replies(self.program, new)
+        for q in new:
+            self._judged[q.id] = self._verdict(q, self._right[q.id])
+            if self._judged[q.id].verdict.verdict == FAILED:
+                self.false_alarms.append(f"{q.id}: {self._judged[q.id].verdict.reason}")
+
+    @np.errstate(all="ignore")
+    def _verdict(self, q: Question, line: str) -> Failed:
+        case = Case(q.id, "", q.case)
+        output = json.loads(line)["output"]
+        return answer_judged(q.layer, case, q.record, output, Answers(), None, self.scope)
+
+
+def _limited() -> None:
+    """End a program that does not end."""
+    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR, PROCESSOR))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def replies(program: Program, questions: Sequence[Question]) -> dict[str, str]:
+    """The line of each answer by id; fewer if the program ended early."""
+    lines = (json.dumps({"id": q.id, "layer": q.layer, "input": q.case}) for q in questions)
+    done = subprocess.run(
+        [program.path], input="".join(f"{line}\n" for line in lines), capture_output=True,
+        text=True, env=program.environment, preexec_fn=_limited, check=False,
+    )  # fmt: skip
+    answers = done.stdout.splitlines()[1:]  # the first line says what the program is
+    return {q.id: line for q, line in zip(questions, answers, strict=False) if line.endswith("}")}
+
+
+@cache
+def committed(layer: str) -> list[Question]:
+    """The cases of a layer of the committed vectors."""
+    records = expected_read(VECTORS, layer)
+    inputs = inputs_read(VECTORS, layer)
+    return [Question(one.id, layer, one.input, records[one.id]) for one in inputs]
+
+
+@cache
+def fresh(layer: str, seed: tuple[int, ...], level: int) -> Question:
+    """A case of a challenge."""
+    case, record = fresh_case(layer, seed, level)
+    return Question("/".join(("live", layer, *map(str, seed))), layer, case, record)
+
+
+@cache
+def challenge_round(number: int, layers: tuple[str, ...]) -> list[Question]:
+    """The cases of one round of a challenge from seed 0."""
+    level = (EASY, PLAIN, HARD)[min(number, 2) if number < 3 else 1 + number % 2]
+    return [fresh(name, (0, number, i), level) for name in layers for i in range(ROUND[name])]
+
+
+def differs(q: Question, one: str, other: str) -> bool:
+    """Whether an answer has another number in a field that has one right value."""
+    a = json.loads(one)["output"]
+    b = json.loads(other)["output"]
+    flags = q.record["flags"]
+    free = [] if flags.get("unique_multipliers", True) else ["lam", "wrench"]
+    free += [] if flags.get("unique", True) else ["alpha", "beta", "n"]
+    if a.keys() != b.keys():
+        return True
+    for name in a.keys() - {*free, "farkas"}:
+        mine, theirs = dict(leaves(a[name])), dict(leaves(b[name]))
+        if mine.keys() != theirs.keys():
+            return True
+        size = max((abs(v) for v in mine.values() if isinstance(v, int | float)), default=0.0)
+        for path, value in mine.items():
+            if isinstance(value, str) or value is None:
+                same = value == theirs[path]
+            else:
+                same = abs(value - theirs[path]) <= OTHER * size
+            if not same:
+                return True
+    return False
+
+
+def tried(port: Port, change: Change, program: Program | None) -> Trial:
+    """Check and challenge a mutant."""
+    where = f"{change.place}: {change.old.strip()}"
+    trial = Trial(change.name, change.kind, where, kept_apart(change.name))
+    if program is None:
+        trial.outcome = "no program"
+        return trial
+    other = False
+    for layer in port.scope.layers:
+        seen = port.look(program, port.within(committed(layer)))
+        other = other or seen.other
+        if seen.failed or seen.trouble:
+            trial.check = seen.found
+            break
+    seen, sent, number = Seen(), 0, 0
+    while sent < CASES and not seen.failed and not seen.trouble:
+        here = challenge_round(number, port.scope.layers)
+        sent += len(port.within(here))
+        new = port.look(program, port.within(here))
+        seen.add(new)
+        again = [
+            fresh(name, (0, number, len(here), i), (PLAIN, HARD)[i % 2])
+            for name in new.failed
+            for i in range(MORE)
+        ]
+        seen.add(port.look(program, port.within(again)))
+        number += 1
+    trial.challenge = seen.found
+    if other or seen.other:
+        trial.outcome = "other"
+    return trial
+
+
+def kept_apart(name: str) -> bool:
+    """Whether a mutant is of the half that no rule is written for."""
+    return hashlib.sha256(name.encode()).digest()[0] % 2 == 1
+
+
+HEAD = """# Mistakes in programs that the checker's rules were not written with
+
+Made by `python -m validation.make.port_mutants`: each formula of [the ports in Go and
+C++](../ports/README.md) is changed by a program, one place at a time. Each changed program that
+answers another number is checked with the committed vectors, and challenged with the 1,000 cases
+that a challenge has by default, until something is found. *Right*: of the names that are given in
+the first layer that fails one belongs to the place that was changed
+(`validation/ports/causes.toml`); *wrong*: none does. Half of the mutants, by a hash of their
+names, is kept apart: no rule of the checker is written while looking at them, and they are counted
+only.
+"""
+VERDICTS = ("right", "wrong", "unnamed")
+
+
+@cache
+def causes() -> dict[str, re.Pattern[str]]:
+    """Of each mistake that has a name, the places in which it is made."""
+    return {name: re.compile(text) for name, text in tomllib.loads(CAUSES.read_text()).items()}
+
+
+def verdict(one: Json, way: str) -> str:
+    """What a way of looking says of a mutant: ``not found``, or one of VERDICTS."""
+    if not one[way]["kind"]:
+        return "not found"
+    names = one[way]["names"]
+    if not names:
+        return "unnamed"
+    return "right" if any(causes()[name].search(one["where"]) for name in names) else "wrong"
+
+
+def _row(label: str, ones: Sequence[Json]) -> tuple[object, ...]:
+    cells: list[object] = [label, len(ones)]
+    for way in ("check", "challenge"):
+        count = Counter(verdict(one, way) for one in ones)
+        cells += [len(ones) - count["not found"], *(count[name] for name in VERDICTS)]
+    return tuple(cells)
+
+
+def page(trials: Sequence[Json]) -> Iterator[str]:
+    """Both halves by kind and port; of the open one, what was not found or named wrong."""
+    yield HEAD
+    kept = [one for one in trials if one["outcome"] == "other"]
+    ways = [f"{way}: {name}" for way in ("check", "challenge") for name in ("found", *VERDICTS)]
+    for title, apart in (("The half that is open", False), ("The half that is kept apart", True)):
+        half = [one for one in kept if one["apart"] == apart]
+        kinds = sorted({one["kind"] for one in half})
+        rows = [_row(kind, [one for one in half if one["kind"] == kind]) for kind in kinds]
+        for name, label in (("go", "all in Go"), ("cpp", "all in C++"), ("", "all")):
+            rows.append(_row(label, [one for one in half if one["name"].startswith(name)]))
+        yield f"## {title}"
+        yield ""
+        yield from markdown_table(("kind", "mutants", *ways), rows)
+        yield ""
+    for wanted in ("not found", "wrong"):
+        yield f"## Open, and {wanted}"
+        yield ""
+        for one in kept:
+            seen = [way for way in ("check", "challenge") if verdict(one, way) == wanted]
+            if seen and not one["apart"]:
+                yield f"- {' and '.join(seen)}: `{one['name']}`"
+        yield ""
+
+
+def main() -> int:
+    """Try mutants, and print the page."""
+    options = asked(__doc__, ("go", "cpp"), out=Path, records=Path, each=EACH, part=0, parts=1)
+    done: dict[str, Json] = {}
+    if options.records and options.records.exists():
+        lines = options.records.read_text("utf-8").splitlines()
+        done = {one["name"]: one for one in map(json.loads, lines)}
+    alarms: list[str] = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name in (options.names or ("go", "cpp")) if options.each else ():
+            port = Port(name, Path(folder))
+            kept = 0
+            for change, program in port.mutants(2 * options.each, options.part, options.parts):
+                if change.name not in done:
+                    done[change.name] = asdict(tried(port, change, program))
+                    if options.records:
+                        with options.records.open("a") as file:
+                            file.write(json.dumps(done[change.name]) + "\n")
+                kept += done[change.name]["outcome"] == "other"
+                if kept >= options.each:
+                    break
+            alarms += port.false_alarms
+    shown("\n".join(page(list(done.values()))), options.out)
+    for alarm in alarms:
+        print(f"a right port is found wrong: {alarm}", file=sys.stderr)
+    lost = [
+        one
+        for one in done.values()
+        if one["outcome"] == "other" and not one["check"]["kind"] and not one["challenge"]["kind"]
+    ]
+    return int(bool(alarms or lost))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
