@@ -19,7 +19,6 @@ from quasistatic_ref.cli.time_step import time_step_record
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.cached_runs import grasp as run_of
 from quasistatic_ref.lab.claims.registry import BY_NAME
-from quasistatic_ref.lab.clouds import mug
 from quasistatic_ref.lab.clouds import rows as clouds_table
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples.grasps import grasp_against_mu_omega
@@ -336,8 +335,7 @@ def turns_of_clouds():
         "scans": [min(scans), max(scans)], "grips": len(grips),
         "right": ((margins >= 1) == held).sum(), "fail": fails.sum(),
         "soft": (fails & soft).sum(), "firm": (~held & (margins >= 1.5)).sum(),
-        "load": MASS * (G + SPEED / H), "sagitta": 1e6 * mug.rise(20),
-        "points": len(mug.handle_cloud(2e-3, np.random.default_rng(0))),
+        "load": MASS * (G + SPEED / H),
     }  # fmt: skip
 
 
@@ -476,17 +474,6 @@ def certified():
     steps = record("reality")["steps"]
     bound = record("reality")["largest_error_bound"]
     return steps | {"all": sum(steps.values()), "bound": bound}
-
-
-def ratios():
-    """What was identified in the ellipsoid, lengths in mm."""
-    found = {}
-    for name, entry in record("reality_identified").items():
-        own = entry | entry["cones"]["ellipsoid"]
-        lengths = ("ratio", "low", "high", "reverse", "published", "uniform")
-        found[name] = own | {key: 1e3 * own[key] for key in lengths}
-        found[name]["torsion"] = own["friction"] * own["ratio"]
-    return found
 
 
 def ablations():
