@@ -111,6 +111,12 @@ RESULTS = (
     to_file("mistakes"),
     to_file("guests"),
     to_file("mujoco_runs"),
+    Result(
+        "peer",
+        "validation.make.peer --out {temporary}/peer.md",
+        ("validation/results/peer.md", "validation/results/peer.json"),
+        (("peer.*", "validation/results"),),
+    ),
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),

@@ -37,6 +37,7 @@ MODULES = {
         "engines.mujoco_friction",
         "engines.by_hand",
         "engines.drake",
+        "engines.peer",
     ),
     "Measurements": ("measured.pushes",),
 }

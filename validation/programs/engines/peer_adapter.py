@@ -163,7 +163,7 @@ def main():
     stand_ins(source)
     from qsim.parser import QuasistaticParser
 
-    found = {}
+    found = {"models": MODELS}
     for name, model in MODELS.items():
         path = source / "models" / "q_sys" / f"{name}.yml"
         for solver in ("clarabel", "clarabel, tight", "osqp"):
