@@ -31,7 +31,7 @@ LIGHT = (1e-6,) * 3
 
 
 def arm(side: float) -> str:
-    """An arm of two links, each of spheres, in the plane of y and z."""
+    """An arm of two links, each of spheres, in the plane of y and z, to a `side`, +-1 [-]."""
     inertia = (0.0033,) * 3
     sphere = f'<geometry><sphere radius="{RADIUS}"/></geometry>'
     shapes = [
@@ -65,7 +65,7 @@ def ball() -> str:
 
 
 def ours(model: dict[str, Any]) -> Array:
-    """y, z and angle of the ball, and the joints of both arms, after each step [m, rad]."""
+    """y, z and angle of the ball, and joints of both arms, after each step, (steps, 7) [m, rad]."""
     start = model["start"]
     bodies = [
         Body(
