@@ -67,8 +67,8 @@ MOST_WORDS = 3
 
 
 HEAD = (
-    "model", "n_v", "contacts", "limits", "equalities", "cone", "answer", "fastest", "speed",
-    "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "MuJoCo off", "said",
+    "model", "n_v", "contacts", "cone", "answer", "fastest", "speed",
+    "deepest [mm]", "MuJoCo [N]", "here [N]", "off balance", "MuJoCo off",
     "why they differ", "second opinion",
 )  # fmt: skip
 PAGE = """# States of others as steps
@@ -84,11 +84,11 @@ balance to {limit:g} of the largest on each body, along the joints that move it 
 bear anything). {rest} rest and touch. In {agree} of them the sum of normal forces agrees with
 MuJoCo's to 1 %; in {deep} bodies are deeper than 1 mm in each other.
 
-Columns: active limits; rows of equalities; the certificate of the answer, or what refuses it;
+Columns: the certificate of the answer, or what refuses it;
 largest velocity in MuJoCo and of the answer [m/s, rad/s]; sums of normal forces, with a star where
 single forces are not unique and the proof's are added; how far the forces of the answer are from
 balance, over the largest; the same for MuJoCo's own forces without velocity, over the loads, in the
-norm of H^-1; how many sentences say what is left out; why sums of forces differ at rest:
+norm of H^-1; why sums of forces differ at rest:
 
 - "deep": bodies are deeper than 1 mm;
 - "left out": the difference is that of contacts which the step leaves out;
@@ -113,8 +113,6 @@ class Found:
     path: str
     n_v: int = 0
     contacts: int = 0
-    limits: int = 0
-    equalities: int = 0
     fastest: float = 0.0
     deepest: float = 0.0
     theirs: float = 0.0
@@ -128,7 +126,6 @@ class Found:
     kind: str = ""
     cone: str = ""
     refused: str = ""
-    left_out: tuple[str, ...] = ()
     opinion: str = ""
 
     @property
@@ -243,10 +240,6 @@ def census(path: Path, root: Path) -> Found | None:
     data = settled(model)
     mujoco.mj_forward(model, data)  # of the state after its last step
     found.contacts = int(data.ncon)
-    types = data.efc_type[: data.nefc]
-    limits = (mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT, mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON)
-    found.limits = int(np.isin(types, [int(kind) for kind in limits]).sum())
-    found.equalities = int(data.ne)
     found.fastest = float(np.abs(data.qvel).max())
     found.deepest = float(max((c.includemargin - c.dist for c in data.contact), default=0.0))
     forces = touches.forces(still(model, data), data)[:, 2]
@@ -255,7 +248,6 @@ def census(path: Path, root: Path) -> Found | None:
     try:
         step, coordinates = mujoco_step(model, data, H)
         found.cone = step.cone
-        found.left_out = coordinates.left_out
         answer = solve_step(step)
     except QuasistaticError as error:
         found.refused = f"{type(error).__name__}: {error}"
@@ -299,10 +291,10 @@ def page(every: list[Found]) -> str:
     answered = [f for f in every if not f.refused]
     rest = [f for f in answered if f.rests]
     rows = [
-        (f.path, f.n_v, f.contacts, f.limits, f.equalities, f.cone, f.kind or f.refused,
+        (f.path, f.n_v, f.contacts, f.cone, f.kind or f.refused,
          f"{f.fastest:.1e}", f"{f.speed:.1e}", f"{1e3 * f.deepest:.3g}", f"{f.theirs:.4g}",
          f"{f.ours:.4g}{'*' * f.several}", f"{f.off:.0e}", f"{f.theirs_off[0]:.0e}",
-         len(f.left_out), differs(f), f.opinion)
+         differs(f), f.opinion)
         for f in every
         if f.contacts or f.refused or f.opinion
     ]  # fmt: skip

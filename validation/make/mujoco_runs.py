@@ -69,7 +69,7 @@ MOST = 3.0
 COMPARED = 4
 """Steps of both that are compared."""
 HEAD = (
-    "scene", "n_v", "n_a", "pairs", "places", "rows", "steps", "certified", "findings",
+    "scene", "n_v", "n_a", "places", "rows", "steps", "certified", "findings",
     "cost of a step, over ours",
 )  # fmt: skip
 PAGE = """# Scenes of others that run
@@ -179,8 +179,11 @@ def lifting(model: Any) -> MujocoScenario:
 
 
 def like(scene: MujocoScenario, rows: int) -> tuple[Simulator, Any]:
-    """A scene of ours with as many coordinates and about as many rows, and where it starts."""
-    n_v = scene.system.n_v
+    """A scene of ours with as many coordinates and about as many rows, and where it starts.
+
+    Joint friction appends a coordinate each.
+    """
+    n_v = scene.system.n_v + len(scene.of_mujoco.rises)
     free = (n_v - 1) // 6
     arm = n_v - 6 * free
     k = max(1, round(rows / 4 / max(1, free)))
@@ -275,7 +278,7 @@ def ran(path: str, folder: Path) -> Ran:
     system = scene.of_mujoco
     found = Ran(
         path,
-        (system.n_v, system.n_a, len(scene.pairs), int(system.places.counts.sum()), rows),
+        (system.n_v, system.n_a, int(system.places.counts.sum()), rows),
         run.steps,
         Counter(map(str, run["certificate"])),
         run.failed,
