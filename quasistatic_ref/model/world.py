@@ -119,13 +119,19 @@ def world_of(bodies: Sequence[Body]) -> World:
         does not have.
     """
     urdfs: dict[str, Urdf] = {}
+    mesh_bytes = 0
     for body in checked_items(bodies, Body, "bodies"):
         if body.name in urdfs:
             problem = "is the name of two bodies; rename one"
             raise ModelError(problem, field="body.name", value=body.name)
         urdf = loaded_urdf(
-            body.urdf, base=body.base, actuated=body.actuated, package_dirs=body.package_dirs
+            body.urdf,
+            base=body.base,
+            actuated=body.actuated,
+            package_dirs=body.package_dirs,
+            mesh_bytes=mesh_bytes,
         )
+        mesh_bytes = urdf.mesh_bytes
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
     links = ["world"]

@@ -1,5 +1,6 @@
 """The ``[shapes.NAME]`` and ``[contacts.NAME]`` tables of a scenario."""
 
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -15,6 +16,7 @@ from quasistatic_ref.errors import InputError, ScenarioError, about_field
 from quasistatic_ref.formats.quoting import known_names, suggestion
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.mesh_files import MeshFiles
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
@@ -22,7 +24,7 @@ from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 
 Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
@@ -43,13 +45,15 @@ def placed_shapes(
     taken.
     """
     named: Shapes = {}
+    meshes = MeshFiles(folder)
     for name in world.names_left():
-        named[name] = [world_shape(name, world.table(name), folder)]
+        named[name] = [world_shape(name, world.table(name), meshes)]
     world.close()
     for i, link in enumerate(system.links):
         if i != WORLD:
             named[link] = [shape for shape in system.shapes if shape.link == i]
     named |= {shape.name: [shape] for shape in system.shapes}
+    clouds: dict[str, PointCloud] = {}
     for name, entry in entries.items():
         if name in named:
             problem = "is also the name of a body; choose another name"
@@ -58,20 +62,22 @@ def placed_shapes(
         if entry.cloud is None:
             named[name] = named[system.links[root]]
         else:
-            cloud = point_cloud(entry.cloud)
-            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), cloud)]
+            file = os.path.realpath(entry.cloud)
+            if file not in clouds:
+                clouds[file] = point_cloud(entry.cloud)
+            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), clouds[file])]
     return named
 
 
-def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
+def world_shape(name: str, table: TableReader, meshes: MeshFiles) -> PlacedShape:
     """One ``[shapes.NAME]`` table: exactly one solid, and where it stands.
 
     Parameters
     ----------
     name : str
     table : TableReader
-    folder : Path
-        Of the scenario, which a mesh must not leave.
+    meshes : MeshFiles
+        Those of the scenario.
 
     Raises
     ------
@@ -88,7 +94,7 @@ def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
     sizes = table.table(kinds[0])
     given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
     try:
-        shape = kind.made(folder, sizes.where, **given)
+        shape = kind.made(meshes, sizes.where, **given)
     except InputError as error:
         error.field = error.field if error.field and "." in error.field else sizes.where
         raise

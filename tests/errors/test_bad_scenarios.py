@@ -3,10 +3,13 @@
 import pytest
 
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.model.readers import mesh_files
+from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario import contacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
+from tests.model.urdf.urdf_texts import collision, link, robot, written
 from tests.oracles.records import toml_text
 
 BALL = "bodies/ball/"
@@ -201,3 +204,43 @@ def test_a_time_step_that_overflows_is_named(tmp_path, refused):
     out.mkdir()
     sentence = refused("run", path, "--set", "h=1e-310", "--out", out)
     assert sentence == "h: takes h K_q or M_u / h out of the range of float64 (got 1e-310)"
+
+
+CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+AGAIN = {
+    "mesh.filename": ("bodies", {"urdf": "mesh.urdf"}),
+    "shapes.again.mesh.file": ("shapes", {"mesh": {"file": "corners.obj"}}),
+}
+
+
+@pytest.mark.parametrize("field", AGAIN)
+def test_meshes_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch, field):
+    """It may name one large file a thousand times."""
+    monkeypatch.setattr(mesh_files, "LARGEST_MESHES", 1.5 * len(CORNERS))
+    written(tmp_path, CORNERS, "corners.obj")
+    written(tmp_path, robot(link("a", collision('<mesh filename="corners.obj"/>'))), "mesh.urdf")
+    table, of_one = AGAIN[field]
+    scene = changed(SCENE, (f"{table}/one", of_one))
+    load_scenario(scene_written(tmp_path, scene))
+    with pytest.raises(QuasistaticError, match="more than") as caught:
+        load_scenario(scene_written(tmp_path, changed(scene, (f"{table}/again", of_one))))
+    assert str(caught.value.field).endswith(field)
+
+
+def test_a_cloud_that_many_bodies_have_is_read_once(tmp_path, monkeypatch):
+    read = []
+
+    def counted(path):
+        read.append(path.name)
+        return point_cloud(path)
+
+    monkeypatch.setattr(contacts, "point_cloud", counted)
+    scene = SCENE
+    for name in "abc":
+        table = {"urdf": "ball.urdf", "cloud": f"{name}.xyz"}
+        scene = changed(scene, (f"bodies/{name}", table))
+    (tmp_path / "a.xyz").symlink_to("cloud.xyz")
+    (tmp_path / "b.xyz").symlink_to("a.xyz")
+    (tmp_path / "c.xyz").write_text("0 0 1\n")
+    load_scenario(scene_written(tmp_path, scene))
+    assert read == ["a.xyz", "c.xyz"]

@@ -36,7 +36,7 @@ FILES = (
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
 """Of each file, lines that are not refused, and why these mutants change no answer."""
 COMPILERS = "compilers"
-SECONDS = 8
+SECONDS = 4
 """A mutant that takes longer of the processor does not end, and is refused."""
 PATIENCE = 120
 """The same by the clock [s]: a mutant may sleep."""
@@ -152,35 +152,34 @@ class Builder:
     ----------
     folder : Path
         Of what is made.
-    quickly : str
-        How files are compiled.
+    plainly : str
+        How files are compiled that did not change.
     """
 
-    def __init__(self, folder: Path, quickly: str = "-O1") -> None:
+    def __init__(self, folder: Path, plainly: str = "-O1") -> None:
         self.folder = folder
-        self.quickly = quickly
+        self.plainly = plainly
         self.plain: dict[str, bytes] = {}
         for file in library.SOURCE.glob("*.[ch]"):
             (folder / file.name).write_text(file.read_text())
         self.objects = sorted(file.stem for file in library.SOURCE.glob("*.c"))
-        assert self.compiled(self.objects)
+        assert self.compiled(self.objects, plainly)
         self.plain = {name: (folder / f"{name}.o").read_bytes() for name in self.objects}
         self.of_header = [
             name for name in self.objects if "proof.h" in (folder / f"{name}.c").read_text()
         ]
 
-    def compiled(self, names: list[str], more: str = "") -> bool:
-        """Compile some files, quickly, or with `more` flags as they are; whether that is done."""
-        flags = [flag for flag in library.FLAGS if flag != "-shared"]
-        flags += more.split() if more else [self.quickly]
+    def compiled(self, names: list[str], more: str) -> bool:
+        """Compile some files, with `more` flags than the package's; whether that is done."""
+        flags = [*(flag for flag in library.FLAGS if flag != "-shared"), *more.split()]
         files = [f"{name}.c" for name in names]
         strict = ["-Werror=incompatible-pointer-types", "-Werror=int-conversion", "-w"]
         command = [*library.compiler(), *flags, *strict, "-c", *files]
         done = subprocess.run(command, cwd=self.folder, capture_output=True, check=False)
         return done.returncode == 0
 
-    def outcome(self, file: str, text: str, more: str = "") -> str:
-        """What a library comes to of which a file is changed, or compiled with `more` flags.
+    def outcome(self, file: str, text: str, more: str = "-O0") -> str:
+        """What a library comes to of which a file is changed, or compiled with other flags.
 
         Returns
         -------
@@ -194,14 +193,16 @@ class Builder:
             changed.write_text(text)
             if not self.compiled(names, more):
                 return "does not compile"
-            made = [(self.folder / f"{name}.o").read_bytes() for name in names]
-            if text != before and made == [self.plain[name] for name in names]:
-                return "same code"
             out = self.folder / "mutant.so"
             objects = [f"{name}.o" for name in self.objects]
             linking = [*library.compiler(), "-shared", "-o", str(out), *objects, "-lm"]
             subprocess.run(linking, cwd=self.folder, check=True)
-            return tested(out)
+            said = tested(out)
+            if said or text == before:
+                return said
+            self.compiled(names, self.plainly)
+            made = [(self.folder / f"{name}.o").read_bytes() for name in names]
+            return "same code" if made == [self.plain[name] for name in names] else ""
         finally:
             changed.write_text(before)
             for name in names:

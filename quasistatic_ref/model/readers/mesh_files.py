@@ -1,6 +1,7 @@
 """Mesh files: which file a URI means, and the convex hull of what it holds."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,35 @@ from quasistatic_ref.step.arrays import Array, Indices
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
 LARGEST_MESHES = 16 * 2**20
-"""Largest sum of the meshes of a URDF [bytes], which take up to 7 s and 1.6 GiB."""
+"""Largest sum of the meshes of all URDFs, and of a scenario's own [bytes]; each takes up to 7 s
+and 1.6 GiB."""
 
 
-def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Path:
+@dataclass
+class MeshFiles:
+    """Meshes whose sum is limited.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the file that names them.
+    package_dirs : sequence of str or Path
+    size : int
+        Of all that have been named so far [bytes]; a mesh counts as often as it is named.
+    """
+
+    folder: Path
+    package_dirs: Sequence[str | Path] = ()
+    size: int = 0
+
+    def path(self, uri: str) -> Path:
+        """The file of one more, as :func:`mesh_path`; ModelError if they are too large in all."""
+        path = mesh_path(uri, self.folder, self.package_dirs, self.size)
+        self.size += path.stat().st_size
+        return path
+
+
+def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path], size: int = 0) -> Path:
     """The file that a mesh's URI means.
 
     Parameters
@@ -30,6 +56,8 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     folder : Path
         Of the file that the URI stands in.
     package_dirs : sequence of str or Path
+    size : int
+        Of meshes that were named before [bytes].
 
     Raises
     ------
@@ -65,18 +93,14 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
             "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
         )
         raise ModelError(problem, value=uri)
-    check_size(path.stat().st_size)
+    size += path.stat().st_size
+    if size > LARGEST_MESHES:
+        most = LARGEST_MESHES / 2**20
+        problem = f"brings the meshes to more than {most:g} MiB; give it simpler ones"
+        raise ModelError(problem, value=size)
     if path.suffix.lower() == ".dae":
         needed_part("readers.dae", "a .dae mesh").check_dae(path)
     return path
-
-
-def check_size(size: int) -> None:
-    """ModelError if these are more bytes of meshes than a URDF may have."""
-    if size > LARGEST_MESHES:
-        most = LARGEST_MESHES / 2**20
-        problem = f"brings the meshes of this file to more than {most:g} MiB; give it simpler ones"
-        raise ModelError(problem, value=size)
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:

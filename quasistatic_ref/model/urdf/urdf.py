@@ -17,6 +17,7 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
+from quasistatic_ref.model.readers.mesh_files import MeshFiles
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
@@ -53,6 +54,8 @@ class Urdf:
     notes : tuple of str
         Where the model differs from its file: meshes as hulls, inertias that no body can have and
         that M_u does not need.
+    mesh_bytes : int
+        The size of its mesh files, and of those before it [bytes].
     """
 
     file: UrdfFile
@@ -62,6 +65,7 @@ class Urdf:
     links: tuple[str, ...]
     shapes: tuple[PlacedShape, ...]
     notes: tuple[str, ...]
+    mesh_bytes: int
 
 
 def loaded_urdf(
@@ -70,6 +74,7 @@ def loaded_urdf(
     base: str = "fixed",
     actuated: Sequence[str] = (),
     package_dirs: Sequence[str | Path] = (),
+    mesh_bytes: int = 0,
 ) -> Urdf:
     """One URDF, loaded and compared with its file.
 
@@ -84,6 +89,8 @@ def loaded_urdf(
         physically consistent.
     package_dirs : sequence of str or Path
         Where ``package://`` URIs are looked for.
+    mesh_bytes : int
+        The size of the mesh files that were loaded before, for other bodies [bytes].
 
     Raises
     ------
@@ -95,15 +102,16 @@ def loaded_urdf(
         moving = _moving_joints(file, base)
         unactuated = [] if actuated == "all" else [name for name in moving if name not in actuated]
         inertias = checked_inertias(file, unactuated, base)
-        text = resolved_text(file, package_dirs)
+        meshes = MeshFiles(file.path.parent, package_dirs, mesh_bytes)
+        text = resolved_text(file, meshes)
         model, geometry = _loaded(text, base)
         _check_names(file, model, moving)
         _check_poses(file, model)
         _check_inertias(file, model)
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
-        shapes, meshes = checked_shapes(file, model, geometry, links, frames)
-    return Urdf(file, text, base, model, links, shapes, (*inertias, *meshes))
+        shapes, hulls = checked_shapes(file, model, geometry, links, frames)
+    return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls), meshes.size)
 
 
 def body_frame(model: Any, link: str) -> int:

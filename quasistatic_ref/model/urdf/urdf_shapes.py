@@ -1,19 +1,13 @@
 """The collision shapes of a URDF as pinocchio loaded them, compared with what its file says."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import tostring
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh_files import (
-    check_size,
-    hull_note,
-    hull_of_loaded,
-    mesh_path,
-)
+from quasistatic_ref.model.readers.mesh_files import MeshFiles, hull_note, hull_of_loaded
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
     InlineMesh,
@@ -27,7 +21,7 @@ from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
 
-def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
+def resolved_text(file: UrdfFile, meshes: MeshFiles) -> str:
     """What pinocchio is given: the file's text without what the model ignores in its links.
 
     Visuals are left out, and so is <collision_checking>, by which pinocchio takes a shape for
@@ -40,7 +34,6 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
         If a mesh is not to be found where it may be, or they are too large.
     """
     robot = xml_root(file.text)
-    size = 0
     for link in robot.findall("link"):
         for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
             link.remove(ignored)
@@ -48,10 +41,7 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
             files = [m for m in collision.findall("geometry/mesh") if not is_inline(m)]
             for mesh in files:
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
-                    path = mesh_path(mesh.get("filename", ""), file.path.parent, package_dirs)
-                    size += path.stat().st_size
-                    check_size(size)
-                mesh.set("filename", str(path))
+                    mesh.set("filename", str(meshes.path(mesh.get("filename", ""))))
     return tostring(robot, encoding="unicode")
 
 

@@ -85,7 +85,7 @@ def test_meshes_that_are_too_large_in_all_are_refused(
     (tmp_path / "a.stl").touch()
     os.truncate(tmp_path / "a.stl", size)
     meshes = collision('<mesh filename="a.stl"/>') * count
-    with pytest.raises(ModelError, match=r"meshes of this file to more than 16 MiB") as caught:
+    with pytest.raises(ModelError, match=r"meshes to more than 16 MiB") as caught:
         loaded_urdf(written(tmp_path, robot(link("a", meshes))))
     assert caught.value.field == f"link[a].collision[{count - 1}].mesh.filename"
 
