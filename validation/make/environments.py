@@ -49,10 +49,9 @@ traceback.
 
 ## Compilers and caches
 
-A few certified steps in a process of its own, the closest points and rows of which are compiled
-where there is a library. `compiled`: the library passed its self-test, and the steps had the bits
-that NumPy gives them. Otherwise they were NumPy's, with the same bits, for the reason that is
-quoted.
+A few certified steps with `fast` in a process of its own. `compiled`: the library passed its
+self-test, and the steps had the bits of the plain path. Otherwise the plain path took them, with
+the same bits, for the reason that is quoted.
 
 | environment | outcome |
 |---|---|

@@ -12,7 +12,9 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import asdict, replace
+from fractions import Fraction
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -20,6 +22,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.exact import group_optimum, joined_optimum
+from quasistatic_ref.certify.minimiser import rational_solution
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
@@ -27,14 +31,15 @@ from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, lett
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps
-from tests.oracles.half_way import half_way
 from tests.oracles.random_steps import designed_step
+from tests.oracles.rows_given import DIGITS_MEET, divisible, half_way, sevenths, step_of
+from validation.make.degenerate_bits import degenerate_step
 from validation.tools.scripts import asked
 
 SEEDS = 3000
 EACH = 3
 """Steps of one kind: of equal family, size and outcomes of proofs."""
-MOST = 320
+MOST = 390
 CONES = ("pyramid", "frictionless", "facets-8")
 
 
@@ -46,8 +51,14 @@ def optimum_of(step: StepData) -> dict[str, Any] | None:
     except StepInfeasible:
         return None
     found = asdict(joined_optimum(step, [group for group, _ in divided], optima))
+    form = exact_form(step)
+    solution = rational_solution(form, found["working_set"])
+    unit = form.x_unit / solution.denominator
+    x = [Fraction(int(v.p), int(v.q)) for v in (unit * v for v in solution.x)]
+    pairs = zip(x, found["delta_q"].tolist(), strict=True)
+    found["rest"] = [float(v - Fraction(rounded)) for v, rounded in pairs]
     found["degeneracy"] = [[one.multipliers_unique, one.differentiable] for one in optima]
-    stored = ("delta_q", "net", "lam", "slack", "working_set", "degeneracy")
+    stored = ("delta_q", "rest", "net", "lam", "slack", "working_set", "degeneracy")
     return {name: found[name] for name in stored}
 
 
@@ -72,6 +83,13 @@ def varied_step(seed: int) -> StepData:
     return step.replace(cone=CONES[seed // 8 % 3])
 
 
+def chosen() -> Iterator[StepData]:
+    """Steps that refuse a wrong prover which others do not: ``prover_mutants``."""
+    yield from (half_way(1), half_way(3), half_way(1, 40), sevenths(), divisible())
+    yield from map(degenerate_step, (6, 22, 36, 41, 65))
+    yield from (step_of(A, b, [0.0] * len(A[0])) for A, b in DIGITS_MEET)
+
+
 def main() -> int:
     """Write the file."""
     options = asked(__doc__, out=Path)
@@ -81,16 +99,16 @@ def main() -> int:
     library.chosen = str(untested)
     kinds: Counter[Any] = Counter()
     lines = []
-    ties = [("half-way", half_way(k)) for k in (1, 3)]
     designed = ((seed % 4, varied_step(seed)) for seed in range(SEEDS))
-    for family, step in chain(ties, designed):
+    for family, step in chain(enumerate(chosen(), start=4), designed):
         optimum = optimum_of(step)
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
         outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "")))
         kind = family, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
-        if kinds[kind] == EACH or (optimum is not None and not set("or") & set(outcomes)):
+        told = optimum is None or set("or") & set(outcomes)
+        if family < 4 and (kinds[kind] == EACH or not told):
             continue
         kinds[kind] += 1
         record = {"step": step_record(step), "optimum": optimum, "outcomes": outcomes}

@@ -40,8 +40,9 @@ class Known(NamedTuple):
     ----------
     step : StepData
     optimum : dict or None
-        Fields of its ExactOptimum, and the degeneracy of each group: whether its multipliers are
-        unique and its displacement differentiable. None of a step without solution.
+        Fields of its ExactOptimum; what rounding took from delta_q, rounded; and the degeneracy of
+        each group: whether its multipliers are unique and its displacement differentiable. None of
+        a step without solution.
     outcomes : str
         What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
         that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
@@ -67,7 +68,8 @@ def guesses(step: StepData, optimum: dict[str, Any] | None) -> dict[str, Array]:
     """Multipliers of answers that guess some rows, each of shape (m,): only the first is right.
 
     A working set has no row to spare: without one of its rows, its minimiser is another. Nor is the
-    optimum the minimiser on rows of which one has a slack there.
+    optimum the minimiser on rows of which one has a slack there; and a row that bears nothing
+    belongs to no working set.
     """
     pressed = np.zeros(step.m)
     if optimum is None:
@@ -83,6 +85,10 @@ def guesses(step: StepData, optimum: dict[str, Any] | None) -> dict[str, Array]:
     if len(loose):
         found["with a row that has a slack"] = pressed.copy()
         found["with a row that has a slack"][loose[0]] = 1.0
+    idle = np.setdiff1d(np.flatnonzero(np.array(optimum["slack"]) == 0.0), working)
+    if len(idle):
+        found["with a row that bears nothing"] = pressed.copy()
+        found["with a row that bears nothing"][idle[-1]] = 1.0
     return found
 
 
@@ -103,6 +109,8 @@ class Tried(NamedTuple):
     found : ExactOptimum or None
     whole : ExactOptimum or None
         Of the step, where all groups are proved on what the guess leads to.
+    rest : ndarray, shape (2, n_v)
+        What rounding took from its delta_q, and a bound of more [m, rad].
     units : ndarray, shape (2,), or None
         Natural length and size that the library found [m per (N m s)^0.5, (N m s)^0.5]; None where
         it did not pose the step.
@@ -117,6 +125,7 @@ class Tried(NamedTuple):
     code: int
     found: ExactOptimum | None
     whole: ExactOptimum | None
+    rest: Array
     units: Array | None
     of: DenseStepInBothUnits
 
@@ -131,6 +140,7 @@ def tried(known: Known) -> Iterator[Tried]:
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
         whole = prover.optimum(both, lam, np.zeros(step.m))
+        rest = np.array(prover.displacement()[1:])
         for number, (group, own) in enumerate(divided):
             proof = prover.proofs[number]
             changed = bool((lam != right)[group.rows].any())
@@ -142,7 +152,7 @@ def tried(known: Known) -> Iterator[Tried]:
                 units = proof.s["units"].copy()
                 found = proof.on(guess, own.units)
                 code = proof.code
-            yield Tried(group, number, words, changed, code, found, whole, units, own)
+            yield Tried(group, number, words, changed, code, found, whole, rest, units, own)
 
 
 def letter(code: int) -> str:
@@ -155,13 +165,14 @@ def wrong(known: Known) -> str | None:
     for i, one in enumerate(tried(known)):
         if one.units is not None and one.units.tolist() != [*one.of.units[1:]]:
             return f"its natural units are {one.units.tolist()} in place of {one.of.units[1:]}"
-        stored = known.outcomes[i] if i < len(known.outcomes) else "-"
-        if stored != "-" and letter(one.code) != stored:
-            return f"a guess {one.guess} is not decided"
+        if letter(one.code) != known.outcomes[i]:
+            return f"a guess {one.guess} is decided otherwise"
         if one.code == REFUTED and not one.changed:
             return "the right guess is refuted"
         if one.whole is not None and not same(one.whole, known.optimum, one.guess == RIGHT):
             return f"the optimum that a guess {one.guess} leads to is wrong"
+        if one.whole is not None and not enclosed(one.rest, known.optimum or {}):
+            return "what rounding took from a displacement is wrong"
         if one.found is None:
             continue
         if one.changed:
@@ -214,10 +225,23 @@ def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) ->
     )
 
 
+def enclosed(rest: Array, optimum: dict[str, Any]) -> bool:
+    """Whether what rounding took from delta_q, (2, n_v) with its bound, is the stored, and sharp.
+
+    The stored is rounded, too; the bound is of the rest's own rounding and of the proof's error.
+    """
+    right = np.array(optimum["rest"], dtype=np.float64)
+    found, bound = rest
+    near = abs(found - right) <= bound
+    unit = np.spacing(abs(np.array(optimum["delta_q"], dtype=np.float64)))
+    return bool((near & (bound >= abs(right) * 2.0**-51) & (bound <= unit * 2.0**-50)).all())
+
+
 def stale(known: Known) -> str | None:
     """What of other data a library takes for that of a step, in words; None if nothing.
 
-    The same object proves a step in which one kind of data differs, and then the step itself.
+    The same object proves a step in which one kind of data differs, as a new object does, and then
+    the step itself.
     """
     step = known.step
     in_both_units = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
@@ -239,9 +263,18 @@ def stale(known: Known) -> str | None:
         "a Jacobian": step.replace(contacts=replace(contacts, J=2 * contacts.J)),
         "a friction": step.replace(contacts=replace(contacts, mu_v=2 * contacts.mu_v)),
     }
+    others["a number"] = step.replace(
+        delta_q_bar_a=others["a target"].delta_q_bar_a,
+        tau_a=others["a load"].tau_a,
+        tau_u=others["a weight"].tau_u,
+        contacts=replace(contacts, phi=contacts.phi + 2.0**-10, J=2 * contacts.J),
+    )
     for words, other in others.items():
-        prover.optimum(DenseStepInBothUnits(other), lam, np.zeros(step.m))
+        in_units = DenseStepInBothUnits(other)
+        provers = prover, Prover(in_units, divided)
+        one, two = (each.optimum(in_units, lam, np.zeros(step.m)) for each in provers)
         found = prover.optimum(both, lam, np.zeros(step.m))
-        if found is None or not same(found, known.optimum, True):
+        as_new = two is None or (one is not None and one.slack.tolist() == two.slack.tolist())
+        if not as_new or found is None or not same(found, known.optimum, True):
             return f"{words} of another step is taken for its own"
     return None

@@ -61,6 +61,9 @@ EXTREME = (
 )
 """Factors of sums: a product and a carry beyond the last digit, and numbers next to the middle of
 two float64 numbers, by less than the first two digits show."""
+MIDDLE = 2.0**-930
+"""By which the even neighbour of a middle is multiplied, so that some are too small."""
+NORMAL = 2.0**-900
 LOST = 46
 """Of these sums, those with digits beyond the last or below the first."""
 
@@ -123,7 +126,8 @@ def factors() -> list[list[float]]:
             one[:3] = math.ldexp(1.0, 11 * (k % 32) - 200), 1.0, 1.0
         if k % 16 in (1, 13):
             unit = math.ldexp(1.0, 7 * (k // 16) - 40)
-            one = [2.0**53, unit, 1.0, -unit, 1.0, 1.0, *[0.0] * (3 * TERMS - 6)]
+            by = STEP if k % 32 == 1 else 1.0
+            one = [2.0**53 + k // 32 * 2, unit, by, -unit, 1.0, by, *[0.0] * (3 * TERMS - 6)]
             if k % 16 == 13:
                 one[6:9] = (-1) ** (k // 16) * 2.0**-20, unit, 1.0
         if k % 16 == 5:
@@ -170,15 +174,17 @@ def wrong_digits(library: ctypes.CDLL) -> str | None:
     edge = edges()
     given = (ctypes.c_double * (SUMS * 3 * TERMS))(*itertools.chain(*every))
     numbers = (ctypes.c_double * SUMS)(*cut), (ctypes.c_double * SUMS)(*edge)
-    digits = (ctypes.c_int64 * (SUMS * 2 * DIGITS))()
-    found = (ctypes.c_double * (SUMS * 9))()
+    digits = (ctypes.c_int64 * (SUMS * 3 * DIGITS))()
+    found = (ctypes.c_double * (SUMS * 13))()
     sizes = ctypes.c_int64(SUMS), ctypes.c_int64(TERMS)
     library.fixed_point(given, *numbers, *sizes, ctypes.c_double(STEP), digits, found)
     lost = 0
     for k, one in enumerate(every):
-        of_sum = digits[2 * DIGITS * k : 2 * DIGITS * k + DIGITS]
-        of_cut = digits[2 * DIGITS * k + DIGITS : 2 * DIGITS * (k + 1)]
-        was_lost, near, *nearest, not_cut, beyond, worth_edge = found[9 * k : 9 * k + 9]
+        of_sum, of_cut, of_middle = (
+            digits[DIGITS * j : DIGITS * (j + 1)] for j in range(3 * k, 3 * k + 3)
+        )
+        was_lost, near, *nearest = found[13 * k : 13 * k + 6]
+        not_cut, beyond, worth_edge, *middles = found[13 * k + 6 : 13 * (k + 1)]
         kept = Fraction(math.trunc(Fraction(cut[k]) * 2**GRID), 2**GRID)
         if worth(of_cut) != kept or bool(not_cut) != (kept != Fraction(cut[k])):
             return f"{cut[k]}, cut, has the digits {of_cut}"
@@ -198,6 +204,13 @@ def wrong_digits(library: ctypes.CDLL) -> str | None:
         for shown, rounded, right in quotients:
             if shown != (not is_tie(right)) or (shown and rounded != float(right)):
                 return f"a quotient is rounded to {rounded} in place of {float(right)}"
+        quotients = zip(middles[::2], middles[1::2], (x, x / Fraction(STEP)), strict=True)
+        for shown, even, right in quotients:
+            small = float(right) * MIDDLE
+            if shown != (is_tie(right) and abs(small) > NORMAL) or (shown and even != small):
+                return f"the even neighbour of a middle is {even} in place of {small}"
+        if middles[2] and worth(of_middle) != x:
+            return f"a middle has the digits {of_middle}"
     return None if lost == LOST else f"{lost} sums do not fit in place of {LOST}"
 
 

@@ -6,14 +6,13 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import pinch
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from tests.oracles.rows_given import step_of
 from validation.make.confirmed_bits import (
     NEARBY,
     OTHERS,
@@ -88,17 +87,6 @@ def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
     assert solve_step(pinch(grip=5.0), "clarabel", fast=True).certificate.kind == "exact"
 
 
-def step_of(A, b, g):
-    """H = 1 and A x >= b: contacts without friction, of which J along n is a row of A; h = 1."""
-    A = np.array(A, dtype=np.float64)
-    m, n = A.shape
-    J = np.zeros((m, 4, n))
-    J[:, 2] = A
-    contacts = contacts_of(-np.array(b), np.tile(np.eye(3), (m, 1, 1)), J, 0.0)
-    step = free_step(np.eye(n), np.array(g, dtype=np.float64), contacts, 1.0)
-    return step.replace(cone="frictionless")
-
-
 def walked(A, b, g, guess):
     """The working set that is proved where a guess is not; None if none is."""
     step = step_of(A, b, g)
@@ -110,6 +98,8 @@ def walked(A, b, g, guess):
 LINE = [[1.0], [1.0], [1.0]]
 BOTH = [[1.0, 0.0], [1.0, 1.0]]
 THREE = [[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]
+D = round(8e-5 * 2**44) / 2**44
+"""So that 1 + D is not rounded, and 1 + D^2 is."""
 
 
 @needs_compiler
@@ -139,6 +129,10 @@ THREE = [[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]
         (THREE, [1.0, 2.0, 3.5], [0.0] * 3, [0, 1], [0, 1, 2]),
         (THREE, [1.0, 2.0, 5.5], [0.0] * 3, [0, 1], [1, 2]),
         (THREE, [1.0, 2.0, 6.5], [0.0] * 3, [0, 1], [2]),
+        # (1, 1, 0) is a sum of (1, 0, 0) and (1, D, 0), which leave nothing of it; but the squares
+        # of these differ by no more than D^2, and so by 1e-8 of that wrongly. At x = (1, 1, 0) none
+        # of the three has a slack, and the third bears all.
+        ([[1.0, 0, 0], [1, D, 0], [1, 1, 0]], [1.0, 1 + D, 2], [0.0] * 3, [0, 1, 2], [2]),
     ],
 )
 def test_walks_from_a_wrong_guess_end_at_the_working_set(A, b, g, guess, right):

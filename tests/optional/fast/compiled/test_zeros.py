@@ -11,7 +11,7 @@ from quasistatic_ref.lab.scenes.contacts import repeated
 from tests.certify.test_exact import resting_point
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from tests.oracles.half_way import half_way
+from tests.oracles.rows_given import half_way
 from validation.make.confirmed_bits import differing, proof
 from validation.make.degenerate_bits import faults
 
