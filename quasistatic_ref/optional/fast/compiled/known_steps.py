@@ -226,9 +226,14 @@ def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) ->
 
 
 def enclosed(rest: Array, optimum: dict[str, Any]) -> bool:
-    """Whether what rounding took from delta_q, (2, n_v) with its bound, is the stored, and sharp.
+    """Whether the stored rest of delta_q lies in the bounds of another, which are narrow.
 
-    The stored is rounded, too; the bound is of the rest's own rounding and of the proof's error.
+    Parameters
+    ----------
+    rest : ndarray, shape (2, n_v)
+        What rounding took from delta_q, and a bound of more [m, rad].
+    optimum : dict
+        Fields of Known.
     """
     right = np.array(optimum["rest"], dtype=np.float64)
     found, bound = rest
