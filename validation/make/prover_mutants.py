@@ -3,9 +3,9 @@
 Each operator of the C files that prove optima is replaced by another one, one at a time, as a wrong
 compiler would. Each such library is compiled and tested like a new one (``selftest.py``), in a
 process of its own. Compilers that change float64, and five that get one operation of integers
-wrong, are tried, too. The page (``--out``) counts the libraries that are refused, and lists the
-others with the reason why they change no answer (``prover_mutants.toml``). ``--only`` one file, or
-"compilers", makes its rows of the page again; ``--every`` N takes one operator of N; with
+wrong, are tried, too. The page (``--out``) counts the libraries that are refused, and those of
+which ``prover_mutants.toml`` says why they change no answer, and lists the others. ``--only`` one
+file, or "compilers", makes its rows of the page again; ``--every`` N takes one operator of N; with
 ``--compilers`` what is said of a sample of them is printed as JSON. Exit status 1 if one passes
 without a reason. Takes a quarter of an hour.
 """
@@ -94,7 +94,8 @@ PAGE = """# Wrong provers, and the self-test of the compiled library
 Written by `python -m validation.make.prover_mutants --out FILE`. Operators of the C files that
 prove optima, each replaced by another one. `refused`: the self-test has found a difference, the
 library ended the process, or it did not end. `same code`: the compiler makes the same code of both.
-`harmless`: it changes no answer, for the reason below. `passed`: none of these.
+`harmless`: `validation/make/prover_mutants.toml` says why it changes no answer. `passed`: no known
+step shows what it changes.
 
 | file | mutants | refused | same code | harmless | passed |
 |---|---|---|---|---|---|
@@ -107,10 +108,10 @@ sign wrong:
 |---|---|
 {compilers}
 
-## Those that are not refused
+## Those that pass
 
-| file | line | code | reason |
-|---|---|---|---|
+| file | line | code |
+|---|---|---|
 {left}
 """
 
@@ -245,7 +246,7 @@ def tested(file: Path) -> str:
 
 
 def of_file(builder: Builder, file: str, every: int) -> tuple[str, list[str], int]:
-    """The row of a file, the rows of its mutants that are not refused, and how many passed."""
+    """The row of a file, the rows of its mutants that pass, and how many these are."""
     reasons = tomllib.loads(REASONS.read_text()).get(file, {})
     kinds: Counter[str] = Counter()
     left = []
@@ -256,9 +257,9 @@ def of_file(builder: Builder, file: str, every: int) -> tuple[str, list[str], in
         reason = reasons.get(one.code, reasons.get("*", "PASSED"))
         passes = "passed" if reason == "PASSED" else "harmless"
         kinds[said if said == "same code" else "refused" if said else passes] += 1
-        if not said:
+        if not said and passes == "passed":
             code = one.code.replace("|", "\\|")
-            left.append(f"| {file} | {one.line} | `{code}` | {reason} |")
+            left.append(f"| {file} | {one.line} | `{code}` |")
             print(left[-1], file=sys.stderr, flush=True)
     cells = [kinds[kind] for kind in ("refused", "same code", "harmless", "passed")]
     row = f"| {file} | {kinds.total()} | {' | '.join(map(str, cells))} |"
