@@ -110,7 +110,7 @@ sign wrong:
 
 ## Those that pass
 
-| file | line | code |
+| file | how many | in lines |
 |---|---|---|
 {left}
 """
@@ -246,10 +246,10 @@ def tested(file: Path) -> str:
 
 
 def of_file(builder: Builder, file: str, every: int) -> tuple[str, list[str], int]:
-    """The row of a file, the rows of its mutants that pass, and how many these are."""
+    """The row of a file, that of its mutants that pass, and how many these are."""
     reasons = tomllib.loads(REASONS.read_text()).get(file, {})
     kinds: Counter[str] = Counter()
-    left = []
+    lines = []
     for one in mutants(file, every):
         said = builder.outcome(one.file, one.text)
         if said == "does not compile":
@@ -258,13 +258,13 @@ def of_file(builder: Builder, file: str, every: int) -> tuple[str, list[str], in
         passes = "passed" if reason == "PASSED" else "harmless"
         kinds[said if said == "same code" else "refused" if said else passes] += 1
         if not said and passes == "passed":
-            code = one.code.replace("|", "\\|")
-            left.append(f"| {file} | {one.line} | `{code}` |")
-            print(left[-1], file=sys.stderr, flush=True)
+            lines.append(str(one.line))
+            print(file, one.line, one.code, file=sys.stderr, flush=True)
     cells = [kinds[kind] for kind in ("refused", "same code", "harmless", "passed")]
     row = f"| {file} | {kinds.total()} | {' | '.join(map(str, cells))} |"
     print(row, file=sys.stderr, flush=True)
-    return row, left, kinds["passed"]
+    left = [f"| {file} | {len(lines)} | {', '.join(lines)} |"] if lines else []
+    return row, left, len(lines)
 
 
 def rows_before(out: Path | None, only: str) -> list[str]:
