@@ -51,7 +51,7 @@ _HOMES = {
     "optional.coulomb.fixed_point": "coulomb_step",
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",
-    "certify.compliance.forces": "contact_forces",
+    "optional.forces.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "

@@ -100,6 +100,11 @@ def test_a_solver_a_word_and_a_kind_of_file_need_their_parts(without, tmp_path):
     with pytest.raises(InputError, match=r"^certify = \"residual\" needs .*/optional/large$"):
         solve_step(step, "osqp", certify="residual")
     assert solve_step(step, "osqp").certificate.kind == "exact"
+    without("forces")
+    with pytest.raises(InputError, match=r"^forces needs quasistatic_ref/optional/forces$"):
+        _ = solve_step(step).forces
+    with pytest.raises(InputError, match=r'^record = "forces" needs .*/optional/forces$'):
+        load_scenario("sphere_spin", steps=1, record="forces").run(progress=False)
     without("fast")
     with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
         solve_step(step, fast=True)

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
+from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
@@ -108,13 +108,13 @@ class StepSolution(Plain, Shown):
         """Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body, shape (n_c, 4) [N, N m].
 
         They are those of the step in which each contact gives way a little, and therefore unique;
-        see :mod:`~quasistatic_ref.certify.compliance.forces`. They are formed from the step when
+        see :mod:`~quasistatic_ref.optional.forces.forces`. They are formed from the step when
         they are read, however it was solved.
 
         Raises
         ------
         InputError
-            If the step is not all that was solved.
+            If the step is not all that was solved, or there is no ``optional/forces``.
         """
         return self.compliant.wrench
 
@@ -122,7 +122,7 @@ class StepSolution(Plain, Shown):
     def imbalance(self) -> float:
         """The share of the load that the forces leave, at most some 1e-6 as a rule [-].
 
-        That of :class:`~quasistatic_ref.certify.compliance.forces.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.contact_forces.ContactForces`.
         """
         return self.compliant.imbalance
 
@@ -131,7 +131,7 @@ class StepSolution(Plain, Shown):
         """The forces, and delta_q of the step with compliance; InputError as of `forces`."""
         if not self.alone:
             raise InputError(UNKNOWN, field="forces")
-        return contact_forces(self.step, near=(self.delta_q, self.wrench))
+        return forces_near(self.step, (self.delta_q, self.wrench))
 
     @cached_property
     def wrench(self) -> Array:

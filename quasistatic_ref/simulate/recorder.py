@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
@@ -82,6 +83,8 @@ class Recorder(Shown):
     ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
+        if record == "forces":
+            needed_part("forces.forces", 'record = "forces"')
         self.simulator = simulator
         self.scene = simulator.scene
         self.system = simulator.system

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
+from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import written_whole
@@ -185,7 +185,8 @@ class Trajectory(Plain, Shown):
         Raises
         ------
         InputError
-            If the record is light, or the steps are not all that was solved.
+            If the record is light, the steps are not all that was solved, or there is no
+            ``optional/forces``.
         """
         if "forces" in self.arrays:
             return self.arrays["forces"]
@@ -195,7 +196,7 @@ class Trajectory(Plain, Shown):
     def imbalance(self) -> Array:
         """The share of the load that the forces of each step leave, shape (steps,) [-].
 
-        That of :class:`~quasistatic_ref.certify.compliance.forces.ContactForces`.
+        That of :class:`~quasistatic_ref.certify.contact_forces.ContactForces`.
 
         Raises
         ------
@@ -231,7 +232,7 @@ class Trajectory(Plain, Shown):
         step = self.step_data(k)
         delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
-        return contact_forces(step, near=near)
+        return forces_near(step, near)
 
     def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
         """Sum of the contact wrenches on a body or a link, in each step, as lam has them.

@@ -104,32 +104,6 @@ def labels(
         label = lower
 
 
-def sides(step: StepData) -> list[Indices]:
-    """Coordinates of what moves by itself: all actuated ones, and each other body or mechanism.
-
-    Two coordinates of a mechanism are coupled by M_u, or they move the same contacts, as the six of
-    a free body do. Two bodies that touch each other alone count as one.
-
-    Returns
-    -------
-    list of ndarray of int, shape (n,)
-    """
-    first, second = step.coupled()
-    moved = step.contacts.J.any(axis=1)  # (n_c, n_v)
-    _, same = np.unique(moved, axis=1, return_inverse=True)
-    some = np.flatnonzero(moved.any(axis=0))
-    entries = np.arange(len(first))
-    label, _ = labels(
-        step.n_v,
-        len(first) + step.n_v,
-        coupling=np.concatenate([entries, entries, len(first) + same.ravel()[some]]),
-        coordinate=np.concatenate([first, second, some]),
-    )
-    label[: step.n_a] = 0
-    label[label < step.n_a] = 0
-    return [np.flatnonzero(label == own) for own in np.unique(label)]
-
-
 def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     """The groups of a step, each with its own step; the step itself if there is one group.
 

@@ -11,8 +11,8 @@ from itertools import accumulate
 import numpy as np
 
 from quasistatic_ref.certify.active_set import dual_active_set
-from quasistatic_ref.certify.compliance.forces import compliant_form
 from quasistatic_ref.lab.program.rows import cone_table
+from quasistatic_ref.optional.forces.forces import compliant_form
 from tests.oracles.rational_kkt import proved
 from tests.oracles.solution_truth import program, wrenches
 

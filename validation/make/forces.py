@@ -31,7 +31,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
@@ -41,6 +40,7 @@ from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.loads import loaded
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
+from quasistatic_ref.optional.forces.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID

@@ -28,6 +28,7 @@ PARTS = {
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
+    "forces": (["--set", "record=forces"], 'record = "forces"'),
     "guests": ([], ""),
     "large": (["--certify", "residual"], 'certify = "residual"'),
     "mjcf": ([], ""),

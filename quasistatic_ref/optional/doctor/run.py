@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
+from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -83,18 +83,19 @@ class Run(Start):
     def forces(self, k: int) -> Array:
         """Forces of single contacts in step k, shape (n_c, 4) [N, N m].
 
-        Where the step cannot be solved once more, what its multipliers combine to.
+        Where they cannot be formed, what the multipliers of the step combine to.
         """
-        if not self.searched:
-            wrench: Array = self["wrench"][k]
-            return wrench
-        return self.compliant(k).wrench
+        found = self.compliant(k)
+        wrench: Array = self["wrench"][k] if found is None else found.wrench
+        return wrench
 
-    def compliant(self, k: int) -> ContactForces:
-        """The forces of step k, of a run that is `searched`."""
+    def compliant(self, k: int) -> ContactForces | None:
+        """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
+        if not self.searched or part("forces.forces") is None:
+            return None
         if k not in self._found:
             near = self["delta_q"][k], self["wrench"][k]
-            self._found[k] = contact_forces(self.step_data(k), near=near)
+            self._found[k] = forces_near(self.step_data(k), near)
         return self._found[k]
 
 

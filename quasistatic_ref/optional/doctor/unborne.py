@@ -17,7 +17,7 @@ def unborne(run: Run) -> Iterator[Said]:
     """
     recorded = run.arrays.get("imbalance")
     k = int(run["wrench"][:, :, 2].sum(axis=1).argmax())
-    found = run.compliant(k) if run.searched else None
+    found = run.compliant(k)
     left = 0.0 if found is None else found.imbalance
     if recorded is not None:
         left = max(left, float(recorded.max()))

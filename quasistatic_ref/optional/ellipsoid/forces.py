@@ -1,6 +1,6 @@
 r"""Contact forces by compliance in the ellipsoid, enclosed in balls.
 
-In the step with compliance c (:mod:`~quasistatic_ref.certify.compliance.forces`) each contact gives
+In the step with compliance c (:mod:`~quasistatic_ref.optional.forces.forces`) each contact gives
 way by four lengths, s = c p. It is a conic program with compliant blocks
 (:mod:`~quasistatic_ref.optional.ellipsoid.interior`), strongly convex in x and in s: any x and y
 with A x - b + c y / h and y strictly inside of the cones give
@@ -16,7 +16,6 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
-from quasistatic_ref.certify.compliance.forces import WRENCH
 from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
@@ -78,5 +77,5 @@ def compliant_forces(
                 impulse = (found.lam[i] + arb(0, off.upper())) * form.lam_unit
                 forces[i] = rounded(impulse / step.h)
             x = rounded_displacement(frame, found)
-            return forces.reshape(-1, 4)[:, WRENCH], x
+            return forces.reshape(-1, 4)[:, np.argsort(P_OF_WRENCH)], x
     raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)

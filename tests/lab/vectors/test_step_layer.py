@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
+from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.lab.vectors.material import cases, expected, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces

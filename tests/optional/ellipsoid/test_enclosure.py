@@ -7,7 +7,6 @@ import pytest
 from flint import arb
 
 from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli.certificate_words import in_words
@@ -17,6 +16,7 @@ from quasistatic_ref.optional.ellipsoid import enclosure as of_enclosure
 from quasistatic_ref.optional.ellipsoid import forces as of_forces
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.ellipsoid.interior import interior_point
+from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix

@@ -54,9 +54,9 @@ step/standard_form.py
     PAGE
 certify/residuals.py
     JUDGE enclosure
-certify/compliance/forces.py certify/compliance/faces.py
-certify/compliance/eliminated.py certify/compliance/face_guess.py
-certify/compliance/of_group.py
+optional/forces/forces.py optional/forces/faces.py
+optional/forces/eliminated.py optional/forces/face_guess.py
+optional/forces/of_group.py
 optional/ellipsoid/forces.py
     forces ellipsoid/enclosure
 certify/arithmetic.py
@@ -211,7 +211,7 @@ step/files.py
 optional/show/show.py optional/show/step_words.py
     words DATA
 certify/solution.py
-    certificate newton compliance/forces
+    certificate newton forces/forces
 cli/solution_files.py
     step/friction certify/solution solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py

@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
-from quasistatic_ref.certify.compliance.of_group import group_compliance
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.pairs import ContactPair
@@ -15,6 +13,8 @@ from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
+from quasistatic_ref.optional.forces.forces import contact_forces
+from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array, Contacts, StepData

@@ -1,6 +1,6 @@
 r"""A guess, in float64, of the faces that forces lie on: where their exact method starts.
 
-In delta_q alone, the step with compliance c (:mod:`~quasistatic_ref.certify.compliance.forces`)
+In delta_q alone, the step with compliance c (:mod:`~quasistatic_ref.optional.forces.forces`)
 minimises a convex function. Its gradient is linear where each contact keeps its face:
 
 .. math:: H x - g - \frac hc \sum_j B_j^T \Pi_F(-z_j), \qquad z_j = B_j x + (\phi_j, 0, 0, 0).
@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import Rows, face, rows_of
+from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by

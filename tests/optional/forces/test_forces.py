@@ -5,17 +5,17 @@ import pytest
 from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.certify.compliance import eliminated, face_guess, forces, of_group
-from quasistatic_ref.certify.compliance.face_guess import guessed_faces, nearest_rows
-from quasistatic_ref.certify.compliance.faces import face, nearest_face, rows_of
-from quasistatic_ref.certify.compliance.forces import contact_forces
-from quasistatic_ref.certify.compliance.of_group import group_compliance
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
 from quasistatic_ref.lab.scenes.loads import loaded
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
+from quasistatic_ref.optional.forces import eliminated, face_guess, forces, of_group
+from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
+from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
+from quasistatic_ref.optional.forces.forces import contact_forces
+from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix

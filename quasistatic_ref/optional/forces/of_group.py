@@ -1,9 +1,9 @@
 r"""The compliance of a group: so little that loads are borne, so much that noise does not show.
 
 Each contact of a group touches two of its *sides*: what the actuated coordinates move is one, each
-other body or mechanism another (:func:`~quasistatic_ref.step.groups.sides`). Forces of 1 N along
-the directions that a contact bears (n; with friction d1 and d2, too) move a side by its mobility
-[m/N], a symmetric matrix of up to 3 x 3:
+other body or mechanism another (:func:`sides`). Forces of 1 N along the directions that a contact
+bears (n; with friction d1 and d2, too) move a side by its mobility [m/N], a symmetric matrix of up
+to 3 x 3:
 
 .. math:: b = J K^{-1} J^T, \qquad K = H / h = K_q \text{ or } M_u / h^2 ,
 
@@ -22,9 +22,9 @@ import numpy as np
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
-from quasistatic_ref.step.groups import sides
+from quasistatic_ref.step.groups import labels
 from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 
 NOTHING_MOVES = 1e-9
@@ -80,3 +80,29 @@ def counted(b: Array, largest: Array) -> Array:
     """
     small = HARDLY_MOVES * largest
     return np.where(b >= small, b, small**2 / np.maximum(b, HARDLY_MOVES * small))
+
+
+def sides(step: StepData) -> list[Indices]:
+    """Coordinates of what moves by itself: all actuated ones, and each other body or mechanism.
+
+    Two coordinates of a mechanism are coupled by M_u, or they move the same contacts, as the six of
+    a free body do. Two bodies that touch each other alone count as one.
+
+    Returns
+    -------
+    list of ndarray of int, shape (n,)
+    """
+    first, second = step.coupled()
+    moved = step.contacts.J.any(axis=1)  # (n_c, n_v)
+    _, same = np.unique(moved, axis=1, return_inverse=True)
+    some = np.flatnonzero(moved.any(axis=0))
+    entries = np.arange(len(first))
+    label, _ = labels(
+        step.n_v,
+        len(first) + step.n_v,
+        coupling=np.concatenate([entries, entries, len(first) + same.ravel()[some]]),
+        coordinate=np.concatenate([first, second, some]),
+    )
+    label[: step.n_a] = 0
+    label[label < step.n_a] = 0
+    return [np.flatnonzero(label == own) for own in np.unique(label)]

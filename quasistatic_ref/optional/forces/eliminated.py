@@ -1,6 +1,6 @@
 """The step with compliance in delta_q alone, without rounding: contact forces, proved.
 
-See :mod:`~quasistatic_ref.certify.compliance.forces`.
+See :mod:`~quasistatic_ref.optional.forces.forces`.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,6 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.compliance.faces import Rows, face, nearest_face
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import (
@@ -28,6 +27,7 @@ from quasistatic_ref.certify.rational import (
 )
 from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by

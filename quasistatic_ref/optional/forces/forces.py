@@ -2,7 +2,7 @@ r"""Contact forces with one answer: those of the same step in which each contact
 
 Optimal multipliers are not unique: four feet of a rigid block share its weight in many ways. With a
 compliance c [m/N] at each contact there is one way; contacts of a group have one c
-(:mod:`~quasistatic_ref.certify.compliance.of_group`). A contact's gap, slips and spin after the
+(:mod:`~quasistatic_ref.optional.forces.of_group`). A contact's gap, slips and spin after the
 step are four lengths z = B delta_q + (phi, 0, 0, 0), which its friction cone confines to a cone K.
 In the step with compliance a private displacement s of four lengths is added to z, and
 \|s\|^2 / (2c) to the energy:
@@ -23,17 +23,13 @@ solution are rounded correctly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
-from quasistatic_ref.certify.compliance.face_guess import guessed_faces
-from quasistatic_ref.certify.compliance.faces import cone_rows
-from quasistatic_ref.certify.compliance.of_group import NOTHING_MOVES, group_compliance
+from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.norm import energy_norm
@@ -48,7 +44,11 @@ from quasistatic_ref.certify.rational import (
 )
 from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import InputError, StepInfeasible, StepNotSolved
-from quasistatic_ref.step.arrays import read_only, without_warnings
+from quasistatic_ref.optional.forces.eliminated import EliminatedStep, eliminated_optimum
+from quasistatic_ref.optional.forces.face_guess import guessed_faces
+from quasistatic_ref.optional.forces.faces import cone_rows
+from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
+from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
@@ -56,38 +56,6 @@ from quasistatic_ref.step.groups import group_steps
 
 WRENCH: Final = [1, 2, 0, 3]
 """Where (f_d1, f_d2, f_n, tau_n) stand in p."""
-
-
-@dataclass(frozen=True, eq=False)
-class ContactForces:
-    """The forces of a step's contacts.
-
-    Parameters
-    ----------
-    wrench : ndarray, shape (n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
-    delta_q : ndarray, shape (n_v,)
-        Where the step with compliance ends [m, rad].
-    compliance : ndarray, shape (n_c,)
-        c of each contact [m/N].
-    imbalance : float
-        The share of the load that the forces leave, the largest of all groups [-]: they balance
-        the step at `delta_q`, not at the displacement x of the step without compliance. It is
-        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert.
-    sensitivity : float
-        At most how much a force changes if each phi of its group changes by 1 m, over the sum of
-        the group's normal forces, (R42), the largest of all groups [1/m].
-    """
-
-    wrench: Array
-    delta_q: Array
-    compliance: Array
-    imbalance: float
-    sensitivity: float
-
-    def __post_init__(self) -> None:
-        for array in (self.wrench, self.delta_q, self.compliance):
-            read_only(array)
 
 
 def contact_forces(
@@ -104,7 +72,7 @@ def contact_forces(
     step : StepData
     compliance : float or ndarray, shape (n_c,), optional
         Of each contact [m/N], > 0, the same for all contacts of a group; by default
-        :func:`~quasistatic_ref.certify.compliance.of_group.group_compliance` of each group.
+        :func:`~quasistatic_ref.optional.forces.of_group.group_compliance` of each group.
     near : (ndarray, ndarray), optional
         delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
         compliance. Without them, that step is solved first. Forces do not depend on them.
@@ -241,7 +209,7 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     """The optimum with compliance as it is defined.
 
-    It equals that of :func:`~quasistatic_ref.certify.compliance.eliminated.eliminated_optimum`.
+    It equals that of :func:`~quasistatic_ref.optional.forces.eliminated.eliminated_optimum`.
     Every s is solved for, which takes 30 times longer, and always ends.
 
     Parameters

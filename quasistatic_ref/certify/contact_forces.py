@@ -1,0 +1,57 @@
+"""Forces of single contacts, as ``optional/forces`` finds them."""
+
+from dataclasses import dataclass
+
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.data import Array, StepData
+
+
+@dataclass(frozen=True, eq=False)
+class ContactForces:
+    """The forces of a step's contacts.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    delta_q : ndarray, shape (n_v,)
+        Where the step with compliance ends [m, rad].
+    compliance : ndarray, shape (n_c,)
+        c of each contact [m/N].
+    imbalance : float
+        The share of the load that the forces leave, the largest of all groups [-]: they balance
+        the step at `delta_q`, not at the displacement x of the step without compliance. It is
+        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert.
+    sensitivity : float
+        At most how much a force changes if each phi of its group changes by 1 m, over the sum of
+        the group's normal forces, (R42), the largest of all groups [1/m].
+    """
+
+    wrench: Array
+    delta_q: Array
+    compliance: Array
+    imbalance: float
+    sensitivity: float
+
+    def __post_init__(self) -> None:
+        for array in (self.wrench, self.delta_q, self.compliance):
+            read_only(array)
+
+
+def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForces:
+    """The forces of a step's contacts, sought from where a solution shows them to be.
+
+    Parameters
+    ----------
+    step : StepData
+    near : (ndarray, ndarray), optional
+        delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the solution.
+
+    Raises
+    ------
+    InputError
+        If there is no ``optional/forces``.
+    """
+    found: ContactForces = needed_part("forces.forces", "forces").contact_forces(step, near=near)
+    return found
