@@ -88,7 +88,7 @@ class MujocoScenario(Scenario):
         return lambda t, q: self.of_mujoco.motors(q, self.controls(t)[0])
 
     def run(self, progress: bool = True, **saving: Any) -> Trajectory:
-        """Simulate the whole scene; as :meth:`Scenario.run`."""
+        """Simulate the whole scene; as :meth:`.Scenario.run`."""
         watching = [*saving.pop("observers", ()), Crossing(progress)]
         return super().run(progress, observers=watching, **saving)
 

@@ -248,7 +248,7 @@ def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
     Returns
     -------
     dict
-        What :func:`.measures` gives of its account, ``boundary_layer_um``,
+        What :func:`.words.measures` gives of its account, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
     Pi = trajectory.header["quasi_dynamic_number"]
