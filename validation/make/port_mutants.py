@@ -365,7 +365,7 @@ def kept_apart(name: str) -> bool:
 HEAD = """# Mistakes in programs that the checker's rules were not written with
 
 Made by `python -m validation.make.port_mutants`: each formula of [the ports in Go and
-C++](../ports/README.md) is changed by a program, one place at a time. Each changed program that
+C++](../ports/README.md) can be changed by a program, one place at a time. Each changed program that
 answers another number is checked with the committed vectors, and challenged with the 1,000 cases
 that a challenge has by default, until something is found. *Right*: of the names that are given in
 the first layer that fails one belongs to the place that was changed
@@ -404,6 +404,11 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
     """Both halves by kind and port; of the open one, what was not found or named wrong."""
     yield HEAD
     kept = [one for one in trials if one["outcome"] == "other"]
+    every = sum(1 for name in ("go", "cpp") for _ in changes(PORTS / name))
+    count = Counter(one["outcome"] for one in trials)
+    yield f"Of {every:,} changes {len(trials)} were tried, of each kind one in turn: {len(kept)}"
+    yield f"answer another number, {count['same']} do not, {count['no program']} are no program."
+    yield ""
     ways = [f"{way}: {name}" for way in ("check", "challenge") for name in ("found", *VERDICTS)]
     for title, apart in (("The half that is open", False), ("The half that is kept apart", True)):
         half = [one for one in kept if one["apart"] == apart]
