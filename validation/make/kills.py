@@ -22,6 +22,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import redirect_stdout, suppress
 from pathlib import Path
+from threading import RLock
 from typing import NamedTuple
 
 os.environ |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
@@ -217,6 +218,7 @@ def rows_before(out: Path | None) -> dict[str, Counter[str]]:
 def main() -> int:
     """Kill all; exit status 1 if something was lost."""
     tqdm.monitor_interval = 0  # which is a thread
+    tqdm.set_lock(RLock())  # its own is shared by copies: one that is killed would hold it for ever
     names = ("run", "run --sweep", "study run", "vectors generate", "demo")
     options = asked(__doc__, count=500, only="", out=Path)
     rows = rows_before(options.out)
