@@ -197,6 +197,7 @@ def where(one: StepOff, n_v: int) -> tuple[str, tuple[str, ...]]:
     the rows without slack, the solution on another working set was taken. Where p is one of
     contacts that press, but gaps close or open otherwise, the distances are others; where it is
     within reach of the contacts' forces, but not of their cones, the rows are; else J, H or g.
+    Forces that reach every direction tell none of these apart.
 
     Returns
     -------
@@ -229,10 +230,12 @@ def where(one: StepOff, n_v: int) -> tuple[str, tuple[str, ...]]:
     forces, *_ = np.linalg.lstsq(J.T, p, rcond=None)
     left = np.abs(J.T @ forces - p).max()
     pressing = int(np.argmax(np.abs(forces).reshape(-1, 4).max(axis=1)))
-    if left <= nothing:
+    reaches_all = np.linalg.matrix_rank(J) == n_v
+    if left <= nothing and not reaches_all:
         return names[pressing], ("rows",)
     untouched = ~np.abs(J).any(axis=0)
     free = np.abs(p[untouched]).max(initial=0.0) > nothing
     if free or not one.result.solution.lam.any():
         return "", (OBJECTIVE, "integrate")
-    return names[pressing], ("jacobian", OBJECTIVE, "integrate")
+    others = ("jacobian", OBJECTIVE, "integrate")
+    return names[pressing], (("rows", *others) if reaches_all else others)
