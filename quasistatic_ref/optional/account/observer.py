@@ -28,7 +28,7 @@ class Noting(Observer):
             "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
             "waypoints": {track.joint.name: track.times.tolist() for track in recorder.tracks},
             "stiffness": diagonal.tolist() if np.array_equal(K_q, np.diag(diagonal)) else [],
-            "gravity": list(recorder.simulator.gravity),
+            "gravity": recorder.simulator.gravity.tolist(),
         }
         return replace(trajectory, header={**trajectory.header, "scene": scene})
 
