@@ -72,7 +72,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         needed = (*needed, *(FORCES if record == "forces" else ()), *iterated)
         _check_present(arrays, needed)
-    of_record = {"full": PROGRAM, "forces": FORCES}.get(record, ())
+    of_record = {"full": (*PROGRAM, "forces"), "forces": FORCES}.get(record, ())
     known = ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
     for name in arrays:
         if name not in known:
@@ -83,6 +83,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
         if array.dtype.kind == "f" and not np.isfinite(numbers).all():
             raise InputError("must contain finite numbers only", field=name)
+    needed = (*needed, *(["forces"] if full and "forces" in arrays else []))
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"

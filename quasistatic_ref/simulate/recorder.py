@@ -145,8 +145,9 @@ class Recorder(Shown):
         row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
         if self.record == "full":
             row |= program(step)
-        if self.record == "forces":
+        if self.record == "forces" or (self.record == "full" and self.simulator.records_forces):
             row["forces"] = solution.forces
+        if self.record == "forces":
             row["imbalance"] = solution.imbalance
             delta_q = solution.delta_q.copy()
             delta_q[self.system.n_v :] = 0.0

@@ -169,6 +169,8 @@ class Simulator(Settings, Shown):
 
     __signature__: ClassVar[Signature]
     default_backend = DEFAULT
+    records_forces = False
+    """Whether forces of contacts cost so little that a full record holds them."""
 
     @arguments_checked
     def __init__(

@@ -21,12 +21,14 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import group_optimum, joined_optimum
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
+from quasistatic_ref.optional.fast.compiled.forces import Forces
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
@@ -90,6 +92,14 @@ def chosen() -> Iterator[StepData]:
     yield from (step_of(A, b, [0.0] * len(A[0])) for A, b in DIGITS_MEET)
 
 
+def forces_of(step: StepData, optimum: dict[str, Any] | None) -> list[list[float]] | None:
+    """The forces as they are stored; None where the library leaves some open."""
+    if optimum is None or Forces(step).in_c(step)[1]:
+        return None
+    forces: list[list[float]] = contact_forces(step).wrench.tolist()
+    return forces
+
+
 def main() -> int:
     """Write the file."""
     options = asked(__doc__, out=Path)
@@ -105,14 +115,14 @@ def main() -> int:
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
-        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "")))
+        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "", None)))
         kind = family, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         told = optimum is None or set("or") & set(outcomes)
         if family < 4 and (kinds[kind] == EACH or not told):
             continue
         kinds[kind] += 1
         record = {"step": step_record(step), "optimum": optimum, "outcomes": outcomes}
-        lines.append(json_text(record))
+        lines.append(json_text(record | {"forces": forces_of(step, optimum)}))
         if len(lines) == MOST:
             break
     made = io.BytesIO()

@@ -230,7 +230,7 @@ class Proofs:
         else:
             lam = answer.natural_lam
             slack = form.A @ answer.natural_delta_q - form.b
-        coupling = _coupling(step)
+        coupling = coupled_by(step)
         near = self._near(step, coupling, lam, slack)
         while True:
             parts = self.divided(step, near, coupling)
@@ -307,7 +307,7 @@ class Proofs:
 
     def _groups(self, step: StepData, coupling: Coupling) -> list[Group]:
         """The groups of a step in which all contacts count."""
-        if not _same(coupling, self._of_groups):
+        if not unchanged(coupling, self._of_groups):
             self._found = groups(step)
             small = np.ones(step.contacts.n_c, dtype=bool)
             for group in self._found:
@@ -328,7 +328,7 @@ class Proofs:
             What couples the coordinates if all contacts count.
         """
         of = [*coupling, b"" if near is None else near.tobytes()]
-        if not _same(of, self._of_parts):
+        if not unchanged(of, self._of_parts):
             found = self._groups(step, coupling) if near is None else groups(step, near)
             self.parts = _parts(step, found, self.parts, whole=near is None)
             self._of_parts = of
@@ -340,8 +340,8 @@ def _unless_all(mask: Mask) -> Mask | None:
     return None if mask.all() else mask
 
 
-def _coupling(step: StepData) -> Coupling:
-    """That of a step."""
+def coupled_by(step: StepData) -> Coupling:
+    """What couples the coordinates of a step."""
     J = vars(step.contacts).get("J")  # None in blocks, as M_u then is
     if J is None:
         moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
@@ -352,7 +352,7 @@ def _coupling(step: StepData) -> Coupling:
     return [step.h, step.cone, step.K_q, vars(step)["M_u"], moving, own, step.row_layout.counts]
 
 
-def _same(one: list[Any], two: list[Any]) -> bool:
+def unchanged(one: list[Any], two: list[Any]) -> bool:
     """Whether two such lists are equal: mostly the same objects."""
     if len(one) != len(two):
         return False

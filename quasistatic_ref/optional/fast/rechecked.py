@@ -8,13 +8,16 @@ say.
 from collections import Counter
 from typing import Any
 
+import numpy as np
+
 from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Array, StepData
 
 EVERY = 1000
 LARGEST = 64
@@ -25,6 +28,7 @@ DETERMINED = ("delta_q", "net", "slack", "multipliers_unique", "differentiable")
 
 WHOLE = "all groups of a step at once"
 GROUP = "a group of a step"
+FORCES = "the forces of a step"
 _proofs: Counter[str] = Counter()
 """Of this process, by their kind."""
 
@@ -74,3 +78,16 @@ def check(step: StepData, found: ExactOptimum) -> None:
     for name in names:
         if bits(getattr(found, name)) != bits(getattr(right, name)):
             raise WrongProof(step, name)
+
+
+def check_forces(step: StepData, wrench: Array) -> None:
+    """Check forces (n_c, 4) [N, N m] of a step that compiled code has proved, if they are due.
+
+    Raises
+    ------
+    WrongProof
+    """
+    if is_due(FORCES, step.n_v):
+        near = np.zeros(step.n_v), np.zeros_like(wrench)
+        if bits(contact_forces(step, near=near).wrench) != bits(wrench):
+            raise WrongProof(step, "a force")

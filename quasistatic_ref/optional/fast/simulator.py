@@ -19,6 +19,8 @@ from quasistatic_ref.optional.fast.backends import (
     sparse_from,
 )
 from quasistatic_ref.optional.fast.compiled.answer import as_said
+from quasistatic_ref.optional.fast.compiled.certificate import LARGEST
+from quasistatic_ref.optional.fast.compiled.forces import FastSolution, ForcesOfSteps, knows
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
@@ -120,6 +122,9 @@ class FastSimulator(Simulator):
         self.fitted: Solver | None = None
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
+        ordinary = self.extension is None and self.law == CONVEX and self.has_rows
+        self.records_forces = ordinary and system.n_v <= LARGEST and knows(self.cone)
+        self.in_c = ForcesOfSteps()
 
     @arguments_checked
     @by_one_thread
@@ -148,6 +153,8 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
+        if self.records_forces:
+            solution = posed(FastSolution, {"in_c": self.in_c}, vars(solution))
         delta_q = solution.delta_q[: self.system.n_v]
         q_next = self.screws.integrate(delta_q)
         if self.compares:

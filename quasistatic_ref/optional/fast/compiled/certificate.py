@@ -14,7 +14,6 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import Constants
 from quasistatic_ref.solve.units import (
-    DenseStepInBothUnits,
     HessianInBothUnits,
     StepInBothUnits,
     Units,
@@ -33,13 +32,17 @@ LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
-def _kept(both: StepInBothUnits) -> dict[str, Array]:
-    """J and A as a step keeps them, of any shapes: whole, or without their zeros."""
-    contacts: Any = both.si_step.contacts
-    A: Any = both.si_form.A
-    if isinstance(both, DenseStepInBothUnits):
-        return {"J": contacts.J, "A": A}
-    return {"J": contacts.blocks.J, "A": A.data}
+def kept_J(step: StepData) -> Array:
+    """J as a step keeps it, of any shape: whole, or without its zeros."""
+    contacts: Any = step.contacts
+    J: Array = contacts.blocks.J if hasattr(contacts, "blocks") else contacts.J
+    return J
+
+
+def _kept_A(A: Any) -> Array:
+    """The same of A."""
+    kept: Array = A if isinstance(A, np.ndarray) else A.data
+    return kept
 
 
 class Places:
@@ -47,16 +50,18 @@ class Places:
 
     Parameters
     ----------
-    both : StepInBothUnits
+    step : StepData
         One of the whole steps.
+    A : ndarray or sparse matrix, optional
+        Its A, if this is asked for.
     """
 
-    def __init__(self, both: StepInBothUnits) -> None:
-        contacts: Any = both.si_step.contacts
-        self.A: Any = both.si_form.A
-        self.dense = isinstance(both, DenseStepInBothUnits)
-        J = _kept(both)["J"]
+    def __init__(self, step: StepData, A: Any = None) -> None:
+        self.A = A
+        J = kept_J(step)
         numbered = np.arange(1.0, J.size + 1).reshape(J.shape)
+        contacts: Any = step.contacts
+        self.dense = not hasattr(contacts, "blocks")
         self.J: Any = numbered if self.dense else replace(contacts.blocks, J=numbered)
 
     def in_J(self, group: Group) -> Indices:
@@ -72,7 +77,9 @@ class Places:
         """Of its A, shape (m, n)."""
         A = self.A
         rows = group.rows
-        if self.dense:
+        if A is None:
+            return np.full((len(rows), len(group.coordinates)), -1)
+        if isinstance(A, np.ndarray):
             places: Indices = rows[:, None] * A.shape[1] + group.coordinates
             return places
         own = np.full(A.shape[0], -1)
@@ -211,6 +218,19 @@ def step_arrays(n_a: int, n: int, n_c: int, m: int) -> dict[str, Array]:
     }  # fmt: skip
 
 
+def lend_data(s: Structure, step: StepData) -> None:
+    """Let C read the data of a step."""
+    contacts = step.contacts
+    s.lend("J", kept_J(step))
+    s.lend("delta_q_bar_a", step.delta_q_bar_a)
+    s.lend("phi", contacts.phi)
+    s["tau"][: step.n_a] = step.tau_a
+    s["tau"][step.n_a :] = step.tau_u
+    s["mu"][:, 1:] = contacts.mu
+    for i, axes in enumerate((contacts.n, contacts.d1, contacts.d2)):
+        s["frame"][:, i, :3] = axes
+
+
 def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
     """The optimum that C has written, of a group or of a step."""
     unique, smooth = s["claims"].astype(bool).tolist()
@@ -254,7 +274,8 @@ class Prover:
         step = both.si_step
         found = library()
         self._prove = found.groups_proved
-        places = Places(both)
+        A = both.si_form.A
+        places = Places(step, A)
         self.proofs = [group_proof(*each, places) for each in groups]
         addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
         self.s = Structure("groups.c", "Step")
@@ -262,7 +283,8 @@ class Prover:
             {
                 "groups": len(groups), "group": np.array(addresses, np.int64),
                 "code": np.zeros(len(groups), np.int64), "claims": np.zeros(2, np.int64),
-                **_kept(both), **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
+                "J": kept_J(step), "A": _kept_A(A),
+                **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
             }
         )  # fmt: skip
 
@@ -276,19 +298,11 @@ class Prover:
             Of the answer, both in natural units [-].
         """
         s = self.s
-        step = both.si_step
-        contacts = step.contacts
         form = both.si_form
-        for name, value in {
-            "delta_q_bar_a": step.delta_q_bar_a, "phi": contacts.phi, "g": form.g, "b": form.b,
-            "pressure": lam, "gap": slack, **_kept(both),
-        }.items():  # fmt: skip
+        given = {"g": form.g, "A": _kept_A(form.A), "b": form.b, "pressure": lam, "gap": slack}
+        for name, value in given.items():
             s.lend(name, value)
-        s["tau"][: step.n_a] = step.tau_a
-        s["tau"][step.n_a :] = step.tau_u
-        s["mu"][:, 1:] = contacts.mu
-        for i, axes in enumerate((contacts.n, contacts.d1, contacts.d2)):
-            s["frame"][:, i, :3] = axes
+        lend_data(s, both.si_step)
         if not self._prove(s.address):
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist())

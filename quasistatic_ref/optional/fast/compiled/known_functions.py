@@ -148,8 +148,10 @@ def wrong_bound(library: ctypes.CDLL) -> str | None:
         inverse *= 1 + rng.choice([0.0, 1e-12, 0.02], (n, n)) * rng.standard_normal((n, n))
         G = Room(n * n, float)
         sizes = Room(n, float)
-        library.defect(R.address, K.ctypes.data_as(ctypes.c_void_p), size, G.address, sizes.address)
-        if G.all[: n * n].tolist() != _defect(inverse, K) or not G.kept or not sizes.kept:
+        summed = K * rng.choice([1.0, 3.0], (n, n))
+        given = [array.ctypes.data_as(ctypes.c_void_p) for array in (K, summed)]
+        library.defect(R.address, *given, size, G.address, sizes.address)
+        if G.all[: n * n].tolist() != _defect(inverse, K, summed) or not G.kept or not sizes.kept:
             return "a bound of |I - R K| is wrong"
         r = np.abs(rng.standard_normal(n)) * rng.choice([0.0, 1e-30, 1.0], n)
         e = Room(n, float)
@@ -166,16 +168,15 @@ def wrong_bound(library: ctypes.CDLL) -> str | None:
     return None
 
 
-def _defect(R: Array, K: Array) -> list[float]:
+def _defect(R: Array, K: Array, summed: Array) -> list[float]:
     found = []
     n = len(K)
     for i in range(n):
         for j in range(n):
             sum_ = size = 0.0
             for l in range(n):  # noqa: E741
-                term = float(R[i, l] * K[l, j])
-                sum_ += term
-                size += abs(term)
+                sum_ += float(R[i, l] * K[l, j])
+                size += abs(float(R[i, l] * summed[l, j]))
             one = float(i == j)
             rounding = (n * 2.0**-52 + 2.0**-47) * (size + one)
             found.append((abs(one - sum_) + rounding + NORMAL) * UP)

@@ -22,6 +22,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     GroupProof,
     Prover,
 )
+from quasistatic_ref.optional.fast.compiled.forces import Forces
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.files import step_from_record
@@ -47,11 +48,14 @@ class Known(NamedTuple):
         What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
         that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
         for neither.
+    forces : list of list of float, or None
+        (f_d1, f_d2, f_n, tau_n) of each contact [N, N m]; None where that library left some open.
     """
 
     step: StepData
     optimum: dict[str, Any] | None
     outcomes: str
+    forces: list[list[float]] | None
 
 
 @cache
@@ -60,7 +64,8 @@ def known_steps() -> list[Known]:
     with gzip.open(FILE, "rt", encoding="utf-8") as lines:
         records = [json.loads(line) for line in lines]
     return [
-        Known(step_from_record(one["step"]), one["optimum"], one["outcomes"]) for one in records
+        Known(step_from_record(one["step"]), one["optimum"], one["outcomes"], one["forces"])
+        for one in records
     ]
 
 
@@ -180,6 +185,10 @@ def wrong(known: Known) -> str | None:
         unlike = different(one, known.optimum or {})
         if unlike:
             return f"{unlike} of an optimum is wrong"
+    if known.forces is not None:
+        wrench, left = Forces(known.step).in_c(known.step)
+        if left or wrench.tolist() != known.forces:
+            return "a force is not decided" if left else "a force is wrong"
     return None
 
 

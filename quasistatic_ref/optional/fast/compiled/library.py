@@ -41,8 +41,8 @@ CONSTANTS = {
     **{
         name: getattr(tolerances, name)
         for name in (
-            "FILLED", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE", "OVER_FACE", "REPEATED",
-            "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
+            "COMPLIANCE", "FILLED", "HARDLY_MOVES", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE",
+            "OVER_FACE", "REPEATED", "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
         )
     },
     "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,
@@ -69,6 +69,7 @@ FUNCTIONS = {
     "proof": ctypes.c_int,
     "proof_nearby": ctypes.c_int,
     "groups_proved": ctypes.c_int,
+    "groups_forces": None,
 }
 """What each function returns; its one argument is the address of a structure."""
 

@@ -59,7 +59,7 @@ def holds(library):
         n = len(K)
         G = np.zeros((n, n))
         e = np.zeros(n)
-        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G), pointer(e))
+        library.defect(*map(pointer, (R, K, K)), ctypes.c_int64(n), pointer(G), pointer(e))
         if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
             return False
         for bound in (G, np.full((n, n), 0.55 / n)):  # the second shows no contraction by a half

@@ -12,9 +12,10 @@ _Thread_local int lost;
 
 int64_t number_size(void) { return sizeof(Number); }
 
-/* gap, slip_1, slip_2 and spin of a contact, the last three times their coefficients of friction, and
-   bounds of their errors. */
-static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double *e)
+/* gap, slip_1, slip_2 and spin of a contact at x, which is known within some bounds, the last three times
+   their coefficients of friction, and bounds of their errors; the gap with phi or without. */
+void motion(const Proof *s, const Number *x, const double *off, int64_t c, int with_gap, Number *out,
+            double *e)
 {
     int64_t n = s->n_v;
     double ell = s->units[0], rho = s->units[1], of_nu[4];
@@ -27,8 +28,8 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
             double unit = s->coordinate[v] / ell, entry = s->J[n * (4 * c + i) + v];
             if (entry == 0.0)
                 continue;
-            add_product(&sum, m->z + v, scaled(entry, unit), 1);
-            of_nu[i] += fabs(entry * unit) * m->e[v];
+            add_product(&sum, x + v, scaled(entry, unit), 1);
+            of_nu[i] += fabs(entry * unit) * off[v];
         }
         carried(&sum, nu + i);
     }
@@ -39,7 +40,7 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
             add_product(&sum, nu + i, exact(axis[i]), 1);
             e[a] += fabs(axis[i]) * of_nu[i];
         }
-        if (a == 0) {
+        if (a == 0 && with_gap) {
             Number phi = number(scaled(s->phi[c], 1 / (rho * ell)));
             add(&sum, &phi);
         }
@@ -78,7 +79,7 @@ static void slacks(Proof *s, Room *m)
             continue;
         }
         if (c != last)
-            motion(s, m, c, of, e);
+            motion(s, m->z, m->e, c, 1, of, e);
         last = c;
         double error = 0.0;
         for (int a = 0; a < 4; a++) {
@@ -232,7 +233,7 @@ int regular(const Proof *s, Room *m)
         return LOST;
     if (!inverse(m->R, N, m->pivot))
         return SINGULAR;
-    defect(m->R, m->K, N, m->G, m->e);
+    defect(m->R, m->K, m->K, N, m->G, m->e);
     return DECIDED;
 }
 

@@ -47,8 +47,8 @@ int inverse(double *R, int64_t n, int64_t *pivot)
     return 1;
 }
 
-/* Upper bounds of |I - R K|, K being known to a relative 2^-48 of each entry; sizes has room for n. */
-void defect(const double *R, const double *K, int64_t n, double *G, double *sizes)
+/* Upper bounds of |I - R K|, K being known to 2^-48 of the size of each entry; sizes has room for n. */
+void defect(const double *R, const double *K, const double *size, int64_t n, double *G, double *sizes)
 {
     for (int64_t i = 0; i < n; i++) {
         double *sums = G + i * n;
@@ -56,9 +56,8 @@ void defect(const double *R, const double *K, int64_t n, double *G, double *size
             sums[j] = sizes[j] = 0.0;
         for (int64_t l = 0; l < n; l++)
             for (int64_t j = 0; j < n; j++) {
-                double term = R[i * n + l] * K[l * n + j];
-                sums[j] += term;
-                sizes[j] += fabs(term);
+                sums[j] += R[i * n + l] * K[l * n + j];
+                sizes[j] += fabs(R[i * n + l] * size[l * n + j]);
             }
         for (int64_t j = 0; j < n; j++) {
             double one = i == j;

@@ -73,6 +73,8 @@ static inline Number number(Float f)
     return x;
 }
 
+static inline int empty(const Number *x) { return x->low == x->high; }
+
 /* Count the digits from `low` to below `high` as digits of a sum. */
 static inline void reach(Sum *sum, int low, int high)
 {
@@ -82,7 +84,7 @@ static inline void reach(Sum *sum, int low, int high)
 
 static inline void add(Sum *sum, const Number *x)
 {
-    if (x->low == x->high)
+    if (empty(x))
         return;
     reach(sum, x->low, x->high);
     for (int j = x->low; j < x->high; j++)

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "proof.h"
+#include "forces.h"
 
 enum { GUESSES = 16 }; /* that follow one that is wrong; boxes in a row at rest take four to ten */
 
@@ -19,6 +19,9 @@ typedef struct {
     int64_t *code;
     double *delta_q, *lam, *net, *slack, *rest, *bound, *least;
     int64_t *claims;
+    /* What forms the forces of each group; those of all contacts. */
+    Forces *const *forces;
+    double *wrench;
 } Step;
 
 /* Some numbers, -1 standing for a zero: whether one has changed. */
@@ -51,19 +54,26 @@ static void given(double *to, const double *from, const int64_t *index, int64_t 
         to[index[i]] = from[i];
 }
 
-/* The data of a group; whether those have changed of which its optimum is made. */
-static int posed(const Step *s, Proof *p)
+/* The standard form of a group, and the answer. */
+static void form_taken(const Step *s, Proof *p)
 {
-    const int64_t *v = p->coordinates, *c = p->contacts, *r = p->rows_of_step;
-    int64_t n = p->n_v, n_c = p->n_c, m = p->rows;
-    int changed = 0;
-    changed |= taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a);
-    changed |= taken(p->tau, s->tau, v, n);
-    taken(p->g, s->g, v, n);
+    const int64_t *r = p->rows_of_step;
+    int64_t n = p->n_v, m = p->rows;
+    taken(p->g, s->g, p->coordinates, n);
     taken(p->A, s->A, p->in_A, m * n);
     taken(p->b, s->b, r, m);
     taken(p->pressure, s->pressure, r, m);
     taken(p->gap, s->gap, r, m);
+}
+
+/* The data of a group: whether they have changed. */
+static int posed(const Step *s, Proof *p)
+{
+    const int64_t *v = p->coordinates, *c = p->contacts;
+    int64_t n = p->n_v, n_c = p->n_c;
+    int changed = 0;
+    changed |= taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a);
+    changed |= taken(p->tau, s->tau, v, n);
     changed |= taken(p->phi, s->phi, c, n_c);
     changed |= rows_taken(p->frame, s->frame, c, n_c, 16);
     changed |= rows_taken(p->mu, s->mu, c, n_c, 4);
@@ -119,6 +129,7 @@ int groups_proved(Step *s)
         Proof *p = s->group[i];
         s->code[i] = NOT_POSED;
         if (p) {
+            form_taken(s, p);
             int changed = posed(s, p), same_answer = !answered(p);
             if (!changed && same_answer && p->code != NOT_POSED)
                 s->code[i] = p->code;
@@ -143,4 +154,19 @@ int groups_proved(Step *s)
         }
     }
     return all;
+}
+
+/* The forces of all groups, as far as they are DECIDED. */
+void groups_forces(Step *s)
+{
+    for (int64_t i = 0; i < s->groups; i++) {
+        Proof *p = s->group[i];
+        s->code[i] = NOT_POSED;
+        if (!p)
+            continue;
+        posed(s, p);
+        s->code[i] = forces(s->forces[i]);
+        for (int64_t c = 0; c < p->n_c; c++)
+            memcpy(s->wrench + 4 * p->contacts[c], s->forces[i]->wrench + 4 * c, 4 * sizeof(double));
+    }
 }

@@ -97,11 +97,13 @@ void system_of(const Proof *s, Room *m);
 void less(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum);
 void corrected(const Proof *s, Room *m);
 int inverse(double *R, int64_t n, int64_t *pivot);
-void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
+void defect(const double *R, const double *K, const double *size, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out);
 int half_way(const Number *x, double e, double h, double unit, double *out, Number *middle);
 int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight);
+void motion(const Proof *s, const Number *x, const double *off, int64_t c, int with_gap, Number *out,
+            double *e);
 void *room_of(const Proof *s, Room *m);
 int regular(const Proof *s, Room *m);
 int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others);

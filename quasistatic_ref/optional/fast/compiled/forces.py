@@ -1,0 +1,194 @@
+"""The forces of single contacts in compiled fixed point: those of ``certify/compliance``."""
+
+from functools import cache, cached_property
+from itertools import accumulate, combinations
+
+import numpy as np
+
+from quasistatic_ref.certify.compliance.faces import face, rows_of
+from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.optional.fast.compiled.certificate import (
+    Places,
+    group_proof,
+    kept_J,
+    lend_data,
+    step_arrays,
+)
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
+from quasistatic_ref.optional.fast.rechecked import check_forces
+from quasistatic_ref.solve.units import hessian_in_both_units
+from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.cones import cone, cone_matrix
+from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.groups import Group, group_steps, sides
+
+MOST_ROWS = 8
+"""Of a contact: C looks a face up by the set of its rows."""
+LARGEST = 1 << 30
+"""What the whole numbers of a face are below."""
+
+
+class Forces:
+    """The forces of steps that have their H, rows and groups in common.
+
+    Parameters
+    ----------
+    step : StepData
+        One of them, in a polyhedral cone.
+    """
+
+    def __init__(self, step: StepData) -> None:
+        divided = group_steps(step)
+        places = Places(step)
+        self._form = library().groups_forces
+        self._groups = [group for group, _ in divided]
+        self._parts = [_GroupForces(*one, places) for one in divided]
+        self.s = Structure("groups.c", "Step")
+        self.s.put(
+            {
+                "groups": len(divided), "code": np.zeros(len(divided), np.int64),
+                "group": np.array([part.group for part in self._parts], np.int64),
+                "forces": np.array([part.s.address for part in self._parts], np.int64),
+                "J": kept_J(step), "wrench": np.zeros((step.contacts.n_c, 4)),
+                **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
+            }
+        )  # fmt: skip
+
+    def in_c(self, step: StepData) -> tuple[Array, list[int]]:
+        """(f_d1, f_d2, f_n, tau_n) of each contact of a step, shape (n_c, 4) [N, N m].
+
+        With the numbers of the groups that C leaves open, whose forces are none.
+        """
+        lend_data(self.s, step)
+        self._form(self.s.address)
+        left = self.s["code"].nonzero()[0].tolist()
+        return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
+
+    def wrench(self, solution: StepSolution) -> Array:
+        """The same of a solution's step, shape (n_c, 4); what C leaves open comes from the core."""
+        step = solution.step
+        wrench, left = self.in_c(step)
+        for group, own in [group_steps(step)[i] for i in left]:
+            near = solution.delta_q[group.coordinates], solution.wrench[group.contacts]
+            wrench[group.contacts] = contact_forces(own, near=near).wrench
+        if not left:
+            check_forces(step, wrench)
+        return read_only(wrench)
+
+
+class ForcesOfSteps:
+    """The forces of one step after the other: what they have in common is kept."""
+
+    def __init__(self) -> None:
+        self._of: Coupling = []
+        self._kept: Forces | None = None
+
+    def wrench(self, solution: StepSolution) -> Array:
+        """As of :meth:`Forces.wrench`, shape (n_c, 4) [N, N m]."""
+        of = coupled_by(solution.step)
+        if self._kept is None or not unchanged(of, self._of):
+            self._kept = Forces(solution.step)
+            self._of = of
+        return self._kept.wrench(solution)
+
+
+class FastSolution(StepSolution):
+    """A solution whose forces come from compiled code: the same, in less time.
+
+    Attributes
+    ----------
+    in_c : ForcesOfSteps
+        Not copied, compared or pickled: a copy has the forces of the core.
+    """
+
+    @cached_property
+    def forces(self) -> Array:
+        """As of the base, shape (n_c, 4) [N, N m]."""
+        in_c: ForcesOfSteps | None = vars(self).get("in_c")
+        return super().forces if in_c is None else in_c.wrench(self)
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """It is compared as :class:`~quasistatic_ref.certify.solution.StepSolution`."""
+        return StepSolution
+
+
+def knows(name: str) -> bool:
+    """Whether C knows the faces of a polyhedral cone."""
+    return all(_faces(name, count) for count in cone(name).counts(np.array([4, 6])).tolist())
+
+
+class _GroupForces:
+    """What C knows of the forces of a group, whose step is its `own`.
+
+    Attributes
+    ----------
+    s : Structure
+    group : int
+        Address of its Proof; 0 of a group that C does not know.
+    """
+
+    def __init__(self, group: Group, own: StepData, places: Places) -> None:
+        n_c = own.contacts.n_c
+        self.s = Structure("forces.h", "Forces")
+        self.s.put({"wrench": np.zeros((n_c, 4))})
+        counts, kind = np.unique(own.counts, return_inverse=True)
+        known = [_faces(own.cone, count) for count in counts.tolist()]
+        tables = [table for table in known if table is not None]
+        self._proof = group_proof(group, own, hessian_in_both_units(own.H), places)
+        if not n_c or None in known or self._proof is None:
+            self.group = 0
+            return
+        self.group = self._proof.s.address
+        of_sides = sides(own)
+        integers = [each for each, _ in tables]
+        width = max(each.shape[1] for each in integers)
+        wide = [np.pad(each, ((0, 0), (0, width - each.shape[1]), (0, 0))) for each in integers]
+        denominators = np.concatenate([each for _, each in tables])
+        firsts = np.array([0, *accumulate(map(len, integers))])
+        self.s.put(
+            {
+                "width": width, "sides": len(of_sides), "count": own.counts,
+                "first": firsts[kind], "face": np.zeros(n_c, np.int64),
+                "table": np.concatenate(wide),
+                "denominator": denominators,
+                "multiple": int(np.lcm.reduce(denominators[denominators > 0])),
+                "side": np.concatenate(of_sides),
+                "start": np.array([0, *accumulate(map(len, of_sides))]),
+                "compliance": np.zeros(1),
+                "bears": cone_matrix(own.cone)[:, :3].any(axis=0).astype(np.int64),
+            }
+        )  # fmt: skip
+        self.s.put({"group": self.group})
+
+
+@cache
+def _faces(name: str, count: int) -> tuple[Indices, Indices] | None:
+    """The faces of a contact that has `count` rows, by the bits of the rows that span them.
+
+    Returns
+    -------
+    (ndarray, ndarray) or None
+        Their numbers as of :class:`~quasistatic_ref.certify.compliance.faces.Face`, shape
+        (2^count, count + 4, 4), and denominators, (2^count,), zero of rows that depend on each
+        other. None if C cannot hold them.
+    """
+    if count > MOST_ROWS:
+        return None
+    C = rows_of(name, count)
+    integers = np.zeros((1 << count, count + 4, 4), np.int64)
+    denominators = np.zeros(1 << count, np.int64)
+    for size in range(5):
+        for rows in combinations(range(count), size):
+            if np.linalg.matrix_rank(C[list(rows)]) < size:
+                continue
+            one = face(name, count, rows)
+            if abs(one.integers).max() >= LARGEST or one.denominator >= LARGEST:
+                return None
+            bits = sum(1 << i for i in rows)
+            integers[bits] = one.integers
+            denominators[bits] = one.denominator
+    return integers, denominators

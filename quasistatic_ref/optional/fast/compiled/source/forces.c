@@ -1,0 +1,558 @@
+/* certify/compliance/forces.contact_forces, with test_compiled_forces.py: forces of contacts that give way.
+
+   z = B x + (phi, 0, 0, 0) are four lengths of each contact. On the face on which its force lies,
+   c p = s = -P z, and x solves
+
+       h H x + k sum B'P z = h g,   k = h^2 / c.
+
+   The faces are guessed by Newton's method in float64. In fixed point x is refined, and decides
+   whether each face is right. Units are natural, of a length of 1. */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "forces.h"
+
+enum { STEPS = 12, SOFTEST = 30, GUESSES = 8, SWEEPS = 36, FIRST = 80, FINER = 60, PRODUCTS = 1 << 14 };
+
+#define NEARLY 0x1p-44   /* by which a condition of a face may be missed in float64, over the lengths z */
+#define SHORTEST 0x1p-20 /* share of the way to the next zero of the gradient, at least */
+#define FLAT 0.1         /* slope that counts as a fall, over the slope where the way begins */
+#define OPEN 1e-5        /* of an exponent that is as near to one whole number as to the next */
+
+typedef struct {
+    const Forces *f;
+    const Proof *s;
+    Room m; /* of x; K is h H + k sum B'P B */
+    double c, k, units[2];
+    double *B, *size, *x, *from, *way, *along; /* size: of what K is the sum of */
+    int64_t *before;                           /* faces */
+    Sum *sum;
+} Force;
+
+/* The numbers of a face: conditions of a contact's rows, then s, all times z and a denominator. */
+static const int64_t *numbers(const Forces *f, int64_t c, int64_t face)
+{
+    return f->table + 4 * f->width * (f->first[c] + face);
+}
+
+static const int64_t *of_s(const Forces *f, int64_t c)
+{
+    return numbers(f, c, f->face[c]) + 4 * f->count[c];
+}
+
+static double denominator(const Forces *f, int64_t c, int64_t face)
+{
+    return (double)f->denominator[f->first[c] + face];
+}
+
+static double worst(const Forces *f, int64_t c, int64_t face, const double *z)
+{
+    const int64_t *row = numbers(f, c, face);
+    double least = INFINITY;
+    for (int64_t i = 0; i < f->count[c]; i++, row += 4) {
+        double sum = 0.0;
+        for (int a = 0; a < 4; a++)
+            sum += (double)row[a] * z[a];
+        least = fmin(least, sum);
+    }
+    return least / denominator(f, c, face);
+}
+
+/* The face at z: the one before where its conditions are missed by no more than a share of z, or that
+   whose worst condition is best. */
+static void seek(const Forces *f, int64_t c, const double *z, double share)
+{
+    double most = 0.0, best = worst(f, c, f->face[c], z);
+    for (int a = 0; a < 4; a++)
+        most = fmax(most, fabs(z[a]));
+    if (best >= -share * most)
+        return;
+    for (int64_t face = 0; face < (int64_t)1 << f->count[c]; face++)
+        if (denominator(f, c, face) != 0.0 && worst(f, c, face, z) > best) {
+            best = worst(f, c, face, z);
+            f->face[c] = face;
+        }
+}
+
+static void turned(double *x, double *y, int stride, double angle)
+{
+    for (int l = 0; l < 3; l++, x += stride, y += stride) {
+        double turned = cos(angle) * *x - sin(angle) * *y;
+        *y = sin(angle) * *x + cos(angle) * *y;
+        *x = turned;
+    }
+}
+
+/* certify/compliance/of_group.counted. */
+static double counted(double b, double largest)
+{
+    double small = HARDLY_MOVES * largest;
+    return b >= small ? b : small * small / fmax(b, HARDLY_MOVES * small);
+}
+
+/* What a side counts for along n, d1 and d2 of a contact, from b = J H^-1 J' there: its eigenvalues, by
+   Jacobi's rotations. */
+static void counted_along(double b[3][3], double *out)
+{
+    double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int k = 0; k < SWEEPS; k++) {
+        int i = k % 3, j = (k + 1) % 3;
+        if (fabs(b[i][j]) <= 0x1p-60 * (b[i][i] + b[j][j]))
+            continue;
+        double angle = atan(2 * b[i][j] / (b[j][j] - b[i][i])) / 2;
+        turned(b[0] + i, b[0] + j, 3, angle);
+        turned(b[i], b[j], 1, angle);
+        turned(axes[0] + i, axes[0] + j, 3, angle);
+    }
+    double most = fmax(b[0][0], fmax(b[1][1], b[2][2]));
+    for (int i = 0; i < 3; i++) {
+        out[i] = 0.0;
+        for (int j = 0; j < 3; j++)
+            out[i] += axes[i][j] * axes[i][j] * counted(b[j][j], most);
+    }
+}
+
+/* certify/compliance/of_group: the compliance; 0 where its exponent is open. */
+static double compliance(const Force *g)
+{
+    const Forces *f = g->f;
+    const Proof *s = g->s;
+    int64_t n = s->n_v;
+    double least = INFINITY;
+    for (int64_t side = 0; side < f->sides; side++) {
+        int64_t count = 0;
+        double largest = 0.0;
+        for (int64_t c = 0; c < s->n_c; c++) {
+            const double *B = g->B + 4 * c * n;
+            double b[3][3] = {{0.0}};
+            int moves = 0;
+            for (int64_t x = f->start[side]; x < f->start[side + 1]; x++)
+                for (int i = 0; i < 3; i++) {
+                    double motion = 0.0;
+                    for (int64_t y = f->start[side]; y < f->start[side + 1]; y++)
+                        motion += s->inverse[f->side[x] * n + f->side[y]] * B[i * n + f->side[y]]
+                                * g->way[f->side[y]];
+                    for (int j = 0; j < 3; j++)
+                        if (f->bears[i] && f->bears[j])
+                            b[i][j] += B[j * n + f->side[x]] * g->way[f->side[x]] * motion;
+                    moves |= f->bears[i] && B[i * n + f->side[x]] != 0.0;
+                }
+            for (int i = 0; i < 9; i++) /* without the coefficients of friction */
+                if (b[i / 3][i % 3] != 0.0)
+                    b[i / 3][i % 3] /= s->mu[4 * c + i / 3] * s->mu[4 * c + i % 3];
+            if (!moves)
+                continue;
+            counted_along(b, g->along + count);
+            for (int i = 0; i < 3; i++)
+                largest = fmax(largest, g->along[count++]);
+        }
+        for (int64_t i = 0; i < count; i++)
+            least = fmin(least, counted(g->along[i], largest));
+    }
+    double exponent = log2(COMPLIANCE * *s->h * least), whole = rint(exponent);
+    return fabs(exponent - whole) < 0.5 - OPEN && fabs(whole) < 900 ? ldexp(1.0, (int)whole) : 0.0;
+}
+
+/* B of all contacts, in natural units of coordinates; what SI units are of these, in `way`. */
+static void in_floats(const Force *g)
+{
+    const Proof *s = g->s;
+    int64_t n = s->n_v;
+    for (int64_t v = 0; v < n; v++)
+        g->way[v] = 1 / s->coordinate[v];
+    for (int64_t i = 0; i < 4 * s->n_c; i++)
+        for (int64_t v = 0; v < n; v++) {
+            double sum = 0.0;
+            for (int a = 0; a < 4; a++)
+                sum += s->frame[4 * i + a] * s->J[(i / 4 * 4 + a) * n + v];
+            g->B[i * n + v] = s->mu[i] * sum * s->coordinate[v];
+        }
+}
+
+/* K and what it is the sum of, on the faces that are there; in `rest` what is left to bear at x. */
+static void assembled(Force *g)
+{
+    const Proof *s = g->s;
+    Room *m = &g->m;
+    int64_t n = s->n_v;
+    for (int64_t v = 0; v < n; v++)
+        m->rest[v] = value(m->g + v);
+    for (int64_t i = 0; i < n * n; i++) {
+        m->K[i] = s->hessian_values[i];
+        g->size[i] = fabs(m->K[i]);
+    }
+    for (int64_t c = 0; c < s->n_c; c++) {
+        const double *B = g->B + 4 * c * n;
+        for (int i = 0; i < 16 && g->f->face[c]; i++) {
+            double part = g->k * (double)of_s(g->f, c)[i] / denominator(g->f, c, g->f->face[c]);
+            for (int64_t v = 0; v < n && part != 0.0; v++) {
+                double push = part * B[i / 4 * n + v];
+                if (i % 4 == 0)
+                    m->rest[v] += push * s->phi[c];
+                for (int64_t w = 0; w < n && push != 0.0; w++) {
+                    double term = push * B[i % 4 * n + w];
+                    m->K[v * n + w] -= term;
+                    g->size[v * n + w] += fabs(term);
+                }
+            }
+        }
+    }
+    for (int64_t i = 0; i < n * n; i++)
+        m->rest[i / n] -= m->K[i] * g->x[i % n];
+}
+
+static int inverted(Force *g)
+{
+    int64_t n = g->s->n_v;
+    memcpy(g->m.R, g->m.K, (size_t)(n * n) * sizeof(double));
+    return inverse(g->m.R, n, g->m.pivot);
+}
+
+/* R times what is left to bear. */
+static void solved(const Force *g, double *x)
+{
+    int64_t n = g->s->n_v;
+    for (int64_t v = 0; v < n; v++) {
+        x[v] = 0.0;
+        for (int64_t w = 0; w < n; w++)
+            x[v] += g->m.R[v * n + w] * g->m.rest[w];
+    }
+}
+
+/* What falls along the way, once x is a share of it farther, with the faces there. */
+static double moved(Force *g, double share)
+{
+    const Proof *s = g->s;
+    int64_t n = s->n_v;
+    double fall = 0.0;
+    for (int64_t v = 0; v < n; v++)
+        g->x[v] = g->from[v] + share * g->way[v];
+    for (int64_t c = 0; c < s->n_c; c++) {
+        double z[4] = {s->phi[c]};
+        for (int64_t i = 0; i < 4 * n; i++)
+            z[i / n] += g->B[4 * c * n + i] * g->x[i % n];
+        seek(g->f, c, z, NEARLY);
+    }
+    assembled(g);
+    for (int64_t v = 0; v < n; v++)
+        fall += g->way[v] * g->m.rest[v];
+    return fall;
+}
+
+/* certify/compliance/face_guess: whether Newton's method ends, with x and the faces there. */
+static int settled(Force *g)
+{
+    size_t n = (size_t)g->s->n_v * sizeof(double), n_c = (size_t)g->s->n_c * sizeof(int64_t);
+    memset(g->x, 0, n);
+    assembled(g);
+    for (int step = 0; step < STEPS && inverted(g); step++) {
+        double first = 0.0, share = 1.0;
+        memcpy(g->from, g->x, n);
+        memcpy(g->before, g->f->face, n_c);
+        solved(g, g->way);
+        for (int64_t v = 0; v < g->s->n_v; v++)
+            first += g->way[v] * g->m.rest[v];
+        double fall = moved(g, share);
+        if (!memcmp(g->before, g->f->face, n_c))
+            return 1;
+        while (step && share > SHORTEST && fall < -FLAT * first)
+            fall = moved(g, share /= 2);
+    }
+    return 0;
+}
+
+/* The same; where the method does not end, from the faces of larger compliances. */
+static int guessed(Force *g)
+{
+    double k = g->k;
+    int found = settled(g);
+    for (int softer = SOFTEST; !found && softer >= 0; softer -= 6) {
+        g->k = ldexp(k, -softer);
+        found = settled(g) && !softer;
+    }
+    return found;
+}
+
+static void times(Sum *sum, Number *x, Float by)
+{
+    add_product(sum, x, by, 1);
+    carried(sum, x);
+}
+
+/* r less D K x; with the constant terms that come from the gaps, or without. */
+static void pressed(const Force *g, const Number *x, int with_gaps, Number *r)
+{
+    const Proof *s = g->s;
+    int64_t n = s->n_v;
+    double D = (double)g->f->multiple;
+    Float h = exact(*s->h);
+    Sum one = EMPTY;
+    for (int64_t c = 0; c < s->n_c; c++) {
+        const double *J = s->J + 4 * n * c;
+        double share = D / denominator(g->f, c, g->f->face[c]), e[4];
+        Number z[4], push[4], w;
+        if (!g->f->face[c])
+            continue;
+        motion(s, x, g->m.e, c, with_gaps, z, e);
+        for (int a = 0; a < 4; a++) {
+            for (int b = 0; b < 4; b++)
+                if (of_s(g->f, c)[4 * a + b])
+                    add_product(&one, z + b, exact((double)of_s(g->f, c)[4 * a + b] * share), 1);
+            carried(&one, push + a);
+            times(&one, push + a, exact(s->mu[4 * c + a]));
+            times(&one, push + a, h);
+            times(&one, push + a, h);
+        }
+        for (int i = 0; i < 4; i++) {
+            for (int a = 0; a < 4; a++)
+                if (s->frame[16 * c + 4 * a + i] != 0.0)
+                    add_product(&one, push + a, exact(s->frame[16 * c + 4 * a + i]), 1);
+            carried(&one, &w);
+            for (int64_t v = 0; v < n; v++)
+                if (J[i * n + v] != 0.0)
+                    add_product(g->sum + v, &w, scaled(J[i * n + v], s->coordinate[v] / g->c), 1);
+        }
+    }
+    for (int64_t v = 0; v < n; v++) {
+        const Number *H = (const Number *)s->hessian + v * n;
+        for (int64_t w = 0; w < n; w++)
+            for (int j = x[w].low; j < x[w].high && !empty(H + w); j++)
+                add_product(&one, H + w, (Float){j, x[w].d[j], 0}, -1);
+        Number inert;
+        carried(&one, &inert);
+        add_product(g->sum + v, &inert, exact(D), 1);
+        add(g->sum + v, r + v);
+        carried(g->sum + v, r + v);
+    }
+}
+
+/* What acts at z less D K z. */
+static void remaining(const Force *g, const Number *z, Number *r)
+{
+    load(g->s, r);
+    for (int64_t v = 0; v < g->s->n_v; v++)
+        times(g->sum, r + v, exact((double)g->f->multiple));
+    pressed(g, z, 1, r);
+}
+
+/* Add x to z, and refine z until no residual is above 2^-bits; x is the next correction then. */
+static void refine(Force *g, int bits)
+{
+    Room *m = &g->m;
+    int64_t n = g->s->n_v;
+    for (int round = 0; round < ROUNDS && !lost; round++) {
+        double most = 0.0;
+        for (int64_t v = 0; v < n; v++) {
+            m->net[v] = number(digits_of(g->x[v], bits + FINER, 1));
+            total(m->z + v, m->net + v, m->z + v);
+        }
+        if (round == 0)
+            remaining(g, m->z, m->r);
+        else
+            pressed(g, m->net, 0, m->r);
+        for (int64_t v = 0; v < n; v++) {
+            m->rest[v] = value(m->r + v) / (double)g->f->multiple * UP;
+            most = fmax(most, fabs(m->rest[v]));
+        }
+        solved(g, g->x);
+        if (most < ldexp(1.0, -bits))
+            break;
+    }
+}
+
+/* What an entry of a vector differs by from an earlier one, or from less than that, or from zero. */
+static double unlike(const Number *r, int64_t v, int64_t u, int sign, Number *left)
+{
+    Sum sum = EMPTY;
+    add(&sum, r + v);
+    add_product(&sum, r + u, exact((double)sign), -1);
+    carried(&sum, left);
+    return fabs(value(left)) * DOWN;
+}
+
+/* Which entries of x may be zero, or equal to an earlier one, or its opposite; how many are zero. */
+static int64_t likenesses(Room *m, int64_t n)
+{
+    int64_t zeros = 0;
+    Number left;
+    for (int64_t v = 0; v < n; v++) {
+        m->rests[v] = unlike(m->z, v, v, 0, &left) <= m->e[v];
+        m->pivot[v] = 0;
+        zeros += m->rests[v];
+        for (int64_t u = 0; u < v; u++)
+            for (int sign = -1; sign <= 1 && !m->rests[v]; sign += 2)
+                if (!m->rests[u] && unlike(m->z, v, u, sign, &left) <= m->e[v] + m->e[u]) {
+                    m->rests[v] = 1;
+                    m->pivot[v] = sign;
+                    m->balanced[v] = u;
+                }
+    }
+    return zeros;
+}
+
+/* Whether a vector is like x. */
+static int is_like(const Room *m, const Number *r, int64_t n)
+{
+    int all = 1;
+    Number left;
+    for (int64_t v = 0; v < n; v++) {
+        unlike(r, v, m->pivot[v] ? m->balanced[v] : v, (int)m->pivot[v], &left);
+        all &= !m->rests[v] || empty(&left);
+    }
+    return all;
+}
+
+/* Whether the entries of x that may be zero are. Of vectors that are like x K makes others, and the load
+   is one: then what is left of it by the best of them is one, too, and orthogonal to all of them,
+   hence zero. */
+static int zeros_shown(Force *g)
+{
+    Room *m = &g->m;
+    int64_t n = g->s->n_v;
+    if (!likenesses(m, n))
+        return 1;
+    memset(m->net, 0, (size_t)n * sizeof(Number));
+    remaining(g, m->net, m->g);
+    for (int64_t u = 0; u < n; u++) {
+        if (!is_like(m, m->g, n))
+            return 0;
+        memset(m->g, 0, (size_t)n * sizeof(Number));
+        for (int64_t v = 0; v < n; v++) {
+            int one = m->pivot[v] && m->balanced[v] == u;
+            m->net[v] = number(exact(v == u ? 1.0 : one ? (double)m->pivot[v] : 0.0));
+        }
+        if (!m->rests[u])
+            pressed(g, m->net, 0, m->g);
+    }
+    if (!is_like(m, m->g, n))
+        return 0;
+    for (int64_t v = 0; v < n; v++)
+        if (m->rests[v] && !m->pivot[v]) {
+            memset(m->z + v, 0, sizeof(Number));
+            m->e[v] = 0.0;
+        }
+    return 1;
+}
+
+/* A sum of lengths z, which are known within e: whole numbers times these. */
+static double summed(const int64_t *row, const Number *z, const double *e, Number *out)
+{
+    Sum sum = EMPTY;
+    double error = 0.0;
+    for (int a = 0; a < 4; a++) {
+        add_product(&sum, z + a, exact((double)row[a]), 1);
+        error += fabs((double)row[a]) * e[a];
+    }
+    carried(&sum, out);
+    return error * UP;
+}
+
+/* The forces, if each face is right: DECIDED, REFUTED with other faces, or OPEN_NUMBER. */
+static int judged(Force *g)
+{
+    static const int of_p[4] = {2, 0, 1, 3}; /* p is (n, d1, d2, spin), a wrench (d1, d2, n, spin) */
+    const Proof *s = g->s;
+    int code = DECIDED;
+    for (int64_t c = 0; c < s->n_c; c++) {
+        int64_t face = g->f->face[c];
+        const int64_t *row = numbers(g->f, c, face);
+        Number z[4], x;
+        double e[4], near[4];
+        motion(s, g->m.z, g->m.e, c, 1, z, e);
+        for (int a = 0; a < 4; a++)
+            near[a] = value(z + a);
+        for (int64_t i = 0; i < g->f->count[c]; i++, row += 4) {
+            double error = summed(row, z, e, &x), size = fabs(value(&x)) * DOWN;
+            if (size > error && value(&x) < 0.0)
+                code = REFUTED;
+            else if (size <= error && error > 0.0 && code == DECIDED)
+                code = OPEN_NUMBER;
+        }
+        if (code == REFUTED)
+            seek(g->f, c, near, 0.0);
+        for (int a = 0; a < 4 && code == DECIDED; a++, row += 4) {
+            double mu = s->mu[4 * c + a], error = mu * summed(row, z, e, &x) * UP;
+            times(g->sum, &x, exact(mu));
+            if (!nearest(&x, error, denominator(g->f, c, face), g->units[1] / g->c,
+                         g->f->wrench + 4 * c + of_p[a]))
+                code = OPEN_NUMBER;
+        }
+    }
+    return code;
+}
+
+/* Whether the faces are right, with the forces. */
+static int forced(Force *g)
+{
+    Room *m = &g->m;
+    int64_t n = g->s->n_v;
+    assembled(g);
+    if (!inverted(g))
+        return SINGULAR;
+    for (int64_t i = 0; i < n * n; i++)
+        g->size[i] *= 1.0 + 0.25 * (double)g->s->n_c; /* K is a sum of so many */
+    defect(m->R, m->K, g->size, n, m->G, m->e);
+    lost = 0;
+    memset(m->z, 0, (size_t)n * sizeof(Number));
+    int code = OPEN_NUMBER;
+    for (int bits = FIRST; code == OPEN_NUMBER && bits <= 3 * FIRST; bits += FIRST) {
+        refine(g, bits);
+        if (!lost && !error_bounds(m->R, m->G, m->rest, n, m->e))
+            return OPEN_BOUND;
+        if (!lost && zeros_shown(g))
+            code = judged(g);
+        if (lost)
+            return LOST;
+    }
+    for (int64_t v = 0; v < n; v++)
+        g->x[v] = value(m->z + v);
+    return code;
+}
+
+/* The forces of a group: DECIDED, or why they are not known. */
+int forces(Forces *f)
+{
+    Proof s = *f->group;
+    Force g = {.f = f, .s = &s, .units = {1.0, 1.0}};
+    size_t n = (size_t)s.n_v, n_c = (size_t)s.n_c;
+    s.working = 0;
+    s.units = g.units;
+    if (4 * n_c + n >= PRODUCTS)
+        return LOST;
+    void *room = room_of(&s, &g.m);
+    g.sum = calloc(n, sizeof(Sum));
+    g.B = calloc(4 * n_c * n + 4 * n_c + n * n + 3 * n, sizeof(double));
+    int code = NO_MEMORY;
+    if (room && g.sum && g.B) {
+        double most = 0.0;
+        g.along = g.B + 4 * n_c * n;
+        g.size = g.along + 3 * n_c;
+        g.x = g.size + n * n;
+        g.from = g.x + n;
+        g.way = g.from + n;
+        g.before = (int64_t *)(g.way + n);
+        for (size_t v = 0; v < n; v++)
+            g.sum[v] = EMPTY;
+        lost = 0;
+        load(&s, g.m.g);
+        in_floats(&g);
+        *f->compliance = g.c = compliance(&g);
+        g.k = *s.h * *s.h / g.c;
+        code = g.c > 0.0 && guessed(&g) ? REFUTED : OPEN_CLAIM;
+        for (size_t v = 0; v < n; v++)
+            most = fmax(most, fabs(g.x[v]));
+        int above = 0;
+        frexp(most, &above);
+        g.units[1] = ldexp(1.0, above);
+        for (size_t v = 0; v < n; v++)
+            g.x[v] /= g.units[1];
+        for (int tries = 0; code == REFUTED && tries < GUESSES; tries++)
+            code = forced(&g);
+    }
+    free(g.B);
+    free(g.sum);
+    free(room);
+    return code;
+}

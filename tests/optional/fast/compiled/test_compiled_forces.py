@@ -1,0 +1,54 @@
+"""Forces of single contacts from C against those of the core: equal bits."""
+
+import pickle
+
+import numpy as np
+
+from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.scenario.scenario import load_scenario
+from tests.optional.fast.compiled.test_fast import needs_compiler
+from validation.make.confirmed_bits import random_case
+from validation.make.degenerate_bits import degenerate_step
+
+pytestmark = needs_compiler
+
+
+def in_c(step):
+    return compiled("forces").Forces(step).in_c(step)
+
+
+def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
+    """Cones of other corners than the pyramid's are left to the core."""
+    known = compiled("forces").knows
+    steps = [make(seed) for seed in range(30) for make in (degenerate_step, mixed)]
+    decided = 0
+    for step in filter(lambda step: known(step.cone), steps):
+        wrench, left = in_c(step)
+        decided += not left
+        if not left:
+            near = np.zeros(step.n_v), np.zeros_like(wrench)
+            assert wrench.tobytes() == contact_forces(step, near=near).wrench.tobytes()
+    assert decided > 0.85 * len(steps) / 2
+
+
+def mixed(seed):
+    return random_case(seed)[1]
+
+
+def test_a_full_record_of_fast_holds_the_forces_of_the_plain_path():
+    pinch = ["steps=12"]
+    fast = load_scenario("two_finger_pinch", pinch, fast=True).run(progress=False)
+    plain = load_scenario("two_finger_pinch", pinch).run(progress=False)
+    assert "forces" not in plain.arrays
+    assert fast.arrays["forces"].tobytes() == plain.forces.tobytes()
+    assert np.abs(plain.forces).max() > 4.0  # [N]
+
+
+def test_a_copy_of_a_solution_has_the_forces_of_the_core():
+    scenario = load_scenario("stack", fast=True)
+    result = scenario.simulator().step(scenario.system.q_start, np.zeros(0))
+    copy = pickle.loads(pickle.dumps(result.solution))
+    assert copy == result.solution
+    assert "in_c" not in vars(copy)
+    assert copy.forces.tobytes() == result.forces.tobytes()
