@@ -145,7 +145,9 @@ class Recorder(Shown):
         row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
         if self.record == "full":
             row |= program(step)
-        if self.record == "forces" or (self.record == "full" and self.simulator.records_forces):
+        first: Any = self.parts or self._rows
+        known = "forces" in first[0] if first else self.simulator.records_forces
+        if self.record == "forces" or (self.record == "full" and known):
             row["forces"] = solution.forces
         if self.record == "forces":
             row["imbalance"] = solution.imbalance

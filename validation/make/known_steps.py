@@ -21,7 +21,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import group_optimum, joined_optimum
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
@@ -30,6 +29,7 @@ from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.forces import Forces
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
+from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
@@ -89,5 +89,5 @@ def check_forces(step: StepData, wrench: Array) -> None:
     """
     if is_due(FORCES, step.n_v):
         near = np.zeros(step.n_v), np.zeros_like(wrench)
-        if bits(contact_forces(step, near=near).wrench) != bits(wrench):
+        if bits(forces_near(step, near).wrench) != bits(wrench):
             raise WrongProof(step, "a force")

@@ -153,6 +153,8 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
+        if self.records_forces and self.compares:
+            self.records_forces = self.in_c.decided(solution.step)
         if self.records_forces:
             solution = posed(FastSolution, {"in_c": self.in_c}, vars(solution))
         delta_q = solution.delta_q[: self.system.n_v]

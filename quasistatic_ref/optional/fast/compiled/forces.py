@@ -1,12 +1,12 @@
-"""The forces of single contacts in compiled fixed point: those of ``certify/compliance``."""
+"""The forces of single contacts in fixed point: those of ``optional/forces``, if it is there."""
 
 from functools import cache, cached_property
 from itertools import accumulate, combinations
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import face, rows_of
-from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.optional.fast.compiled.certificate import (
     Places,
@@ -19,11 +19,12 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
 from quasistatic_ref.optional.fast.rechecked import check_forces
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.units import hessian_in_both_units
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.groups import Group, group_steps, sides
+from quasistatic_ref.step.groups import Group, group_steps
 
 MOST_ROWS = 8
 """Of a contact: C looks a face up by the set of its rows."""
@@ -73,7 +74,7 @@ class Forces:
         wrench, left = self.in_c(step)
         for group, own in [group_steps(step)[i] for i in left]:
             near = solution.delta_q[group.coordinates], solution.wrench[group.contacts]
-            wrench[group.contacts] = contact_forces(own, near=near).wrench
+            wrench[group.contacts] = forces_near(own, near).wrench
         if not left:
             check_forces(step, wrench)
         return read_only(wrench)
@@ -88,11 +89,18 @@ class ForcesOfSteps:
 
     def wrench(self, solution: StepSolution) -> Array:
         """As of :meth:`Forces.wrench`, shape (n_c, 4) [N, N m]."""
-        of = coupled_by(solution.step)
+        return self._of_steps_like(solution.step).wrench(solution)
+
+    def decided(self, step: StepData) -> bool:
+        """Whether C leaves no force of a step open."""
+        return not self._of_steps_like(step).in_c(step)[1]
+
+    def _of_steps_like(self, step: StepData) -> Forces:
+        of = coupled_by(step)
         if self._kept is None or not unchanged(of, self._of):
-            self._kept = Forces(solution.step)
+            self._kept = Forces(step)
             self._of = of
-        return self._kept.wrench(solution)
+        return self._kept
 
 
 class FastSolution(StepSolution):
@@ -143,7 +151,7 @@ class _GroupForces:
             self.group = 0
             return
         self.group = self._proof.s.address
-        of_sides = sides(own)
+        of_sides: list[Indices] = needed_part("forces.of_group", "forces").sides(own)
         integers = [each for each, _ in tables]
         width = max(each.shape[1] for each in integers)
         wide = [np.pad(each, ((0, 0), (0, width - each.shape[1]), (0, 0))) for each in integers]
@@ -172,20 +180,21 @@ def _faces(name: str, count: int) -> tuple[Indices, Indices] | None:
     Returns
     -------
     (ndarray, ndarray) or None
-        Their numbers as of :class:`~quasistatic_ref.certify.compliance.faces.Face`, shape
+        Their numbers as of :class:`~quasistatic_ref.optional.forces.faces.Face`, shape
         (2^count, count + 4, 4), and denominators, (2^count,), zero of rows that depend on each
         other. None if C cannot hold them.
     """
-    if count > MOST_ROWS:
+    forces: Any = part("forces.faces")
+    if forces is None or count > MOST_ROWS:
         return None
-    C = rows_of(name, count)
+    C = forces.rows_of(name, count)
     integers = np.zeros((1 << count, count + 4, 4), np.int64)
     denominators = np.zeros(1 << count, np.int64)
     for size in range(5):
         for rows in combinations(range(count), size):
             if np.linalg.matrix_rank(C[list(rows)]) < size:
                 continue
-            one = face(name, count, rows)
+            one = forces.face(name, count, rows)
             if abs(one.integers).max() >= LARGEST or one.denominator >= LARGEST:
                 return None
             bits = sum(1 << i for i in rows)

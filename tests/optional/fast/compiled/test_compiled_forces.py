@@ -4,8 +4,8 @@ import pickle
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from validation.make.confirmed_bits import random_case

@@ -1,4 +1,4 @@
-/* certify/compliance/forces.contact_forces, with test_compiled_forces.py: forces of contacts that give way.
+/* optional/forces/forces.contact_forces, with test_compiled_forces.py: forces of contacts that give way.
 
    z = B x + (phi, 0, 0, 0) are four lengths of each contact. On the face on which its force lies,
    c p = s = -P z, and x solves
@@ -85,7 +85,7 @@ static void turned(double *x, double *y, int stride, double angle)
     }
 }
 
-/* certify/compliance/of_group.counted. */
+/* optional/forces/of_group.counted. */
 static double counted(double b, double largest)
 {
     double small = HARDLY_MOVES * largest;
@@ -114,7 +114,7 @@ static void counted_along(double b[3][3], double *out)
     }
 }
 
-/* certify/compliance/of_group: the compliance; 0 where its exponent is open. */
+/* optional/forces/of_group: the compliance; 0 where its exponent is open. */
 static double compliance(const Force *g)
 {
     const Forces *f = g->f;
@@ -241,7 +241,7 @@ static double moved(Force *g, double share)
     return fall;
 }
 
-/* certify/compliance/face_guess: whether Newton's method ends, with x and the faces there. */
+/* optional/forces/face_guess: whether Newton's method ends, with x and the faces there. */
 static int settled(Force *g)
 {
     size_t n = (size_t)g->s->n_v * sizeof(double), n_c = (size_t)g->s->n_c * sizeof(int64_t);
