@@ -59,6 +59,7 @@ RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("port_mutants"),
     to_file("challenges"),
+    to_file("vector_features", "csv"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
         "claims",
