@@ -15,7 +15,7 @@ committed or random case. Each of these is
 Half of the mutants, by a hash of their names, is kept apart: no rule is written while looking at
 them, and the page counts them only. The records have what is known of each, and a second run goes
 on from there; ``--each 0`` prints the page of what they hold. ``--part 0 --parts 2`` tries every
-other change.
+other change, ``--cases N`` sends fewer.
 
 Exit status 1 if a right port is found wrong, or a mutant not at all.
 """
@@ -324,7 +324,7 @@ def differs(q: Question, one: str, other: str) -> bool:
     return False
 
 
-def tried(port: Port, change: Change, program: Program | None) -> Trial:
+def tried(port: Port, change: Change, program: Program | None, cases: int = CASES) -> Trial:
     """Check and challenge a mutant."""
     where = f"{change.place}: {change.old.strip()}"
     trial = Trial(change.name, change.kind, where, kept_apart(change.name))
@@ -339,7 +339,7 @@ def tried(port: Port, change: Change, program: Program | None) -> Trial:
             trial.check = seen.found
             break
     seen, sent, number = Seen(), 0, 0
-    while sent < CASES and not seen.failed and not seen.trouble:
+    while sent < cases and not seen.failed and not seen.trouble:
         here = challenge_round(number, port.scope.layers)
         sent += len(port.within(here))
         new = port.look(program, port.within(here))
@@ -432,7 +432,8 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
 
 def main() -> int:
     """Try mutants, and print the page."""
-    options = asked(__doc__, ("go", "cpp"), out=Path, records=Path, each=EACH, part=0, parts=1)
+    numbers = {"each": EACH, "cases": CASES, "part": 0, "parts": 1}
+    options = asked(__doc__, ("go", "cpp"), out=Path, records=Path, **numbers)
     done: dict[str, Json] = {}
     if options.records and options.records.exists():
         lines = options.records.read_text("utf-8").splitlines()
@@ -444,7 +445,7 @@ def main() -> int:
             kept = 0
             for change, program in port.mutants(2 * options.each, options.part, options.parts):
                 if change.name not in done:
-                    done[change.name] = asdict(tried(port, change, program))
+                    done[change.name] = asdict(tried(port, change, program, options.cases))
                     if options.records:
                         with options.records.open("a") as file:
                             file.write(json.dumps(done[change.name]) + "\n")
