@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -68,12 +70,21 @@ class JointTrack(Plain):
         if isinstance(self.joint, AxisJoint):
             return np.array(self.joint.at(float(piecewise_linear(self.times, self.values, t)[0])))
         i, s = _interval(self.times, t)
-        start = self._placed(self.values[i])
+        start = self._waypoints[i]
         if s == 0:
             return np.asarray(start[self.joint.q])
         # The geodesic of (+): a screw when the base both moves and turns.
-        displacement = self.system.difference(start, self._placed(self.values[i + 1]))
-        return np.asarray(self.system.integrate(start, s * displacement)[self.joint.q])
+        return np.asarray(self.system.integrate(start, s * self._ways[i])[self.joint.q])
+
+    @cached_property
+    def _waypoints(self) -> list[Array]:
+        """Each as q, in which all else is neutral, shape (n_q,)."""
+        return [self._placed(value) for value in self.values]
+
+    @cached_property
+    def _ways(self) -> list[Array]:
+        """The displacement from each to the next, shape (n_v,)."""
+        return [self.system.difference(*ends) for ends in pairwise(self._waypoints)]
 
     def _placed(self, value: Array) -> Array:
         q = self.system.neutral().copy()
