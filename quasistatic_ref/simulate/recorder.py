@@ -146,8 +146,10 @@ class Recorder(Shown):
         if self.record == "full":
             row |= program(step)
         first: Any = self.parts or self._rows
-        known = "forces" in first[0] if first else self.simulator.records_forces
-        if self.record == "forces" or (self.record == "full" and known):
+        known = self.record == "forces"
+        if self.record == "full":
+            known = "forces" in first[0] if first else self.simulator.records_forces(step)
+        if known:
             row["forces"] = solution.forces
         if self.record == "forces":
             row["imbalance"] = solution.imbalance

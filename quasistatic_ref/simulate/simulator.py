@@ -169,8 +169,6 @@ class Simulator(Settings, Shown):
 
     __signature__: ClassVar[Signature]
     default_backend = DEFAULT
-    records_forces = False
-    """Whether forces of contacts cost so little that a full record holds them."""
 
     @arguments_checked
     def __init__(
@@ -303,6 +301,16 @@ class Simulator(Settings, Shown):
             If a pair has no trustworthy normal, or a pose is not finite.
         """
         return closest_points(self.pairs, kinematics)
+
+    def records_forces(self, step: StepData) -> bool:
+        """Whether forces of contacts cost so little that a full record holds them.
+
+        Parameters
+        ----------
+        step : StepData
+            The first of the run.
+        """
+        return False
 
     def step_data(
         self,

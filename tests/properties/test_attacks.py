@@ -10,8 +10,9 @@ from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import solver as fast_solvers
+from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
 from validation.make.attacks import Attack, bounds, exact_answers, matrices
 from validation.tools.verifier_files import verify_refusal
@@ -50,7 +51,7 @@ def test_a_bound_above_one_is_no_useful_bound(monkeypatch):
     step = free_step(np.eye(1), np.ones(1), no_contacts(1), 1.0)
     monkeypatch.setattr(fast_solvers, "BOUNDED", -1.0)
     for bound, said in ((1.0, 1.0), (np.nextafter(1.0, 2.0), None), (3e276, None), (np.inf, None)):
-        monkeypatch.setattr(Solver, "error_bound", lambda *_, bound=bound: bound)
+        monkeypatch.setattr(Prover, "error_bound", lambda *_, bound=bound: bound)
         solver = solver_for(step, "daqp", fast=True)
         certificate = solve_step(step, solver, certify="residual").certificate
         assert certificate.error_bound == said

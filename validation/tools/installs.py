@@ -30,7 +30,7 @@ WALK = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
 """From a URDF to a picture: the page of which a newcomer types every command."""
 WALK_FILES = {
     path.name: path.read_text("utf-8")
-    for pattern in ("first_scene/*", "opinion/*", "diffcp_agrees.py")
+    for pattern in ("first_scene/*", "opinion/*", "derivatives/*")
     for path in sorted(EXAMPLES.glob(pattern))
 }
 """Its files, and those that other pages give to be downloaded."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import vectors_folder
 
@@ -137,6 +138,8 @@ def _report(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.conformance.badge import badge
     from quasistatic_ref.lab.vectors.conformance.conformance import conformance
 
+    if options.out.suffix != ".svg":
+        raise InputError("is an image: name a file that ends in .svg", field="--out")
     found = conformance(
         options.answers, _vectors(options), options.implementation, options.digits,
         scope_read(options.scope),

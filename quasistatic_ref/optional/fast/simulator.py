@@ -123,7 +123,7 @@ class FastSimulator(Simulator):
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
         ordinary = self.extension is None and self.law == CONVEX and self.has_rows
-        self.records_forces = ordinary and system.n_v <= LARGEST and knows(self.cone)
+        self.forms_forces = ordinary and system.n_v <= LARGEST
         self.in_c = ForcesOfSteps()
 
     @arguments_checked
@@ -153,9 +153,7 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        if self.records_forces and self.compares:
-            self.records_forces = self.in_c.decided(solution.step)
-        if self.records_forces:
+        if self.forms_forces:
             solution = posed(FastSolution, {"in_c": self.in_c}, vars(solution))
         delta_q = solution.delta_q[: self.system.n_v]
         q_next = self.screws.integrate(delta_q)
@@ -169,6 +167,10 @@ class FastSimulator(Simulator):
             limits.check_reach(step, self.system.links, self.poses.kinematics().t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
+
+    def records_forces(self, step: StepData) -> bool:
+        """As in the base: where C decides those of the first step."""
+        return self.by_c and self.forms_forces and knows(self.cone) and self.in_c.decided(step)
 
     def posed_step(
         self, q: Array, q_bar_a: Array, force: Array | float

@@ -173,8 +173,7 @@ def _left(step: StepData, wrench: Array, off: Array) -> float:
     J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
     exerted = np.einsum("kj,kji->i", wrench.T, np.array([J_1, J_2, J_n, J_w]))
     norm = energy_norm(step.H)
-    load = norm.of_impulse(step.h * exerted)
-    return norm.of_displacement(off) / load if load else 0.0  # its square may leave float64
+    return norm.of_displacement(off) / norm.of_impulse(step.h * exerted)
 
 
 def compliant_form(step: StepData, compliance: float) -> ExactForm:

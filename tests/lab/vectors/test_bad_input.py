@@ -6,7 +6,7 @@ from quasistatic_ref.cli.main import main
 from tests.lab.vectors.material import VECTORS, answer_file, right_answers
 
 CHECK = ["check", "answers"]
-REPORT = ["report", "answers", "--out", "out"]
+REPORT = ["report", "answers", "--out", "out.svg"]
 CHALLENGE = ["challenge", "--command", "x"]
 BAD = [
     (["own", "--layer", "row", "--out", "out"], "did you mean 'rows'?"),
@@ -23,7 +23,7 @@ BAD = [
     ([*REPORT, "--implementation", "a\nb"], "--implementation: must be a name"),
     ([*REPORT, "--implementation", "x" * 81], "--implementation: must be a name"),
     ([*REPORT, "--vectors", "nowhere"], "nowhere"),
-    (["report", "answers", "--out", "answers/selection.json"], "cannot be written"),
+    (["report", "answers", "--out", "answers/selection.json"], "a file that ends in .svg"),
     (["challenge"], "--command: is missing"),
     ([*CHALLENGE, "--cases", "0"], "--cases: must be positive"),
     ([*CHALLENGE, "--timeout", "nan"], "--timeout: must be positive"),

@@ -252,6 +252,7 @@ def test_joints_without_servos_have_springs_and_fields_their_names() -> None:
         mujoco_scenario(model(), fast=True)
 
 
+@pytest.mark.extra("view")
 def test_the_command_runs_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With keyframes, a table and a page."""
     path = tmp_path / "scene.xml"

@@ -73,7 +73,7 @@ def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
     by_pair = contacts.groupby("pair")["f_n [N]"]
     for i, slot in enumerate(run.header["slots"]):
         pair = slot.rpartition("/")[0]
-        np.testing.assert_array_equal(by_pair.get_group(pair), run.wrench[:, i, 2])
+        np.testing.assert_array_equal(by_pair.get_group(pair), run.forces[:, i, 2])
 
 
 def exact_csv(path):

@@ -192,7 +192,7 @@ optional/fast/second_order.py
     native cones
 solve/solve.py
     SOLVED native float_bound enclosure
-solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
+solve/solver.py solve/prover.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sizes float_bound
