@@ -257,7 +257,7 @@ class Drawn(Targets):
 
     at: Callable[[float, Array], Array]
 
-    def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]
+    def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
         """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
         return self.at(t, q)
 

@@ -174,7 +174,7 @@ def _defect(R: Array, K: Array, summed: Array) -> list[float]:
     for i in range(n):
         for j in range(n):
             sum_ = size = 0.0
-            for l in range(n):  # noqa: E741
+            for l in range(n):  # noqa: E741 the inner index of a product
                 sum_ += float(R[i, l] * K[l, j])
                 size += abs(float(R[i, l] * summed[l, j]))
             one = float(i == j)
