@@ -52,7 +52,6 @@ _HOMES = {
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",
     "optional.forces.forces": "contact_forces",
-    "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "

@@ -20,7 +20,7 @@ JAX = "smoothed_jax", "step_jax"
 ASKED = (
     "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
     "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "
-    "Extension sensitivity load_scenario Trajectory Recorder "
+    "Extension derivatives load_scenario Trajectory Recorder "
     "QuasistaticError InputError StepNotSolved RunFailed"
 )
 """What a scene in Python needs, from building it to catching what goes wrong."""

@@ -95,7 +95,6 @@ WALLS = {
         "certify",
         "model/angles.py",
         "optional/coulomb",
-        "optional/derivatives/step",
         "optional/ellipsoid",
         "optional/extensions",
         "optional/fast/far.py",

@@ -6,20 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.optional.show.show import Page, counted, number
-from quasistatic_ref.optional.show.step_words import ARRAY, array_rows
+from quasistatic_ref.optional.show.show import Page, number
 
 SHOWN = 3
 """Most reasons."""
 DERIVATIVE = ("field", "columns", "largest", "reach", "kink")
-
-
-def sensitivity_page(found: Any) -> Page:
-    """Derivatives of delta_q by each parameter of a step."""
-    arrays = {name: array for name, array in vars(found).items() if name != "why_not"}
-    facts = [f"no {name}: {reason}" for name, reason in found.why_not.items()]
-    title = f"Sensitivity: {counted(len(found.h), 'coordinate')}, d delta_q by each parameter"
-    return title, facts[:SHOWN], ARRAY, array_rows(arrays)
 
 
 def derivatives_page(found: Any) -> Page:

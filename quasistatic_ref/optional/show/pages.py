@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from quasistatic_ref.optional.show.derivative_words import derivatives_page, sensitivity_page
+from quasistatic_ref.optional.show.derivative_words import derivatives_page
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
 from quasistatic_ref.optional.show.simulate_words import (
@@ -31,7 +31,6 @@ PAGES: dict[str, Callable[[Any], Page]] = {
     "Extra": extra_page,
     "Recorder": recorder_page,
     "Scenario": scenario_page,
-    "Sensitivity": sensitivity_page,
     "Simulator": simulator_page,
     "SparseContacts": contacts_page,
     "StandardForm": form_page,

@@ -23,7 +23,8 @@ SETS = {
     "SOLVED": "kept_between_steps compiled_problems solver backends problem cones",
     "ENCLOSED": "checked_pair interior newton enclosure native",
     "DIFFERENTIATED": (
-        "touching optimum_rates derivatives derivative_verdicts gradient derivative_layer"
+        "touching optimum_rates optimum_against_differences derivatives derivative_verdicts "
+        "gradient derivative_layer"
     ),
     "SOLIDS": "corners tied_faces polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
@@ -82,10 +83,6 @@ optional/ellipsoid/cone.py
     apex FORGED residuals standard_form
 certify/verdict.py
     certificate FORGED
-optional/derivatives/step/sensitivity.py
-    parameters
-optional/derivatives/step/parameters.py
-    step/sensitivity parameters
 certify/rows.py
     certificate farkas
 certify/norm.py

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, ar
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied_indices
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
-from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
+from quasistatic_ref.lab.vectors.unrounded.strictly_active import strictly_active
 
 BEND = fmpq(1, 10**12)
 """A second difference over eps that is larger is a jump of the derivative: that of a smooth q+ is

@@ -1,16 +1,18 @@
 """How the load g - H x of Eq. :eq:`eq-13` changes with what it is made of: (R35)."""
 
-from typing import Any
-
 import numpy as np
 
+from quasistatic_ref.step.data import Array
 
-def load_rates(h: Any, K_q: Any, M_u: Any, tau: Any, delta_q_bar_a: Any, x: Any) -> dict[str, Any]:
-    """Derivatives of the load at a fixed displacement x, in floats or in fractions.
+
+def load_rates(
+    h: float, K_q: Array, M_u: Array, tau: Array, delta_q_bar_a: Array, x: Array
+) -> dict[str, Array]:
+    """Derivatives of the load at a fixed displacement x.
 
     Parameters
     ----------
-    h : float or fmpq
+    h : float
         [s]
     K_q : ndarray, shape (n_a, n_a)
         [N/m, N m/rad]
@@ -29,12 +31,12 @@ def load_rates(h: Any, K_q: Any, M_u: Any, tau: Any, delta_q_bar_a: Any, x: Any)
         By ``"delta_q_bar_a"``, ``"tau"``, the diagonal ``"K_q"`` and ``"h"`` [N s per unit].
     """
     n_a = len(K_q)
-    unmoved = np.zeros_like(K_q, shape=(len(M_u), n_a))
+    unmoved = np.zeros((len(M_u), n_a))
     stretch = delta_q_bar_a - x[:n_a]
     forces = np.concatenate([K_q @ stretch + tau[:n_a], M_u @ x[n_a:] / h**2 + tau[n_a:]])
     return {
         "delta_q_bar_a": np.concatenate([h * K_q, unmoved]),
-        "tau": h * np.eye(len(x), dtype=K_q.dtype),
+        "tau": h * np.eye(len(x)),
         "K_q": np.concatenate([h * np.diag(stretch), unmoved]),
         "h": forces[:, None],
     }

@@ -1,0 +1,266 @@
+"""Derivatives of the optimum against central differences without rounding, and verdicts.
+
+The differences are taken of optima in rational numbers, of problems formed by plain loops of
+fractions, at parameters moved by 2^-80 of their size: their truncation is below 1e-40.
+"""
+
+from fractions import Fraction as F
+from math import lcm
+from types import SimpleNamespace
+
+import numpy as np
+from flint import fmpq, fmpz_mat
+
+from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
+from quasistatic_ref.optional.derivatives.step.touching import touching_rows
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import changed, point_on_floor, sphere_on_floor
+from tests.oracles.random_steps import any_step
+from tests.oracles.rational_kkt import exact
+from tests.oracles.solution_truth import program
+from tests.tolerances import EXACT, ROUNDING
+
+TINY = F(1, 2**80)
+OF_CONTACTS = ("phi", "mu_v", "mu_omega")
+INSTANCES = 30
+CONES = ("pyramid", "pyramid", "product", "frictionless")
+
+
+def keys(step):
+    """Every parameter of a step: its name, and which."""
+    sizes = {"delta_q_bar_a": step.n_a, "tau_a": step.n_a, "tau_u": step.n_u, "K_q": step.n_a}
+    sizes |= dict.fromkeys(OF_CONTACTS, step.contacts.n_c)
+    return [("h", 0), *((name, i) for name, size in sizes.items() for i in range(size))]
+
+
+def is_stuck(step, key):
+    """Whether it is a coefficient of zero, which cannot fall, or a gap that no motion changes."""
+    name, i = key
+    if name == "phi":
+        return not (step.contacts.n[i] @ step.contacts.J[i, :3]).any()
+    return name in ("mu_v", "mu_omega") and not number(step, key)
+
+
+def derivatives_of(step):
+    """D delta_q by each parameter, (n_v, P) in the order of `keys`; which columns there are."""
+    answer = solve_step(step, "none")
+    x = answer.delta_q
+    contacts = step.contacts
+    n_c = contacts.n_c
+    tau = np.concatenate([step.tau_a, step.tau_u])
+    by = load_rates(step.h, step.K_q, step.M_u, tau, step.delta_q_bar_a, x)
+    load = np.hstack([by["h"], by["delta_q_bar_a"], by["tau"], by["K_q"]])
+    before = load.shape[1]
+    load = np.hstack([load, np.zeros((step.n_v, 3 * n_c))])
+
+    parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
+    slips = parts * np.array([0, 1, 1, 0])[:, None]
+    spins = parts * np.array([0, 0, 0, 1])[:, None] * contacts.torsion[:, None, None]
+    one = np.eye(n_c)
+    motion = np.zeros((n_c, 4, load.shape[1]))
+    motion[:, 0, before : before + n_c] = one
+    for at, J in ((before + n_c, slips), (before + 2 * n_c, spins)):
+        motion[:, :, at : at + n_c] = (J @ x)[:, :, None] * one[:, None]
+
+    def pull(y):
+        exerted = [np.einsum("jiv,ji->vj", J, y) @ one for J in (slips, spins)]
+        return np.hstack([np.zeros((step.n_v, before + n_c)), *exerted])
+
+    terms = np.abs(motion).max(axis=(0, 1), initial=0.0)
+    equations = Equations(touching_rows(answer, np.zeros(n_c)))
+    found = equations.rates(DataRates(load, motion, terms, pull))
+    none = np.zeros(load.shape[1], dtype=bool)
+    return found.x, ~np.any([none, *found.contradicts.values(), *found.opens], axis=0)
+
+
+def number(step, key):
+    name, i = key
+    values = getattr(step.contacts if name in OF_CONTACTS else step, name)
+    return exact(np.diag(values) if name == "K_q" else np.atleast_1d(values))[i]
+
+
+def changed_by(step, key, little):
+    """What :func:`program` reads of a step, in fractions, with one number changed."""
+    name, i = key
+    c = step.contacts
+    fields = {name: exact(getattr(step, name)) for name in ("K_q", "M_u", "tau_a", "tau_u")}
+    fields |= {"h": F(step.h), "delta_q_bar_a": exact(step.delta_q_bar_a)}
+    contacts = {name: exact(getattr(c, name)) for name in OF_CONTACTS}
+    if name == "h":
+        fields["h"] += little
+    elif name == "K_q":
+        fields["K_q"][i][i] += little
+    else:
+        (contacts if name in OF_CONTACTS else fields)[name][i] += little
+    others = {name: getattr(c, name) for name in ("n_c", "rows", "J", "n", "d1", "d2")}
+    return SimpleNamespace(
+        n_a=step.n_a, n_v=step.n_v, cone=step.cone, extra=SimpleNamespace(A=[], b=[]),
+        contacts=SimpleNamespace(**contacts, **others), **fields,
+    )  # fmt: skip
+
+
+def optimum(step):
+    """The exact optimum as fractions, or None."""
+    H, g, A, b = program(step)
+    H, g = whole(H, g, step.n_v)
+    A, b = whole(A, b, step.n_v)
+    end = dual_active_set(ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1)), [])
+    if isinstance(end, Farkas):
+        return None
+    solution = end.minimiser.rational
+    d = int(solution.denominator)
+    return [F(int(v), d) for v in solution.x]
+
+
+def whole(matrix, column, n):
+    """Fractions times their common denominator."""
+    common = lcm(*(v.denominator for row in [*matrix, column] for v in row))
+    entries = [int(v * common) for row in matrix for v in row]
+    return fmpz_mat(len(matrix), n, entries), fmpz_mat(
+        len(column), 1, [int(v * common) for v in column]
+    )
+
+
+def moved(step, key, sides=(-1, 0, 1)):
+    """Optima at the parameter less a little, as it is, and plus a little; and that little."""
+    little = TINY * (abs(number(step, key)) or 1)
+    return [optimum(changed_by(step, key, s * little)) for s in sides], little
+
+
+def test_r25_r33_derivatives_agree_with_central_differences_on_random_steps():
+    """To 1e-9 of what a free step shows; a gap moves a body about as far as itself."""
+    compared = 0
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        n_a, n_u, n_c = (int(v) for v in rng.integers(0, 4, 3))
+        step = any_step(rng, n_a, n_u + (n_a + n_u == 0), n_c).replace(cone=CONES[seed % 4])
+        try:
+            found, there = derivatives_of(step)
+        except StepNotSolved:
+            continue
+        every = keys(step)
+        H, g, _, _ = standard_form(step)
+        free = np.abs(np.linalg.solve(H, g)).max() + np.abs(step.contacts.phi).max(initial=0.0)
+        sizes = dict.fromkeys(("h", "K_q", "mu_v", "mu_omega"), free)
+        sizes |= dict.fromkeys(("tau_a", "tau_u"), step.h * np.abs(np.linalg.inv(H)).max())
+        for k in rng.permutation(np.flatnonzero(there))[:4]:
+            if is_stuck(step, every[k]):
+                continue
+            (below, above), little = moved(step, every[k], (-1, 1))
+            expected = [float((a - b) / (2 * little)) for a, b in zip(above, below, strict=True)]
+            size = max(sizes.get(every[k][0], 1.0), *map(abs, expected))
+            np.testing.assert_allclose(found[:, k], expected, rtol=0.0, atol=1e-9 * size)
+            compared += 1
+    assert compared > 50
+
+
+def degenerate_step(rng):
+    """Of small whole numbers, so that rows depend on each other and touch without load."""
+    n_a, n_u, n_c = (int(v) for v in rng.integers(0, 4, 3))
+    step = any_step(rng, n_a, n_u + (n_a + n_u == 0), n_c + 1)
+    c = step.contacts
+    phi = rng.choice([0, 0, 1 / 64], c.n_c)
+    contacts = changed(c, J=np.round(c.J), phi=phi, mu_v=rng.choice([0.0, 0.5, 1.0], c.n_c))
+    contacts = repeated(contacts, [*range(c.n_c), 0])
+    loads = {name: rng.integers(-2, 3, len(getattr(step, name))) for name in ("tau_a", "tau_u")}
+    return step.replace(
+        contacts=contacts, K_q=np.eye(step.n_a), M_u=np.eye(step.n_u),
+        delta_q_bar_a=np.zeros(step.n_a), cone=CONES[rng.integers(4)], **loads,
+    )  # fmt: skip
+
+
+def test_r26_r27_verdicts_on_random_degenerate_steps(rng):
+    """A derivative where none is refused; where one is, both sides differ, of H and g always.
+
+    Where nothing drives a step, rows that press only against each other count as without load.
+    """
+    seen = set()
+    for _ in range(INSTANCES):
+        step = degenerate_step(rng)
+        if not standard_form(step).g.any():
+            continue
+        try:
+            found, there = derivatives_of(step)
+        except StepNotSolved:
+            continue
+        every = keys(step)
+        for k in (*rng.permutation(np.flatnonzero(~there))[:2],
+                  *rng.permutation(np.flatnonzero(there))[:2]):  # fmt: skip
+            if is_stuck(step, every[k]):
+                continue
+            of_contact = every[k][0] in OF_CONTACTS
+            (below, at, above), little = moved(step, every[k])
+            if None in (below, above):
+                assert not there[k]
+                continue
+            sides = np.array(
+                [[float((v - u) / little) for u, v in zip(*pair, strict=True)]
+                 for pair in ((below, at), (at, above))]
+            )  # fmt: skip
+            size = max(np.abs(sides).max(), 1.0)
+            kinked = np.ptp(sides, axis=0).max() > 1e-9 * size
+            if there[k]:
+                expected = np.broadcast_to(found[:, k], (2, step.n_v))
+                np.testing.assert_allclose(sides, expected, rtol=0, atol=1e-9 * size)
+            elif not of_contact:
+                assert kinked
+            seen.add((of_contact, bool(there[k]), bool(kinked)))
+    assert seen >= {(True, True, False), (True, False, True),
+                    (False, True, False), (False, False, True)}  # fmt: skip
+
+
+def by(step):
+    """The columns by name, and the names of those that do not exist."""
+    found, there = derivatives_of(step)
+    every = keys(step)
+    missing = {key for key, is_there in zip(every, there, strict=True) if not is_there}
+    return dict(zip(every, found.T, strict=True)), missing
+
+
+def test_a_sticking_contact_with_dependent_rows_is_differentiable():
+    found, missing = by(sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01)))
+    assert missing == set()
+    # It follows the floor, delta_z = -phi, however rough that is, and rolls with m + I / r^2.
+    np.testing.assert_allclose(found["phi", 0], [0, 0, -1, 0, 0, 0], rtol=0.0, atol=ROUNDING)
+    for name in ("mu_v", "mu_omega"):
+        np.testing.assert_allclose(found[name, 0], 0.0, rtol=0.0, atol=ROUNDING)
+    rolled = 0.01**2 / (0.3 + 2e-4 / 0.04**2)
+    np.testing.assert_allclose(found["tau_u", 0][0], rolled, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(found["tau_u", 2], 0.0, rtol=0.0, atol=ROUNDING)
+
+
+def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative():
+    step = sphere_on_floor(wrench=(0.1, 0, -3, 0, 0, 0.01))
+    step = step.replace(contacts=repeated(step.contacts, [0, 0]))
+    assert by(step)[1] == {("phi", 0), ("phi", 1)}
+    # One-sided differences: lowering one gap lets the other carry on, raising it lifts the body.
+    (below, at, above), little = moved(step, ("phi", 0))
+    assert float((above[2] - at[2]) / little) == 0.0
+    assert float((at[2] - below[2]) / little) == -1.0
+
+
+def test_a_contact_that_touches_without_load_holds_on_one_side_only():
+    step = point_on_floor(force=(0.0, 0.0, 0.0))
+    missing = by(step)[1]
+    assert missing >= {("phi", 0), ("tau_u", 2)}
+    assert ("h", 0) not in missing  # nothing drives it, whatever h is
+    (below, at, above), _ = moved(step, ("tau_u", 2))
+    assert above[2] > at[2] == below[2]
+
+
+def test_at_the_limit_of_friction_a_push_has_no_derivative():
+    # mu W = 1.5 exactly: rows stick without using all of their share.
+    step = point_on_floor(0.3, 0.5, force=(1.5, 0.0, -3.0))
+    both = repeated(step.contacts, [0, 0])
+    step = step.replace(contacts=changed(both, phi=[0.0, 1.0]))
+    found, missing = by(step)
+    assert ("tau_u", 0) in missing
+    assert ("phi", 1) not in missing
+    np.testing.assert_allclose(found["phi", 1], 0.0, rtol=EXACT, atol=EXACT)
