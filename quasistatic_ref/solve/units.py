@@ -311,6 +311,12 @@ class DenseStepInBothUnits:
     Parameters
     ----------
     si_step : StepData
+    hessian : HessianInBothUnits, optional
+        Of an earlier step: taken over, with what follows, if H is the same array.
+    si_form : StandardForm, optional
+        That of the step, where it is known.
+    units : Units, optional
+        Its natural units, where they are known.
 
     Raises
     ------
@@ -318,12 +324,20 @@ class DenseStepInBothUnits:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, si_step: StepData) -> None:
+    def __init__(
+        self,
+        si_step: StepData,
+        hessian: HessianInBothUnits | None = None,
+        si_form: StandardForm | None = None,
+        units: Units | None = None,
+    ) -> None:
+        if hessian is None or hessian.H is not si_step.H:
+            hessian = si_form = units = None
         self.si_step = si_step
-        self.si_form = standard_form(si_step)
+        self.si_form = standard_form(si_step) if si_form is None else si_form
         try:
-            self.hessian = hessian_in_both_units(self.si_form.H)
-            self.units = units_of(self.si_form, self.hessian)
+            self.hessian = hessian or hessian_in_both_units(self.si_form.H)
+            self.units = units or units_of(self.si_form, self.hessian)
         except np.linalg.LinAlgError:
             raise out_of_range(si_step) from None
         check_units(self.units, si_step, self.hessian.usable)
@@ -367,7 +381,8 @@ def check_units(units: Units, step: StepData, usable: bool = True) -> None:
 
 def out_of_range(step: StepData) -> StepDataError:
     """The error about a step whose numbers are finite, but not what is made of them."""
-    step.replace()  # says so, if they are not
+    checked = step.contacts.raised(np.zeros(step.contacts.n_c))
+    step.replace(contacts=checked)  # says so, if they are not
     return StepDataError(
         "its numbers are too large, too small or too different: products of them exceed the "
         "range of float64; look for a wrong unit"

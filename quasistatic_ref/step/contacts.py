@@ -91,10 +91,6 @@ class Contacts(Plain, Shown):
         self._check_friction()
         self._check_frames(n_c)
 
-    def checked(self) -> Contacts:
-        """Contacts of the same numbers, each of which has been checked: these themselves."""
-        return self
-
     @cached_property
     def n_v(self) -> int:
         """Number of columns of J."""
@@ -112,6 +108,10 @@ class Contacts(Plain, Shown):
         """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
         contact, coordinate = np.nonzero((self.J != 0).any(axis=1))
         return contact, coordinate, self.J[contact, :, coordinate]
+
+    def moving(self) -> bytes:
+        """Which coordinates move which contacts: equal bytes where these are the same."""
+        return self.J.any(axis=1).tobytes()
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""

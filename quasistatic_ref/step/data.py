@@ -136,8 +136,8 @@ class StepData(Plain, Shown):
 
     Notes
     -----
-    Each field is checked, and copied read-only. The steps of a simulator with ``fast`` are
-    :class:`~quasistatic_ref.optional.fast.posed.PosedStep`.
+    Each field is checked, and copied read-only; not those of the steps of a simulator with
+    ``fast``, see :mod:`~quasistatic_ref.optional.fast.posed`.
 
     Examples
     --------
@@ -180,7 +180,7 @@ class StepData(Plain, Shown):
                 problem = f"must have n_a + n_u = {n_v} columns"
                 raise StepDataError(problem, field=key, value=found)
         given = {
-            "contacts": contacts.checked(),
+            "contacts": contacts,
             "cone": cone,
             "extra": extra,
             "h": seconds(h),
@@ -200,6 +200,11 @@ class StepData(Plain, Shown):
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
         return self.M_u @ delta_q[self.n_a :]
+
+    @property
+    def kept_M_u(self) -> Array:
+        """M_u as it is kept: shape (n_u, n_u), or in diagonal blocks in a step of many bodies."""
+        return self.M_u
 
     def inertia(self, u: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""

@@ -53,9 +53,8 @@ def sparse_step():
 def posed_data(step):
     """What only compiled steps have."""
     return {
-        "PosedStep": step,
-        "sparse PosedStep": sparse_step(),
-        "PosedContacts": step.contacts,
+        "posed StepData": step,
+        "BlockStep": sparse_step(),
         "SparseContacts": sparse_step().contacts,
         "Blocks": sparse_step().contacts.blocks,
     }

@@ -1,7 +1,6 @@
 """Steps as a simulator poses them: right by construction, and so not checked number by number.
 
-They are read like any other :class:`~quasistatic_ref.step.data.StepData`, and are equal to one with
-the same numbers. A step that a user makes of their parts, also through ``replace``, is checked.
+What a user changes of them, through ``replace``, is checked.
 """
 
 import math
@@ -11,7 +10,6 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -19,7 +17,6 @@ from quasistatic_ref.step.arrays import (
     whole,
 )
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import (
     Extra,
     RowLayout,
@@ -62,9 +59,9 @@ class Constants(NamedTuple):
     row_layout: RowLayout
 
     @property
-    def kind(self) -> "type[PosedStep]":
+    def kind(self) -> type[StepData]:
         """The class of the steps, which keep M_u as it is kept here."""
-        return PosedStep if self.M_u.ndim == 2 else BlockStep
+        return StepData if self.M_u.ndim == 2 else BlockStep
 
     def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration.
@@ -103,35 +100,24 @@ def constants(
     return Constants(h, cone, K_q, M_u, no_rows(n_a + n_u), H, layout)
 
 
-class PosedContacts(Contacts):
-    """Contacts of a layout that was checked, at points and normals that were measured."""
-
-    def checked(self) -> Contacts:
-        """The same, each number of them checked."""
-        return Contacts(**field_values(self))
-
-    @classmethod
-    def compared_as(cls) -> type:
-        """They are compared as :class:`~quasistatic_ref.step.contacts.Contacts`."""
-        return Contacts
-
-
-class PosedStep(StepData):
-    """A step of a simulator."""
+class BlockStep(StepData):
+    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks."""
 
     @classmethod
     def compared_as(cls) -> type:
         """It is compared as :class:`~quasistatic_ref.step.data.StepData`."""
         return StepData
 
-
-class BlockStep(PosedStep):
-    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks."""
+    @property
+    def kept_M_u(self) -> Array:
+        """The diagonal blocks of M_u, shape (n_u / 6, 6, 6)."""
+        blocks: Array = vars(self)["M_u"]
+        return blocks
 
     @property
     def M_u(self) -> Array:
         """All of M_u, shape (n_u, n_u): formed whenever it is read, and not kept."""
-        return whole(vars(self)["M_u"])
+        return whole(self.kept_M_u)
 
     @property
     def H(self) -> Array:
@@ -140,21 +126,22 @@ class BlockStep(PosedStep):
 
     def inertia(self, u: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
-        blocks = vars(self)["M_u"]
+        blocks = self.kept_M_u
         block, place = np.divmod(u, blocks.shape[-1])
         entries = blocks[block[:, None], place[:, None], place]
         return np.where(block[:, None] == block, entries, 0.0)
 
     def coupled(self) -> tuple[Indices, Indices]:
         """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
-        block, one, other = np.nonzero(np.tril(vars(self)["M_u"], -1))
-        first = self.n_a + vars(self)["M_u"].shape[-1] * block
+        blocks = self.kept_M_u
+        block, one, other = np.nonzero(np.tril(blocks, -1))
+        first = self.n_a + blocks.shape[-1] * block
         of_a, with_a = np.nonzero(np.tril(self.K_q, -1))
         return np.concatenate([of_a, first + one]), np.concatenate([with_a, first + other])
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
-        blocks = vars(self)["M_u"]
+        blocks = self.kept_M_u
         momentum: Array = blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)
         return momentum.ravel()
 

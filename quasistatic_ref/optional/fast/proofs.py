@@ -19,11 +19,8 @@ from quasistatic_ref.optional.fast.far import (
     far_slacks,
     with_far,
 )
-from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
-    PosedContacts,
-    PosedStep,
     constants,
     posed,
 )
@@ -36,6 +33,7 @@ from quasistatic_ref.solve.units import (
     hessian_in_both_units,
 )
 from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
 from quasistatic_ref.tolerances import ILL_POSED
@@ -46,7 +44,7 @@ SMALL = 24
 TOUCHING = 1e-6
 """Slack of a row, in natural units, up to which its contact may touch [-]."""
 
-Coupling: TypeAlias = "list[Array | bytes | float]"
+Coupling: TypeAlias = "list[Array | Indices | bytes | float | str]"
 """What couples the coordinates of a step, and how."""
 
 
@@ -160,7 +158,7 @@ class KeptGroup:
         """The step of the group in its own natural units, from the `whole` step."""
         both = whole
         if self.constant is not None or not isinstance(both, DenseStepInBothUnits):
-            both = KeptStepInBothUnits(self.step(whole.si_step), self.kept.hessian)
+            both = DenseStepInBothUnits(self.step(whole.si_step), self.kept.hessian)
         self.kept.hessian = both.hessian
         return both
 
@@ -186,8 +184,8 @@ class KeptGroup:
             "tau_u": read_only(step.tau_u[u]),
             "delta_q_bar_a": read_only(step.delta_q_bar_a[a]),
         }
-        contacts = posed(PosedContacts, of_contacts, {"name": names, "J": J})
-        return posed(PosedStep, constant._asdict(), {**loads, "contacts": contacts})
+        contacts = posed(Contacts, of_contacts, {"name": names, "J": J})
+        return posed(StepData, constant._asdict(), {**loads, "contacts": contacts})
 
 
 class Proofs:
@@ -342,17 +340,13 @@ def _unless_all(mask: Mask) -> Mask | None:
 
 def coupled_by(step: StepData) -> Coupling:
     """What couples the coordinates of a step."""
-    J = vars(step.contacts).get("J")  # None in blocks, as M_u then is
-    if J is None:
-        moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
-    else:
-        moving = J.any(axis=1).tobytes()
+    moving = step.contacts.moving()
     A = step.extra.A
     own = (A != 0).tobytes() if A.size else b""
-    return [step.h, step.cone, step.K_q, vars(step)["M_u"], moving, own, step.row_layout.counts]
+    return [step.h, step.cone, step.K_q, step.kept_M_u, moving, own, step.row_layout.counts]
 
 
-def unchanged(one: list[Any], two: list[Any]) -> bool:
+def unchanged(one: Coupling, two: Coupling) -> bool:
     """Whether two such lists are equal: mostly the same objects."""
     if len(one) != len(two):
         return False

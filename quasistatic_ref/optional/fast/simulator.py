@@ -27,11 +27,8 @@ from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
 from quasistatic_ref.optional.fast.compiled.screws import Screws
-from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
-    PosedContacts,
-    PosedStep,
     constants,
     posed,
 )
@@ -44,7 +41,12 @@ from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thre
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits, Units
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    StepInBothUnits,
+    Units,
+)
 from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
@@ -218,10 +220,10 @@ class FastSimulator(Simulator):
         of this function, and must end with the bits of one that was not.
         """
         step = super().step_data(q, q_bar_a, force, points, kinematics)
-        if self.constant.kind is not PosedStep or self.system.varying_mass is not None:
+        if self.constant.kind is not StepData or self.system.varying_mass is not None:
             return step
         own = ("tau_a", "tau_u", "delta_q_bar_a", "contacts")
-        return posed(PosedStep, self.same, {name: getattr(step, name) for name in own})
+        return posed(StepData, self.same, {name: getattr(step, name) for name in own})
 
     def constant_here(self) -> Constants:
         """What steps have in common, with M_u at the poses; StepDataError if it is not definite."""
@@ -245,7 +247,7 @@ class FastSimulator(Simulator):
             made: Contacts = self.blocks.contacts(layout, name, points, d1, d2, J)
             return made
         own = {"name": name, "phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}
-        return posed(PosedContacts, self.friction, own)
+        return posed(Contacts, self.friction, own)
 
     def is_plain(
         self,
@@ -293,7 +295,7 @@ class FastSimulator(Simulator):
             said = as_said(step, solver, units, accuracy) if certify == "off" else None
             if said is not None:
                 return said
-        both = without_warnings(KeptStepInBothUnits, step, hessian, form, units)
+        both = without_warnings(DenseStepInBothUnits, step, hessian, form, units)
         self.hessian = both.hessian
         return without_warnings(solved, both, solver, accuracy, certify)
 

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.fast.backends import fast_backend
-from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.optional.fast.second_order import ConeSolver
@@ -104,7 +103,7 @@ class FastSolver(NativeSolver):
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""
-        return KeptStepInBothUnits(step, self.hessian)
+        return DenseStepInBothUnits(step, self.hessian)
 
     def write_program(self, both: DenseStepInBothUnits) -> None:
         """Write the program in natural units, unless compiled code has."""

@@ -68,6 +68,10 @@ class SparseContacts(Contacts):
         contact, place = np.nonzero((self.blocks.J != 0).any(axis=1))
         return contact, self.blocks.column[contact, place], self.blocks.J[contact, :, place]
 
+    def moving(self) -> bytes:
+        """Which coordinates move which contacts: equal bytes where these are the same."""
+        return b"".join(where.tobytes() for where in self.entries()[:2])
+
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, those columns of it, shape (k, 4, n)."""
         return self.blocks.columns(contacts, coordinates)

@@ -61,7 +61,7 @@ class Pattern:
             _same(contacts.blocks.column, in_blocks(template).column)
             and _same(step.contacts.rows, template.contacts.rows)
             and _same(step.K_q, template.K_q)
-            and (_same(kept_M_u(step), kept_M_u(template)) or _same(step.M_u, template.M_u))
+            and (_same(step.kept_M_u, template.kept_M_u) or _same(step.M_u, template.M_u))
         )
 
 
@@ -84,15 +84,9 @@ def in_blocks(step: StepData) -> Blocks:
     return contacts.blocks
 
 
-def kept_M_u(step: StepData) -> Array:
-    """M_u as a step keeps it [kg, kg m]: whole, or in diagonal blocks, shape (n_u / 6, 6, 6)."""
-    kept: Array = vars(step)["M_u"]
-    return kept
-
-
 def sparse_hessian(step: StepData) -> csc_matrix:
     """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from M_u as the step keeps it."""
-    M_u = kept_M_u(step)
+    M_u = step.kept_M_u
     if M_u.ndim == 2:
         return csc_matrix(step.H)
     of_a, of_u = hessian_blocks(step.h, step.K_q, M_u)
