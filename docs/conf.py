@@ -144,7 +144,7 @@ def setup(app):
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
     app.connect("html-page-context", _navigation_kept, priority=400)  # furo's is 500
-    app.connect("build-finished", _notebooks_written)
+    app.connect("build-finished", _downloads_written)
 
 
 def _expanded(app, docname, source):
@@ -255,9 +255,13 @@ def _lesson(name):
     return "\n\n".join(lines)
 
 
-def _notebooks_written(app, failure):
-    """The notebooks that pages give to be downloaded."""
+def _downloads_written(app, failure):
+    """The notebooks and the slides that pages give to be downloaded."""
     if failure is None and app.builder.format == "html":
+        from validation.tools.slides import SETS, written  # reads every example
+
+        for name in SETS:
+            written(name, Path(app.outdir) / "slides")
         folder = Path(app.outdir) / "lessons"
         folder.mkdir(exist_ok=True)
         for name in LECTURES:

@@ -63,7 +63,11 @@ def figure(ax=None, *, pushes=PUSHES):
     """One panel a push: the block, its weight, the push and the forces of the table."""
     mm_per_newton = 8
     made, row = panels(6.3, 3.0, columns=len(pushes), within=ax, narrow=12, sharey=True)
-    colours = {"weight": "0.3", "push": "#D55E00", "forces of the table": "#0072B2"}
+    styles = {
+        "weight": {"color": "0.3", "linewidth": scaled(1.6)},
+        "push": {"color": "#D55E00", "linewidth": scaled(1.6), "linestyle": (0, (3, 1))},
+        "forces of the table": {"color": "#0072B2", "linewidth": scaled(3.0)},
+    }
     left = -1e3 * HALF_WIDTH
     top = 2e3 * HALF_HEIGHT
     for axes, push, (friction, f_left, f_right) in zip(row, pushes, main(pushes), strict=True):
@@ -79,8 +83,8 @@ def figure(ax=None, *, pushes=PUSHES):
         for start, force, name in arrows:
             if np.hypot(*force) > 0:
                 tip = np.add(start, mm_per_newton * np.array(force))
-                style = {"arrowstyle": "-|>", "color": colours[name], "linewidth": scaled(1.6)}
-                axes.annotate("", tip, start, arrowprops={**style, "shrinkA": 0, "shrinkB": 0})
+                look = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **styles[name]}
+                axes.annotate("", tip, start, arrowprops=look)
         for x, f in ((left, f_left), (-left, f_right)):
             axes.text(x, -16, f"{f:.2f} N", ha="center", va="center")
         axes.grid(visible=False)
@@ -88,10 +92,7 @@ def figure(ax=None, *, pushes=PUSHES):
         axes.set_title(f"push {push:g} N")
         labelled(axes, "x [mm]", "z [mm]")
         axes.label_outer(remove_inner_ticks=True)
-    handles = [
-        Line2D([], [], color=colour, marker=">", markersize=scaled(4), label=name)
-        for name, colour in colours.items()
-    ]
+    handles = [Line2D([], [], label=name, **style) for name, style in styles.items()]
     legend_below(row, handles, f"1 N is {mm_per_newton} mm")
     return made
 

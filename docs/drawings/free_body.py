@@ -11,7 +11,12 @@ from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
 PUSHES = (3.0, 6.0)  # N: one that is held, one that is not
-COLOURS = {"weight": "0.3", "push": "#D55E00", "contact": "#0072B2", "resultant": "#CC79A7"}
+STYLES = {
+    "weight": {"color": "0.3", "linewidth": 1.6},
+    "push": {"color": "#D55E00", "linewidth": 1.6, "linestyle": (0, (3, 1))},
+    "contact": {"color": "#0072B2", "linewidth": 3.0},
+    "resultant": {"color": "#CC79A7", "linewidth": 1.6, "linestyle": (0, (1, 1))},
+}
 
 
 def main(pushes=PUSHES):
@@ -27,23 +32,24 @@ def figure(ax=None, *, pushes=PUSHES):
         axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))
         f_n = force[1]
         cone = [(0, 0), (-MU_V * f_n, f_n), (MU_V * f_n, f_n)]
-        axes.add_patch(Polygon(cone, facecolor=COLOURS["contact"], alpha=0.2))
+        axes.add_patch(Polygon(cone, facecolor=STYLES["contact"]["color"], alpha=0.2))
         weight, pushed = np.array([0.0, -MASS * GRAVITY]), np.array([push, 0.0])
         forces = {"weight": weight, "push": pushed, "contact": force}
         resultant = weight + pushed + force
         if np.hypot(*resultant) > 1e-9:  # N; zero but for rounding where the block is held
             forces["resultant"] = 5 * resultant
         for name, arrow in forces.items():
-            style = {"arrowstyle": "-|>", "color": COLOURS[name], "shrinkA": 0, "shrinkB": 0}
-            axes.annotate("", arrow, (0, 0), arrowprops={**style, "linewidth": scaled(1.6)})
+            style = STYLES[name] | {"linewidth": scaled(STYLES[name]["linewidth"])}
+            look = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **style}
+            axes.annotate("", arrow, (0, 0), arrowprops=look)
         axes.set(xlim=(-8, 8), ylim=(-11, 12), aspect="equal")
         axes.grid(visible=False)
         held = "no resultant: it stays" if "resultant" not in forces else "it slides and rises"
         labelled(axes, "force along the push [N]", "force up [N]", f"{push:g} N, {held}")
         axes.label_outer(remove_inner_ticks=True)
     handles = [
-        Line2D([], [], color=colour, marker=">", markersize=scaled(4), label=name)
-        for name, colour in COLOURS.items()
+        Line2D([], [], label=name, **style | {"linewidth": scaled(style["linewidth"])})
+        for name, style in STYLES.items()
     ]
     handles[-1].set_label("5 x resultant")
     legend_below(row, handles, "shaded: the friction cone at the normal force of the contact")

@@ -16,6 +16,8 @@ from quasistatic_ref.step.data import Array
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: dict[str, Any] = {"alpha": 0.5, "edgecolor": "k"}
+OF_LABELS, OF_TICKS = 21, 8
+"""What matplotlib adds to the pads of axes in space, at every size of the text [pt]."""
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 
@@ -46,10 +48,10 @@ def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
             axes.set(**{f"{axis}lim": (-1.3, 1.3), f"{axis}ticks": (-1, 0, 1)})
         axes.set_box_aspect((1, 1, 1), zoom=0.82)
         axes.view_init(elev=CAMERA.elevation, azim=CAMERA.azimuth)
-        axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=scaled(-4))
-        axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=scaled(-4))
-        axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=scaled(-7))
-        axes.tick_params(pad=scaled(-3))
+        axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=scaled(17) - OF_LABELS)
+        axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=scaled(17) - OF_LABELS)
+        axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=scaled(14) - OF_LABELS)
+        axes.tick_params(pad=scaled(5) - OF_TICKS)
         axes.set_title(name)
     return page
 

@@ -1,0 +1,111 @@
+"""Slides of the two lectures that docs/course/teachers.md plans, a PDF each.
+
+Run ``python -m validation.tools.slides [a] [b] [--out FOLDER]``. What stands on them is in
+``docs/slides/``: of each slide a title, the minute at which it is shown, paragraphs of which those
+between dollars are equations, and the figure below them, one of the examples or of the course.
+Exit status 1 if a slide cannot be read, or reaches out of its page. The site gives them to be
+downloaded.
+"""
+
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO, Any
+
+from matplotlib import pyplot as plt
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+
+from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.lab.figures.labels import broken
+from quasistatic_ref.optional.show.figures import figure_style
+from quasistatic_ref.optional.show.figures.style import METADATA
+from tests.legible import faults
+from validation.tools.restyled import drawer
+from validation.tools.scripts import ROOT, asked
+
+FOLDER = ROOT / "docs" / "slides"
+SETS = ("a", "b")
+STYLE = "slides"
+SIZE = (12.6, 7.0875)
+"""Of a slide [in], 16 to 9: the labels of a figure are as small as they may be."""
+EDGE = 0.45
+"""Around what stands on a slide [in]."""
+SLIM = 0.82
+"""Width of a line over the estimate by which it is broken [-]; what is too wide is a fault."""
+TITLE, TEXT, EQUATION, MARK = 1.7, 1.35, 1.5, 0.9
+"""Sizes over that of the style's text [-]."""
+
+
+def slides(name: str) -> list[dict[str, Any]]:
+    """The slides of a lecture, in order: ``title``, ``minute``, ``text`` and perhaps ``figure``."""
+    content = tomllib.loads((FOLDER / f"{name}.toml").read_text("utf-8"))
+    return list(content["slides"])
+
+
+def drawn(slide: dict[str, Any], mark: str) -> Figure:
+    """A slide in the present style, with a mark in its lower corner."""
+    page = plt.figure(figsize=SIZE, layout="constrained")
+    width, height = SIZE
+    gap = 0.15 if "figure" in slide else 0.3
+    size = MARK * float(plt.rcParams["font.size"])
+    page.text(1 - EDGE / width, 0.15 / height, mark, ha="right", color="0.4", size=size)
+    top = _below(page, height - EDGE, slide["title"], TITLE, weight="bold") - 0.3
+    for paragraph in slide["text"]:
+        top = _below(page, top, paragraph, TEXT) - gap
+    if "figure" in slide:
+        grid = page.add_gridspec(
+            3, 3, wspace=0, hspace=0, width_ratios=(EDGE, width - 2 * EDGE, EDGE),
+            height_ratios=(height - top, top - EDGE, EDGE),
+        )  # fmt: skip
+        drawer(slide["figure"])(page.add_subfigure(grid[1, 1]))
+    return page
+
+
+def _below(page: Figure, top: float, text: str, share: float, **look: Any) -> float:
+    """Write a paragraph, or an equation in the middle; where it ends [in]."""
+    width, height = SIZE
+    centred = text.startswith("$") and text.endswith("$")
+    size = (EQUATION if centred else share) * float(plt.rcParams["font.size"])
+    lines = text if centred else broken(text, (width - 2 * EDGE) * 72 / size / SLIM)
+    across, side = (0.5, "center") if centred else (EDGE / width, "left")
+    shown = page.text(across, top / height, lines, size=size, va="top", ha=side, **look)
+    return top - float(shown.get_window_extent().height) / page.dpi
+
+
+def pages(name: str) -> Iterator[Figure]:
+    """Every slide of a lecture, closed when the next is asked for."""
+    made = slides(name)
+    # A slide is its whole page, also where nothing stands on its rim.
+    with figure_style(STYLE), plt.rc_context({"savefig.bbox": None}):
+        for k, slide in enumerate(made, 1):
+            page = drawn(slide, f"{k} of {len(made)}, minute {slide['minute']}")
+            yield page
+            plt.close(page)
+
+
+def written(name: str, folder: Path) -> list[str]:
+    """Write the slides of a lecture as ``lecture_NAME.pdf``; what of them cannot be read."""
+    wrong = []
+
+    def save(file: IO[bytes]) -> None:
+        with PdfPages(file, metadata=METADATA["pdf"]) as document:
+            for k, page in enumerate(pages(name), 1):
+                wrong.extend(f"{name}, slide {k}: {fault}" for fault in faults(page, STYLE))
+                document.savefig(page)
+
+    written_whole(folder / f"lecture_{name}.pdf", save)
+    return wrong
+
+
+def main() -> int:
+    """Write, and read."""
+    options = asked(__doc__, SETS, out=Path("slides"))
+    wrong = [fault for name in options.names or SETS for fault in written(name, options.out)]
+    print("\n".join(wrong) or f"every slide in {options.out} is legible")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
