@@ -271,5 +271,5 @@ def two_to(e: int) -> fmpq:
 
 
 def fraction(x: float) -> fmpq:
-    """A float64 number of any unit, without rounding [the same unit]."""
+    """A float64 number, without rounding [the same unit]. In C: fixed_point.h."""
     return fmpq(*x.as_integer_ratio())

@@ -151,7 +151,10 @@ def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[A
 
 
 def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
-    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-]."""
+    """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-].
+
+    In C: crossings.c.
+    """
     i, j = every(len(on_a.ends), len(on_b.ends))
     tail = on_a.ends[i, 0]
     start = on_b.ends[j, 0]

@@ -103,7 +103,10 @@ def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
-    """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
+    """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'.
+
+    In C: closest.c, solids.c.
+    """
     a, b = in_world(pair, R, t)
     if isinstance(b.shape, PointCloud):
         return _cloud_on_solid(pair, a, b, b.shape.points)
@@ -177,6 +180,8 @@ def every_candidate(
     pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
 ) -> ClosestPoints:
     """All candidates: alpha's corners on beta, beta's on alpha, crossings, the closest pair.
+
+    In C: candidates.c.
 
     Corners whose normal is not about the pair's are none: they cannot bear with it.
     """

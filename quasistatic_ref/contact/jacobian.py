@@ -33,7 +33,7 @@ class ContactGeometry:
         self.moves = np.repeat(moves, 4, axis=2)
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
-        """The contacts of one step, from the closest points of all pairs.
+        """The contacts of one step, from the closest points of all pairs. In C: rows.c.
 
         Parameters
         ----------

@@ -218,7 +218,7 @@ class System(Shown):
         return self._order.paper_q(pin.neutral(self._model))
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
-        """Configuration q (+) delta_q, shape (n_q,)."""
+        """Configuration q (+) delta_q, shape (n_q,). In C: screws.c."""
         q = with_shape(q, "q", (self.n_q,))
         self.units.check(q)
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))

@@ -145,6 +145,8 @@ def squared_lengths(form: StandardForm, hessian: HessianInBothUnits) -> Array:
 def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not.
 
+    In C: natural.c.
+
     Parameters
     ----------
     form : StandardForm

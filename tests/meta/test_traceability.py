@@ -81,7 +81,7 @@ def test_every_result_has_a_test_by_random_instances():
     assert tested == results
 
 
-def test_a_file_of_c_names_first_the_function_that_it_repeats_and_the_test_that_compares_them():
+def test_a_file_of_c_names_the_function_that_it_repeats_and_the_test_and_is_named_there():
     compiled = PACKAGE / "optional" / "fast" / "compiled" / "source"
     for file in [*compiled.glob("*.c"), compiled / "fixed_point.h"]:
         first = file.read_text().partition("\n\n")[0]
@@ -91,3 +91,6 @@ def test_a_file_of_c_names_first_the_function_that_it_repeats_and_the_test_that_
         assert named or "No function of the core" in first, file
         for module, name in named:
             assert hasattr(import_module(f"quasistatic_ref.{module.replace('/', '.')}"), name), file
+        if named:
+            python = (PACKAGE / named[0][0]).with_suffix(".py").read_text("utf-8")
+            assert re.search(rf"In C: .*\b{file.name}", python), file
