@@ -1,10 +1,9 @@
 """The exact optima of a step's groups on guessed working sets, proved in compiled fixed point."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,51 +44,79 @@ def _kept_A(A: Any) -> Array:
     return kept
 
 
-class Places:
-    """Where the entries of groups' J and A are among those that steps keep; -1 of a zero.
+CONSTANT = (
+    "h", "coordinate", "K_q", "M_u", "inverse", "cone", "integers", "contact", "row",
+    "hessian", "hessian_values",
+)  # fmt: skip
+"""What groups of equal constants have in common."""
+
+
+class Places(NamedTuple):
+    """Where the entries of a group's J and A are among those that steps keep; -1 of a zero.
+
+    Parameters
+    ----------
+    in_J : ndarray of int, shape (n_c, 4, n)
+    in_A : ndarray of int, shape (m, n)
+    """
+
+    in_J: Indices
+    in_A: Indices
+
+
+def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
+    """Those of each group of a step.
 
     Parameters
     ----------
     step : StepData
-        One of the whole steps.
-    A : ndarray or sparse matrix, optional
-        Its A, if this is asked for.
+    A : ndarray, sparse matrix in columns, or None
+        Its A; None if this is not asked for.
+    groups : sequence of Group
     """
+    of = np.full((2, step.m + step.n_v + 1), -1)
+    column, row = of[:, : step.n_v + 1], of[:, step.n_v + 1 :]
+    for k, group in enumerate(groups):
+        for numbered, own in ((column, group.coordinates), (row, group.rows)):
+            numbered[0, own] = k
+            numbered[1, own] = np.arange(len(own))
+    return [*map(Places, _in_J(step, groups, column), _in_A(A, groups, column, row))]
 
-    def __init__(self, step: StepData, A: Any = None) -> None:
-        self.A = A
-        J = kept_J(step)
-        numbered = np.arange(1.0, J.size + 1).reshape(J.shape)
-        contacts: Any = step.contacts
-        self.dense = not hasattr(contacts, "blocks")
-        self.J: Any = numbered if self.dense else replace(contacts.blocks, J=numbered)
 
-    def in_J(self, group: Group) -> Indices:
-        """Of its J, shape (n_c, 4, n)."""
-        if self.dense:
-            own = self.J[group.contacts][:, :, group.coordinates]
-        else:
-            own = self.J.columns(group.contacts, group.coordinates)
-        places: Indices = own.astype(np.int64) - 1
-        return places
+def _in_J(step: StepData, groups: Sequence[Group], column: Indices) -> Iterator[Indices]:
+    """Of each group; `column` (2, n_v + 1): the group of a coordinate, and its number there."""
+    contacts: Any = step.contacts
+    J = kept_J(step)
+    numbers = np.arange(J.size).reshape(J.shape)
+    for k, group in enumerate(groups):
+        own = numbers[group.contacts]
+        if not hasattr(contacts, "blocks"):
+            yield own[:, :, group.coordinates]
+            continue
+        of, place = column[:, contacts.blocks.column[group.contacts]]
+        n = len(group.coordinates)
+        wide = np.full((len(own), 4, n + 1), -1)
+        of_contact = np.arange(len(own))[:, None, None]
+        wide[of_contact, np.arange(4)[:, None], np.where(of == k, place, n)[:, None]] = own
+        yield np.ascontiguousarray(wide[:, :, :n])
 
-    def in_A(self, group: Group) -> Indices:
-        """Of its A, shape (m, n)."""
-        A = self.A
-        rows = group.rows
-        if A is None:
-            return np.full((len(rows), len(group.coordinates)), -1)
-        if isinstance(A, np.ndarray):
-            places: Indices = rows[:, None] * A.shape[1] + group.coordinates
-            return places
-        own = np.full(A.shape[0], -1)
-        own[rows] = np.arange(len(rows))
-        places = np.full((len(rows), len(group.coordinates)), -1)
-        for i, v in enumerate(group.coordinates.tolist()):
-            entries = np.arange(A.indptr[v], A.indptr[v + 1])
-            row = own[A.indices[entries]]
-            places[row[row >= 0], i] = entries[row >= 0]
-        return places
+
+def _in_A(A: Any, groups: Sequence[Group], column: Indices, row: Indices) -> Iterator[Indices]:
+    """Of each group; `row` (2, m) is for rows what `column` is for coordinates."""
+    if isinstance(A, np.ndarray):
+        for group in groups:
+            yield group.rows[:, None] * A.shape[1] + group.coordinates
+        return
+    found = [np.full((len(group.rows), len(group.coordinates)), -1) for group in groups]
+    if A is not None:
+        of_column = np.repeat(np.arange(A.shape[1]), np.diff(A.indptr))
+        of = row[0, A.indices]
+        order = np.argsort(of, kind="stable")
+        ends = np.searchsorted(of[order], np.arange(len(groups) + 1))
+        for k, own in enumerate(found):
+            entries = order[ends[k] : ends[k + 1]]
+            own[row[1, A.indices[entries]], column[1, of_column[entries]]] = entries
+    yield from found
 
 
 class GroupProof:
@@ -104,7 +131,8 @@ class GroupProof:
     hessian : HessianInBothUnits
         Their H.
     places : Places
-        Of the whole steps.
+    like : GroupProof, optional
+        One of a group of the same constants and H.
 
     Attributes
     ----------
@@ -118,13 +146,13 @@ class GroupProof:
         own: Constants | StepData,
         hessian: HessianInBothUnits,
         places: Places,
+        like: "GroupProof | None" = None,
     ) -> None:
         found = library()
         self._prove = found.proof
         self._prove_nearby = found.proof_nearby
         n_a = len(own.K_q)
         n, n_c, m = len(group.coordinates), len(group.contacts), len(group.rows)
-        contact, row = np.divmod(own.row_layout.numbers, own.row_layout.mask.shape[1])
         self.s = s = Structure("proof.h", "Proof")
         self._natural = Structure("natural.c", "Natural")
         s.put(
@@ -132,29 +160,35 @@ class GroupProof:
                 "n_a": n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
                 "answered": 0, "code": NOT_POSED,
                 "coordinates": group.coordinates, "contacts": group.contacts,
-                "in_J": places.in_J(group), "in_A": places.in_A(group),
+                "in_J": places.in_J, "in_A": places.in_A,
                 "rows_of_step": group.rows, "natural": self._natural.address,
-                "h": np.array([own.h]), "coordinate": hessian.coordinate,
-                "K_q": own.K_q, "M_u": own.M_u, "inverse": hessian.H_inverse,
-                "J": np.zeros((n_c, 4, n)), "A": np.zeros((m, n)),
-                "answer": np.zeros(m, np.int64), "guess": np.zeros(m, np.int64),
-                "cone": cone_matrix(own.cone), "integers": _combined(own.cone),
-                "contact": contact, "row": row,
-                "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
-                "hessian_values": np.zeros((n, n)), "units": np.zeros(2),
-                "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
-                "counts": np.zeros(2, np.int64), "claims": np.zeros(2, np.int64),
-                **step_arrays(n_a, n, n_c, m),
             }
         )  # fmt: skip
-        self._natural.put(
-            {
-                "n": n, "m": m, **{name: s[name] for name in ("g", "A", "b", "units")},
-                "coordinate": hessian.coordinate, "squared": hessian.squared,
-                "inverse": hessian.H_inverse, "squares": np.zeros(m),
-            }
-        )  # fmt: skip
-        self.usable = bool(found.hessian(s.address))
+        room_for_step(s, n_a, n, n_c, m)
+        s.room({"J": (n_c, 4, n), "A": (m, n), "units": (2,)})
+        s.room(
+            {"answer": (m,), "guess": (m,), "idle": (m,), "still": (n,), "counts": (2,)}, np.int64
+        )
+        if like is None:
+            contact, row = np.divmod(own.row_layout.numbers, own.row_layout.mask.shape[1])
+            s.put(
+                {
+                    "h": np.array([own.h]), "coordinate": hessian.coordinate,
+                    "K_q": own.K_q, "M_u": own.M_u, "inverse": hessian.H_inverse,
+                    "cone": cone_matrix(own.cone), "integers": _combined(own.cone),
+                    "contact": contact, "row": row,
+                    "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
+                    "hessian_values": np.zeros((n, n)),
+                }
+            )  # fmt: skip
+            self._natural.put({"squared": hessian.squared})
+        else:
+            s.share(like.s, CONSTANT)
+            self._natural.share(like._natural, ("squared",))
+        self._natural.put({"n": n, "m": m})
+        self._natural.room({"squares": (m,)})
+        self._natural.share(s, ("g", "A", "b", "units", "coordinate", "inverse"))
+        self.usable: bool = bool(found.hessian(s.address)) if like is None else like.usable
 
     @property
     def code(self) -> int:
@@ -199,23 +233,24 @@ class GroupProof:
         return _optimum(self.s, self.guess.tolist())
 
 
-def step_arrays(n_a: int, n: int, n_c: int, m: int) -> dict[str, Array]:
+def room_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
     """Arrays for the data of a step of such sizes, a backend's answer to it, and its optimum.
 
-    Returns
-    -------
-    dict of str to ndarray
-        Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...;
-        without J and A.
+    Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...;
+    without J and A.
     """
-    frame = np.zeros((n_c, 4, 4))
-    frame[:, 3, 3] = 1.0
-    return {
-        "delta_q_bar_a": np.zeros(n_a), "phi": np.zeros(n_c), "least": np.zeros(2),
-        "frame": frame, "mu": np.ones((n_c, 4)),
-        **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net", "rest", "bound")},
-        **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
-    }  # fmt: skip
+    of_coordinates = ("g", "tau", "delta_q", "net", "rest", "bound")
+    of_rows = ("b", "pressure", "gap", "lam", "slack")
+    s.room(
+        {
+            "delta_q_bar_a": (n_a,), "phi": (n_c,), "least": (2,),
+            "frame": (n_c, 4, 4), "mu": (n_c, 4),
+            **dict.fromkeys(of_coordinates, (n,)), **dict.fromkeys(of_rows, (m,)),
+        }
+    )  # fmt: skip
+    s.room({"claims": (2,)}, np.int64)
+    s["frame"][:, 3, 3] = 1.0
+    s["mu"][:] = 1.0
 
 
 def lend_data(s: Structure, step: StepData) -> None:
@@ -275,18 +310,24 @@ class Prover:
         found = library()
         self._prove = found.groups_proved
         A = both.si_form.A
-        places = Places(step, A)
-        self.proofs = [group_proof(*each, places) for each in groups]
+        self.proofs = list[GroupProof | None]()
+        alike: dict[tuple[int, int], GroupProof | None] = {}
+        of_each = places(step, A, [group for group, _, _ in groups])
+        for (group, own, hessian), where in zip(groups, of_each, strict=True):
+            key = id(own), id(hessian)
+            proof = group_proof(group, own, hessian, where, alike.get(key))
+            alike.setdefault(key, proof)
+            self.proofs.append(proof)
         addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
         self.s = Structure("groups.c", "Step")
         self.s.put(
             {
                 "groups": len(groups), "group": np.array(addresses, np.int64),
-                "code": np.zeros(len(groups), np.int64), "claims": np.zeros(2, np.int64),
+                "code": np.zeros(len(groups), np.int64),
                 "J": kept_J(step), "A": _kept_A(A),
-                **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
             }
         )  # fmt: skip
+        room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
 
     def optimum(self, both: StepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
         """The exact optimum on the rows that an answer presses; None unless C proves all groups.
@@ -313,12 +354,16 @@ class Prover:
 
 
 def group_proof(
-    group: Group, own: Constants | StepData, hessian: HessianInBothUnits, places: Places
+    group: Group,
+    own: Constants | StepData,
+    hessian: HessianInBothUnits,
+    places: Places,
+    like: GroupProof | None = None,
 ) -> GroupProof | None:
     """The proofs of a group of a step, or None of one that C does not prove."""
     if len(group.extra_rows) or len(group.coordinates) > LARGEST:
         return None
-    proof = GroupProof(group, own, hessian, places)
+    proof = GroupProof(group, own, hessian, places, like)
     return proof if proof.usable else None
 
 

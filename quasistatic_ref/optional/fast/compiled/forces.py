@@ -13,7 +13,8 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     group_proof,
     kept_J,
     lend_data,
-    step_arrays,
+    places,
+    room_for_step,
 )
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
@@ -43,10 +44,12 @@ class Forces:
 
     def __init__(self, step: StepData) -> None:
         divided = group_steps(step)
-        places = Places(step)
         self._form = library().groups_forces
         self._groups = [group for group, _ in divided]
-        self._parts = [_GroupForces(*one, places) for one in divided]
+        of_each = places(step, None, self._groups)
+        self._parts = [
+            _GroupForces(*one, where) for one, where in zip(divided, of_each, strict=True)
+        ]
         self.s = Structure("groups.c", "Step")
         self.s.put(
             {
@@ -54,9 +57,9 @@ class Forces:
                 "group": np.array([part.group for part in self._parts], np.int64),
                 "forces": np.array([part.s.address for part in self._parts], np.int64),
                 "J": kept_J(step), "wrench": np.zeros((step.contacts.n_c, 4)),
-                **step_arrays(step.n_a, step.n_v, step.contacts.n_c, step.m),
             }
         )  # fmt: skip
+        room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
 
     def in_c(self, step: StepData) -> tuple[Array, list[int]]:
         """(f_d1, f_d2, f_n, tau_n) of each contact of a step, shape (n_c, 4) [N, N m].
@@ -139,14 +142,14 @@ class _GroupForces:
         Address of its Proof; 0 of a group that C does not know.
     """
 
-    def __init__(self, group: Group, own: StepData, places: Places) -> None:
+    def __init__(self, group: Group, own: StepData, where: Places) -> None:
         n_c = own.contacts.n_c
         self.s = Structure("forces.h", "Forces")
         self.s.put({"wrench": np.zeros((n_c, 4))})
         counts, kind = np.unique(own.counts, return_inverse=True)
         known = [_faces(own.cone, count) for count in counts.tolist()]
         tables = [table for table in known if table is not None]
-        self._proof = group_proof(group, own, hessian_in_both_units(own.H), places)
+        self._proof = group_proof(group, own, hessian_in_both_units(own.H), where)
         if not n_c or None in known or self._proof is None:
             self.group = 0
             return

@@ -1,8 +1,9 @@
 """Structures of C: numbers, and addresses of arrays that are kept as long as they are."""
 
 import ctypes
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -54,6 +55,23 @@ class Structure:
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
         self.put({name: value})
+
+    def room(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
+        """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
+        sizes = [math.prod(shape) for shape in shapes.values()]
+        block: NDArray[Any] = np.zeros(sum(sizes), kind)
+        address = block.ctypes.data
+        for (name, shape), size in zip(shapes.items(), sizes, strict=True):
+            self._arrays[name] = block[:size].reshape(shape)
+            setattr(self._fields, name, address)
+            block = block[size:]
+            address += 8 * size
+
+    def share(self, other: "Structure", names: Sequence[str]) -> None:
+        """Have some arrays in common with another structure of the same kind."""
+        for name in names:
+            self._arrays[name] = other[name]
+            setattr(self._fields, name, getattr(other._fields, name))
 
     def put(self, values: Mapping[str, Any]) -> None:
         """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""
