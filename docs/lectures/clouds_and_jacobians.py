@@ -1,4 +1,4 @@
-"""Lecture 3: phi and J of a cloud, of two bodies, and the mass matrix
+"""Lesson 3: phi and J of a cloud, of two bodies, and the mass matrix
 
 A body known by points touches the floor z = 0. Its twist is along and about its own axes.
 """

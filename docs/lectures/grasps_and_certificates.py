@@ -1,4 +1,4 @@
-"""Lecture 5: what a grip holds, and what a certificate proves
+"""Lesson 5: what a grip holds, and what a certificate proves
 
 Two fingers hold a bar; an answer comes with a proof, and a wrong one is found out.
 """

@@ -1,4 +1,4 @@
-"""Lecture 1: one contact, six rows
+"""Lesson 1: one contact, six rows
 
 A block of 1 kg on a table may go along x, y, z and turn about z. mu_v = 0.5, mu_omega = 0.02 m.
 """

@@ -1,4 +1,4 @@
-"""Lecture 2: a spring, and step after step
+"""Lesson 2: a spring, and step after step
 
 A finger on a spring of K_q, its target ahead; a block of mass m at a gap phi from it, on ice.
 """

@@ -1,4 +1,4 @@
-"""Lecture 4: the quadratic program, from scratch
+"""Lesson 4: the quadratic program, from scratch
 
 Every number of a step is in its StepData; Eqs. (13) and (4) are a page of CVXPY.
 """

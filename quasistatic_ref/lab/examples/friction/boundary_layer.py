@@ -2,9 +2,9 @@
 
 Up to mu_omega m g it does not move at all. Beyond, it turns, and lifts off: a turn of theta needs
 a rise of mu_omega theta. This boundary layer is the price of convexity. The paper calls it
-proportional to h. So it is where the motion is imposed, mu_omega h omega. Under a given torque, as
-in the paper's own experiment, of which it says that the layer decreases with the step size, the
-turn of a step is itself proportional to h^2.
+proportional to h. That is right where the motion is imposed: mu_omega h omega. Under a given
+torque, as in the paper's own experiment, the turn of a step is proportional to h^2, and so is the
+layer.
 """
 
 from collections.abc import Sequence

@@ -2,7 +2,7 @@
 
 The paper's six rows share one normal force, which makes an octahedron of the two tangential forces
 and the torque about n. The ellipsoid is what experiments suggest; the product lets the torque have
-its limit whatever the tangential force. How much they hold is a matter of their volumes.
+its limit whatever the tangential force. Their volumes compare how much they hold.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What a block that is pushed at one speed pays for small steps, and what for large ones.
+"""The drag of small steps, and the boundary layer of large ones, on a block at one speed.
 
 A plate on a spring pushes it; how far the plate lags behind its target measures the force. It is
 friction, mu_v m g, and m v / h more: a block starts every step from rest. This drag grows as steps

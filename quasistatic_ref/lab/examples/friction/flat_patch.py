@@ -1,4 +1,4 @@
-"""What a square patch of four points holds against a turn: a matter of its tangents.
+"""What a square patch of four points holds against a turn depends on its tangents.
 
 A rigid patch that turns rests on its outermost points, (R16). Each of them slides across its
 radius, and the pyramid asks it to rise by mu_v times the larger of the slip along d1 and that along

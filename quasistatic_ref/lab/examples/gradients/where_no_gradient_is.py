@@ -1,4 +1,4 @@
-"""Where a step has no derivative: three kinks, with the one-sided derivatives that are there.
+"""Where a step has no derivative: two kinks with their one-sided derivatives, and a jump.
 
 A ball that just reaches the floor is stopped or falls on; one that is pushed as hard as friction
 can bear stays or slides; and of a body of two points, of which the closest alone is kept, the step

@@ -1,8 +1,8 @@
 """How far the bunny of Figure 1 turns, for 480 clouds of the same bunny.
 
 What is drawn is the committed study of clouds: four ways of drawing points, four numbers of them,
-30 clouds each. Without torsional friction the answer is a matter of the cloud; with it, it is not,
-where mu_omega is what the closed grip needs by (R14).
+30 clouds each. Without torsional friction the angle depends on the cloud; with it, it does not,
+if mu_omega is what the closed grip needs by (R14).
 """
 
 from typing import Any

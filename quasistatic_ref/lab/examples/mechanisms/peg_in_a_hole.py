@@ -1,7 +1,8 @@
 """A compliant peg finds a hole that it misses by 3 mm and 2 mm, and slides in along two walls.
 
 The gantry's springs give way until the peg is in. Inside, they press it on the walls with
-K (e - c + b), b being the boundary layer, and friction on both walls holds it back.
+K (e - c + b), for a miss e, a clearance c and a boundary layer b; friction on both walls holds it
+back.
 """
 
 from typing import Any
