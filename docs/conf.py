@@ -27,6 +27,7 @@ from validation.tools.lectures import LECTURES, lesson, notebook  # noqa: E402 t
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
+project_copyright = author
 version = release = __version__
 
 extensions = [

@@ -1,8 +1,13 @@
 """The release command knows every committed result, and says how each differs from its commit."""
 
 import re
+import tomllib
 from pathlib import Path
 
+import pytest
+import yaml
+
+from quasistatic_ref import __version__
 from validation.tools.release import RESULTS
 
 ROOT = Path(__file__).parents[2]
@@ -31,3 +36,21 @@ def test_the_table_of_validation_names_every_file_and_no_other():
     stems = {path.stem for path in files if path.stem != "__init__"}
     rows = page[page.index("| `make/NAME.py`") : page.index("| `results/`")]
     assert set(re.findall(r"`(\w+)`", rows)) == stems
+
+
+def test_the_version_is_the_same_wherever_it_is_said():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    changelog = (ROOT / "docs" / "changelog.md").read_text("utf-8")
+    assert project["version"] == citation["version"] == __version__
+    assert __version__ in changelog
+
+
+@pytest.mark.parametrize("folder", [".", "validation/vectors"])
+def test_a_citation_has_the_place_of_a_doi(folder):
+    text = (ROOT / folder / "CITATION.cff").read_text("utf-8")
+    filled = yaml.safe_load(re.sub(r"^# (?=identifiers:|  )", "", text, flags=re.MULTILINE))
+    (identifier,) = filled["identifiers"]
+    assert identifier["type"] == "doi"
+    # As the schema of CFF 1.2.0 wants it.
+    assert re.fullmatch(r"10\.\d{4,9}(\.\d+)?/[A-Za-z0-9:/_;\-.()\[\]\\]+", identifier["value"])

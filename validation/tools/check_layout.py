@@ -18,8 +18,8 @@ from pathlib import Path
 
 from validation.tools.browser import Browser
 
-WIDTHS = (400, 1280)
-"""Of a phone and of a small laptop [px]."""
+WIDTHS = (360, 1280)
+"""Of a small phone and of a small laptop [px]."""
 HEIGHT = 900
 LISTINGS = "_modules"
 """The folder of listings of source."""
