@@ -13,7 +13,7 @@ import pytest
 
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.examples.gallery import EXAMPLES
-from quasistatic_ref.optional.fast.compiled import why_not
+from quasistatic_ref.optional.fast.compiled.library import why_not
 
 OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 """A requirement of the package's metadata: the name of what is required, and the extra."""

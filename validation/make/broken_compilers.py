@@ -94,7 +94,7 @@ def kept(text: bytes) -> None:
     command = [
         sys.executable,
         "-c",
-        "from quasistatic_ref.optional.fast.compiled import why_not; why_not()",
+        "from quasistatic_ref.optional.fast.compiled.library import why_not; why_not()",
     ]
     subprocess.run(command, cwd=ROOT, capture_output=True, check=True)
     (file,) = cache().iterdir()

@@ -25,7 +25,8 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled.certificate import Prover
+from quasistatic_ref.optional.fast.compiled.library import why_not
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.groups import Group
@@ -84,12 +85,11 @@ def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
 
 def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimum | None:
     """What C proves on a guess, or also near it, where there is a compiler."""
-    fast = compiled("certificate")
-    if fast is None:
+    if why_not() is not None:
         return None
     both = DenseStepInBothUnits(step)
     sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
-    prover = fast.Prover(both, [(Group(*map(np.arange, sizes)), step, both.hessian)])
+    prover = Prover(both, [(Group(*map(np.arange, sizes)), step, both.hessian)])
     pressed = np.zeros(step.m)
     pressed[rows if nearby else []] = 1.0
     prover.optimum(both, pressed, np.zeros(step.m))

@@ -53,7 +53,7 @@ ENGINES = (
 FAST = (
     'python -c "import os, sys; '
     "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "
-    'from quasistatic_ref.optional.fast.compiled import why_not; sys.exit(why_not())"',
+    'from quasistatic_ref.optional.fast.compiled.library import why_not; sys.exit(why_not())"',
     "quasistatic-ref run sphere_spin --set steps=20 --json",
 )
 """With the compiler that comes along, also where the system has one."""

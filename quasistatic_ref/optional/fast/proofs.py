@@ -2,14 +2,15 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined_optimum
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled.certificate import GroupProof, Prover
+from quasistatic_ref.optional.fast.compiled.library import why_not
 from quasistatic_ref.optional.fast.far import (
     BallHessian,
     Balls,
@@ -107,14 +108,16 @@ class KeptGroup:
     group: Group
     constant: Constants | None
     kept: Kept
-    key: tuple[Any, ...] = ()
+    key: tuple[object, ...] = ()
 
     @property
     def coordinates(self) -> Indices | slice:
         """The coordinates of the group; all, without an index, where it is the whole step."""
         return slice(None) if self.constant is None else self.group.coordinates
 
-    def optimum(self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
+    def optimum(
+        self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: GroupProof | None
+    ) -> ExactOptimum:
         """The exact optimum of the group, by C or by the exact method.
 
         Parameters
@@ -130,7 +133,7 @@ class KeptGroup:
         ------
         StepInfeasible
         """
-        decided: ExactOptimum | None = None if in_c is None else in_c.decided()
+        decided = None if in_c is None else in_c.decided()
         rows = self.group.rows
         if decided is None:
             own = self.in_both_units(whole)
@@ -203,7 +206,7 @@ class Proofs:
         self._of_groups: Coupling = []
         self._found: list[Group] = []
         self._small: Mask | None = None  # contacts of small groups; None if all are
-        self.prover: Any = None
+        self.prover: Prover | None = None
 
     def norms(self) -> list[tuple[Indices | slice, EnergyNorm]]:
         """Coordinates of each group of the last step, and its norm."""
@@ -234,17 +237,20 @@ class Proofs:
             parts = self.divided(step, near, coupling)
             prover = self._prover(both)
             optimum = None if prover is None else prover.optimum(both, lam, slack)
-            in_c = optimum is not None
-            if in_c and is_due(WHOLE, len(parts[0].group.coordinates)):
-                check(parts[0].step(step), prover.proofs[0].decided())
+            in_c = None if optimum is None else prover
+            if in_c is not None and is_due(WHOLE, len(parts[0].group.coordinates)):
+                first = in_c.proofs[0]
+                decided = first.decided() if first else None
+                assert decided is not None
+                check(parts[0].step(step), decided)
             if optimum is None:
                 tried = [None] * len(parts) if prover is None else prover.proofs
                 each = zip(parts, tried, strict=True)
-                optima = [part.optimum(both, lam, slack, in_c) for part, in_c in each]
+                optima = [part.optimum(both, lam, slack, proof) for part, proof in each]
                 optimum = joined_optimum(step, [part.group for part in parts], optima)
             if near is None:
                 break
-            x = balls(*prover.displacement()) if in_c else self._in_balls(step, optimum)
+            x = balls(*in_c.displacement()) if in_c else self._in_balls(step, optimum)
             if x is None:
                 near = None
                 continue
@@ -257,16 +263,15 @@ class Proofs:
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
-    def _prover(self, both: StepInBothUnits) -> Any:
+    def _prover(self, both: StepInBothUnits) -> Prover | None:
         """What proves all groups of a step in C; None where nothing does."""
-        in_c = compiled("certificate")
-        if in_c is not None and self.prover is None:
+        if why_not() is None and self.prover is None:
             step = both.si_step
             groups = [
                 (part.group, step if part.constant is None else part.constant, part.hessian(both))
                 for part in self.parts
             ]
-            self.prover = in_c.Prover(both, groups)
+            self.prover = Prover(both, groups)
         return self.prover
 
     def _in_balls(self, step: StepData, optimum: ExactOptimum) -> Balls | None:

@@ -6,7 +6,6 @@ say.
 """
 
 from collections import Counter
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.step.data import Array, StepData
 
 EVERY = 1000
@@ -46,7 +45,6 @@ class WrongProof(StepNotSolved):
 
     def __init__(self, step: StepData, what: str) -> None:
         super().__init__("compiled code", "wrong proof", step, 0.0)
-        library: Any = compiled("library")
         self.args = (
             f"compiled code has proved a step wrongly: {what} is not what the exact method finds "
             f"({library.described()}); set {library.VARIABLE}={library.NONE}, and report the step",

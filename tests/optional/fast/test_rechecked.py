@@ -12,7 +12,7 @@ from quasistatic_ref.errors import RunFailed, StepIllPosed, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs, rechecked
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import certificate
 from quasistatic_ref.optional.fast.rechecked import WrongProof, check, is_due
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
@@ -60,7 +60,6 @@ def test_a_solution_of_a_step_without_one_is_found():
 
 
 def test_a_run_ends_with_a_sentence_and_the_step(first, monkeypatch):
-    certificate = compiled("certificate")
     plain = certificate.GroupProof.decided
 
     def wrong(proof):

@@ -1,18 +1,17 @@
 """Clarabel, an interior-point method: its data are updated in place."""
 
-from typing import Any
-
 import clarabel
 import numpy as np
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 
 
 class Clarabel(Adapter):
     """One Clarabel solver; it always starts cold."""
 
-    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: Options) -> None:
         self.program = program
         settings = clarabel.DefaultSettings()
         settings.verbose = False

@@ -3,12 +3,13 @@
 It has dense matrices only: of a sparse program it solves each part that nothing couples.
 """
 
-from typing import Any, Literal
+from typing import Literal
 
 import daqp
 import numpy as np
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Parts, Program, SparseProgram
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
@@ -22,7 +23,7 @@ class Daqp(Adapter):
     WARM = True
     NEAR = False
 
-    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: Options) -> None:
         self.parts: Parts | None = None
         if isinstance(program, SparseProgram):
             self.parts = Parts(program)
@@ -49,7 +50,7 @@ class Workspace:
         DAQP's own.
     """
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program, options: Options) -> None:
         self.program = p = program
         self.cold = np.zeros(len(p.b), dtype=np.int32)
         if len(p.b):

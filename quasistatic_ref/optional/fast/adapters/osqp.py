@@ -1,11 +1,10 @@
 """OSQP, operator splitting: dense A and H keep every entry in their pattern, zeros included."""
 
-from typing import Any
-
 import numpy as np
 import osqp
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 
 
@@ -14,7 +13,7 @@ class Osqp(Adapter):
 
     WARM = True
 
-    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: Options) -> None:
         self.program = program
         P, A = program.columns()
         m, n = A.shape

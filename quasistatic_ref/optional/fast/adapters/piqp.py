@@ -1,18 +1,17 @@
 """PIQP, a proximal interior-point method, dense or sparse as its program is."""
 
-from typing import Any
-
 import numpy as np
 import piqp
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 
 
 class Piqp(Adapter):
     """One PIQP solver; it always starts cold."""
 
-    def __init__(self, program: Program | SparseProgram, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program | SparseProgram, options: Options) -> None:
         self.program = p = program
         dense = isinstance(p, Program)
         self.solver = piqp.DenseSolver() if dense else piqp.SparseSolver()

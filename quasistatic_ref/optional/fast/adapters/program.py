@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.groups import labels
@@ -220,7 +221,7 @@ class Adapter(Protocol):
     WARM: bool = False
     NEAR: bool = True
 
-    def __init__(self, program: Any, options: dict[str, Any]) -> None:
+    def __init__(self, program: Any, options: Options) -> None:
         """Set up with the program as it stands, a SparseProgram only if the backend takes one."""
 
     def reply(self, same_H: bool, warm: bool) -> Reply:

@@ -1,11 +1,10 @@
 """quadprog, Goldfarb and Idnani's dual method: it keeps nothing between calls."""
 
-from typing import Any
-
 import numpy as np
 import quadprog
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
+from quasistatic_ref.solve.backends import Options
 from quasistatic_ref.solve.reply import Reply
 
 
@@ -14,7 +13,7 @@ class Quadprog(Adapter):
 
     NEAR = False  # in the default order of A, its transpose is in C order, as quadprog takes it
 
-    def __init__(self, program: Program, options: dict[str, Any]) -> None:
+    def __init__(self, program: Program, options: Options) -> None:
         del options  # the method has none
         self.program = program
 

@@ -1,7 +1,6 @@
 """The contacts of a simulator's steps as the structure of scene.h: J, A, b and the load."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,7 +117,7 @@ class Scene(Structure):
         return np.ndarray((), self.given, self._bytes.tobytes())
 
 
-def cone_terms(name: str) -> dict[str, Any]:
+def cone_terms(name: str) -> dict[str, Array | Indices]:
     """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which terms exist; (R, 3).
 
     A term with coefficient zero differs from no term: it can change the sign of a zero.

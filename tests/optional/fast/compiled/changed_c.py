@@ -1,11 +1,11 @@
 """The sources of the compiled library, copied with one text of one file replaced."""
 
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import library
 
 
 def changed_sources(folder, name, text, other):
     """Copy all C files to a folder; where `text` is not empty, `name` has `other` in its place."""
-    sources = compiled("library").SOURCE
+    sources = library.SOURCE
     for file in (*sources.glob("*.c"), *sources.glob("*.h")):
         code = file.read_text()
         if file.name == name and text:

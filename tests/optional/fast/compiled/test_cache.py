@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.cache import Cache, CompileError
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from validation.tools.scripts import ROOT
@@ -120,7 +120,9 @@ def test_a_load_that_does_not_end_is_known_to_the_next_process(cache):
     assert not cache.was_left()
 
 
-IN_A_PROCESS = "from quasistatic_ref.optional.fast.compiled import why_not; print(why_not())"
+IN_A_PROCESS = (
+    "from quasistatic_ref.optional.fast.compiled.library import why_not; print(why_not())"
+)
 
 
 def reason(folder, command):
@@ -137,7 +139,6 @@ def reason(folder, command):
 @needs_compiler
 def test_a_library_that_ends_the_process_is_tried_in_another_one_and_replaced(tmp_path):
     """Its bytes are those that were kept: another machine may have made them."""
-    library = compiled("library")
     script = tmp_path / "cc"
     script.write_text("#!/bin/sh\nexit 1\n")
     script.chmod(0o755)

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import forces
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.optional.fast.compiled.test_fast import needs_compiler
@@ -15,12 +15,12 @@ pytestmark = needs_compiler
 
 
 def in_c(step):
-    return compiled("forces").Forces(step).in_c(step)
+    return forces.Forces(step).in_c(step)
 
 
 def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
     """Cones of other corners than the pyramid's are left to the core."""
-    known = compiled("forces").knows
+    known = forces.knows
     steps = [make(seed) for seed in range(30) for make in (degenerate_step, mixed)]
     decided = 0
     for step in filter(lambda step: known(step.cone), steps):

@@ -12,7 +12,7 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import certificate, library
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
@@ -105,7 +105,6 @@ def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
 
 def made(folder, text, other):
     """The functions of contraction.c, which call no other file, with one text replaced."""
-    library = compiled("library")
     changed_sources(folder, "contraction.c", text, other)
     out = folder / "mutant.so"
     file = str(folder / "contraction.c")
@@ -129,7 +128,6 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
 
 
 def test_a_run_is_proved_by_compiled_code(monkeypatch):
-    certificate = compiled("certificate")
     proved = []
     plain = certificate.Prover.optimum
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import library as made
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -37,7 +37,6 @@ int added(const double *factors, int n, int64_t *digits, double *near)
 
 
 def library(folder):
-    made = compiled("library")
     changed_sources(folder, "fixed_point.h", "", "")
     (folder / "exposed.c").write_text(EXPOSED)
     out = folder / "exposed.so"

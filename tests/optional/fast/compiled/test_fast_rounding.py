@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import library as made
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -44,7 +44,6 @@ int shown_quotient(const double *factors, int n, double h, double *c)
 
 def library(folder, text="", other=""):
     """The function by itself, with one text of rounding.c replaced; it calls no other file."""
-    made = compiled("library")
     changed_sources(folder, "rounding.c", text, other)
     (folder / "exposed.c").write_text(EXPOSED)
     file = str(folder / "exposed.c")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.optional.fast.adapters.program import Program
-from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import natural
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.optional.fast.compiled.test_fast import needs_compiler
@@ -22,7 +22,7 @@ def units(H, g, A, b):
     hessian = hessian_in_both_units(H)
     solver = SimpleNamespace(written=None)
     program = Program(H, np.zeros(len(g)), np.zeros(A.shape), np.zeros(len(b)))
-    made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, hessian)
+    made = natural.NaturalProgram({"g": g, "A": A, "b": b}, solver, program, hessian)
     found = made.written()
     with np.errstate(all="ignore"):
         expected = units_of(StandardForm(H, g, A, b), hessian)
