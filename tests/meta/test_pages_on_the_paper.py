@@ -67,3 +67,9 @@ def test_every_claim_about_the_paper_is_on_its_page():
     about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
     assert about <= named
+
+
+def test_every_claim_is_in_the_committed_results_and_holds():
+    page = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
+    found = re.findall(r"^### (\w+): (.+)$", page, re.MULTILINE)
+    assert found == [(name, "holds") for name in BY_NAME]
