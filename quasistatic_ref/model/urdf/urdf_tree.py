@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.step.arrays import Array
 
 Pose = tuple[Array, Array]
@@ -196,7 +197,7 @@ def link_poses(
         if joint.kind != "fixed":
             mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
             position = mimic.multiplier * positions[mimic.of] + mimic.offset
-            if joint.kind == "prismatic":
+            if JOINTS[joint.kind].lengths:  # its first coordinate is one
                 t = t + R @ joint.axis * position
             else:
                 R = R @ turn(joint.axis, position)
