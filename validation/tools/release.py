@@ -155,7 +155,6 @@ RESULTS = (
         ("validation/results/benchmarks",),
     ),
     to_file("installs", command="validation.tools.check_installs"),
-    to_file("exit_codes"),
     *(
         Result(
             f"study_{name}",

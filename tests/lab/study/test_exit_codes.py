@@ -3,18 +3,33 @@
 import importlib
 from operator import attrgetter
 
+import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, claim, hides
+from quasistatic_ref.lab.study.calling.calls import call_of, reply_or_failure
+from quasistatic_ref.lab.study.calling.claims import (
+    HIDDEN,
+    INFEASIBLE,
+    NEITHER,
+    OPTIMAL,
+    claim,
+    hides,
+)
 from quasistatic_ref.lab.study.calling.guests import installed_here
 from quasistatic_ref.lab.study.calling.options import option_file, options_at
 from quasistatic_ref.lab.study.calling.promises import RESIDUALS, UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from validation.make import exit_codes
+from quasistatic_ref.step.standard_form import StandardForm
 
 HIGH = next(one for one in SETTINGS if one.name == "high")
+SAY_BOTH = (
+    "clarabel", "osqp", "piqp", "daqp", "quadprog", "highs", "proxqp", "exact", "scs", "qpalm",
+)  # fmt: skip
+"""Solvers that tell problems with a solution from those without."""
+WAYS = [(interface, solver) for interface in ("native", "qpsolvers", "cvxpy")
+        for solver in installed_here(interface) if solver in SAY_BOTH]  # fmt: skip
 ENUMERATIONS = {
     ("native", "clarabel"): ("clarabel", "SolverStatus"),
     ("native", "piqp"): ("piqp", "Status"),
@@ -36,11 +51,19 @@ def test_every_code_that_says_infeasible_without_reserve_is_in_the_table(way):
         assert (claim(*way, code) == INFEASIBLE) == says, code
 
 
-def test_the_raw_codes_of_solvers_are_what_the_study_reads():
-    text, differ = exit_codes.written(1)
-    assert differ == 0
-    assert "| quadprog | constraints are inconsistent, no solution | infeasible |" in text
-    assert "1 not said" in text
+@pytest.mark.parametrize("way", WAYS, ids=":".join)
+def test_each_solver_says_of_a_program_whether_it_has_a_solution(way):
+    """Of x >= 1 alone, and of x >= 1 with x <= 0."""
+    one = Solver(way[1], *way)
+    call = call_of(one)
+    options = one.settings_of(HIGH, 5.0) if one.takes(HIGH) else {}
+
+    def said(A, b):
+        form = StandardForm(np.eye(1), np.zeros(1), np.array(A), np.array(b))
+        return one.claim(reply_or_failure(call, form, options, None).status)
+
+    assert said([[1.0]], [1.0]) == OPTIMAL
+    assert said([[1.0], [-1.0]], [1.0, 0.0]) == (HIDDEN if hides(*way) else INFEASIBLE)
 
 
 def test_what_an_interface_hides_is_not_said():
