@@ -36,9 +36,44 @@ def box(size=(0.1, 0.1, 0.1), mass=1.0, name="box", **where):
     return Body.of_shape(name, Box(size=size), mass, **({"xyz": (0, 0, size[2] / 2)} | where))
 
 
+def ball(radius=0.05, mass=0.3, xyz=(0, 0, 0.05)):
+    """A free ball; it stands on the floor unless `radius` or `xyz` says otherwise."""
+    return Body.of_shape("ball", Sphere(radius), mass, xyz=xyz)
+
+
+def motor(name, axis="1 0 0", size=(0.1, 0.1, 0.1), **where):
+    """A box on a slide with a motor."""
+    return Body(name, joint("prismatic", axis, size), actuated="all", **where)
+
+
+def fingers(x, z, size=(0.1, 0.1, 0.1)):
+    """Two motors that close along x on what is between them."""
+    return [
+        motor("left", "1 0 0", size, xyz=(-x, 0, z)),
+        motor("right", "-1 0 0", size, xyz=(x, 0, z)),
+    ]
+
+
+def walls(y):
+    """Two walls, 0.1 m thick, whose middles are so far from y = 0."""
+    return [(f"wall{side:+}", Box(size=(2, 0.1, 2)), (0, side * y, 0)) for side in (-1, 1)]
+
+
+STANDS = [("floor", "box", 0.5, 4)]
+BALL_STANDS = [("floor", "ball", 0.5, 1)]
+IN_SLOT = [*STANDS, ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
+TIP = (0.02, 0.02, 0.02)
+"""Of a finger [m]."""
+FACE = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
+"""A hundred points on the lower face of a box."""
+TIN = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
+DRAWER = Body("drawer", joint("prismatic", "1 0 0"))
+RAIL = ("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))
+
+
 def findings(
     bodies,
-    contacts,
+    contacts=STANDS,
     stands=(),
     cloud=None,
     push=None,
@@ -95,62 +130,50 @@ def findings(
 found = findings([box()], [])
 
 # %% unsupported body: a floor that only one of two boxes knows
-found = findings([box(), box(name="other", xyz=(0.3, 0, 0.05))], [("floor", "box", 0.5, 4)])
+found = findings([box(), box(name="other", xyz=(0.3, 0, 0.05))])
 
 # %% unsupported body: two boxes touch each other and nothing else
 found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [("box", "top", 0.5, 4)])
 
 # %% starts in the air: 50 mm above its floor
-found = findings([box(xyz=(0, 0, 0.1))], [("floor", "box", 0.5, 4)])
+found = findings([box(xyz=(0, 0, 0.1))])
 
 # %% gravity: along y
-found = findings([box()], [("floor", "box", 0.5, 4)], gravity=(0, -9.81, 0))
+found = findings([box()], gravity=(0, -9.81, 0))
 
 # %% gravity: upwards
-found = findings([box()], [("floor", "box", 0.5, 4)], gravity=(0, 0, 9.81))
+found = findings([box()], gravity=(0, 0, 9.81))
 
 # %% no friction coefficient: 50 per cent
 found = findings([box()], [("floor", "box", 50.0, 4)])
 
 # %% no angle: 90 degrees
-found = findings([box(rpy=(0, 0, 90))], [("floor", "box", 0.5, 4)])
+found = findings([box(rpy=(0, 0, 90))])
 
 # %% no count: 5000 of the corners of a box
 found = findings([box()], [("floor", "box", 0.5, 5000)])
 
 # %% initial penetration: the origin of a box is its middle, and it was set on the floor
-found = findings([box(xyz=(0, 0, 0.04))], [("floor", "box", 0.5, 4)])
+found = findings([box(xyz=(0, 0, 0.04))])
 
 # %% initial penetration: a stack whose upper box is 5 mm too low
-found = findings(
-    [box(), box(name="top", xyz=(0, 0, 0.145))], [("floor", "box", 0.5, 4), ("box", "top", 0.5, 4)]
-)
+found = findings([box(), box(name="top", xyz=(0, 0, 0.145))], [*STANDS, ("box", "top", 0.5, 4)])
 
 # %% initial penetration: a ball in a wall
-ball = Body.of_shape("ball", Sphere(0.05), 0.3, xyz=(0.45, 0, 0.05))
 found = findings(
-    [ball],
+    [ball(xyz=(0.45, 0, 0.05))],
     [("floor", "ball", 0.5, 1), ("wall", "ball", 0.5, 1)],
     [("wall", Box(size=(0.1, 2, 2)), (0.54, 0, 0))],
 )
 
 # %% initial penetration: a box in a gap narrower than itself, where no step has a solution
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.09, 0)) for y in (-1, 1)]
-found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls)
+found = findings([box()], [("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls(0.09))
 
 # %% guided friction: a planar base cannot rise from the floor, which holds it against any force
-found = findings(
-    [box(base="planar", xyz=(0, 0, 0.05))], [("floor", "box", 0.5, 4)], push={"box": (165, 0, 0)}
-)
+found = findings([box(base="planar")], push={"box": (165, 0, 0)})
 
 # %% guided friction: a drawer on its joint that also touches a rail
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
-found = findings(
-    [drawer],
-    [("rail", "drawer", 0.2, 4)],
-    [("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))],
-    gravity=(50, 0, -9.81),
-)
+found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(50, 0, -9.81))
 
 # %% guided friction: a door on its hinge that grazes the floor
 door = Body("door", joint("revolute", "0 0 1"), xyz=(0, 0, 0.05))
@@ -161,27 +184,15 @@ table = Body("table", joint("continuous", "0 0 1"), xyz=(0, 0, 0.05))
 found = findings([table], [("floor", "table", 0.3, 1)], mu_omega=0.02)
 
 # %% guided friction: a slot as wide as its block
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.1, 0)) for y in (-1, 1)]
-found = findings(
-    [box()],
-    [("floor", "box", 0.5, 4), ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)],
-    walls,
-    push={"box": (50, 0, 0)},
-)
+found = findings([box()], IN_SLOT, walls(0.1), push={"box": (50, 0, 0)})
 
 # %% guided friction: a slot with a clearance of 0.1 mm
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.1001, 0)) for y in (-1, 1)]
-found = findings(
-    [box()],
-    [("floor", "box", 0.5, 4), ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)],
-    walls,
-    push={"box": (100, 0, 0)},
-)
+found = findings([box()], IN_SLOT, walls(0.1001), push={"box": (100, 0, 0)})
 
 # %% guided friction: a box between floor and ceiling
 found = findings(
     [box()],
-    [("floor", "box", 0.5, 4), ("ceiling", "box", 0.5, 4)],
+    [*STANDS, ("ceiling", "box", 0.5, 4)],
     [("ceiling", Box(size=(2, 2, 0.1)), (0, 0, 0.1501))],
 )
 
@@ -194,50 +205,26 @@ walls = [
 found = findings([rod], [(f"wall{i}", "rod", 0.5, 1) for i in range(3)], walls)
 
 # %% locked guide: the planar base again, under 165 N
-found = findings(
-    [box(base="planar", xyz=(0, 0, 0.05))], [("floor", "box", 0.5, 4)], push={"box": (165, 0, 0)}
-)
+found = findings([box(base="planar")], push={"box": (165, 0, 0)})
 
 # %% locked guide: the drawer under 87 N
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
-found = findings(
-    [drawer],
-    [("rail", "drawer", 0.2, 4)],
-    [("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))],
-    gravity=(43.5, 0, -9.81),
-)
+found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(43.5, 0, -9.81))
 
 # %% locked guide: a slot with clearance under 100 N
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.1001, 0)) for y in (-1, 1)]
-found = findings(
-    [box()],
-    [("floor", "box", 0.5, 4), ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)],
-    walls,
-    push={"box": (100, 0, 0)},
-    steps=5,
-)
+found = findings([box()], IN_SLOT, walls(0.1001), push={"box": (100, 0, 0)}, steps=5)
 
 # %% locked guide: a finger that pushes a drawer which touches its rail
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
-finger = Body(
-    "finger",
-    joint("prismatic", "1 0 0", size=(0.02, 0.02, 0.02)),
-    actuated="all",
-    xyz=(-0.06, 0, 0),
-)
-rail = ("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))
+finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
 found = findings(
-    [drawer, finger],
+    [DRAWER, finger],
     [("rail", "drawer", 0.2, 4), ("finger", "drawer", 0.0, 1)],
-    [rail],
+    [RAIL],
     target=[0.05],
 )
 
 # %% several solutions: a drawer in its rail, whose pressure Coulomb's law does not determine
-rail = ("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
 found = findings(
-    [drawer], [("rail", "drawer", 0.2, 2)], [rail], gravity=(43.5, 0, -9.81), law="coulomb"
+    [DRAWER], [("rail", "drawer", 0.2, 2)], [RAIL], gravity=(43.5, 0, -9.81), law="coulomb"
 )
 
 # %% too few points: one contact under a box
@@ -247,36 +234,32 @@ found = findings([box()], [("floor", "box", 0.5, 1)])
 found = findings([box()], [("floor", "box", 0.5, 3)])
 
 # %% too few points: five of the hundred points below a cloud
-grid = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
-found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": grid})
+found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": FACE})
 
 # %% too few points: a cylinder on its end
-tin = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
-found = findings([tin], [("floor", "tin", 0.5, 2)])
+found = findings([TIN], [("floor", "tin", 0.5, 2)])
 
 # %% density: a box of 10 cm with a mass in grams
-found = findings([box(mass=1000.0)], [("floor", "box", 0.5, 4)])
+found = findings([box(mass=1000.0)])
 
 # %% density: half a gram in a litre
-found = findings([box(mass=5e-4)], [("floor", "box", 0.5, 4)])
+found = findings([box(mass=5e-4)])
 
 # %% density: half extents of 100 where 0.1 was meant
-found = findings([box(size=(20.0, 20.0, 20.0))], [("floor", "box", 0.5, 4)])
+found = findings([box(size=(20.0, 20.0, 20.0))])
 
 # %% centre of mass: points as the scanner gave them, 0.4 m away from the body's origin
 grid = [(0.4 + x, y, z) for x in (-0.05, 0.05) for y in (-0.05, 0.05) for z in (-0.05, 0.05)]
 can = Body(
     "can",
-    '<robot name="can"><link name="can"><inertial><mass value="1"/>'
-    '<inertia ixx="0.002" iyy="0.002" izz="0.002" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>',
+    '<robot name="can"><link name="can"><inertial><mass value="1"/><inertia ixx="0.002" iyy="0.002" izz="0.002" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>',
     base="floating",
     xyz=(0, 0, 0.05),
 )
 found = findings([can], [("floor", "can", 0.5, 4)], cloud={"can": grid})
 
 # %% stray points: one of a hundred is 0.3 m off
-grid = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
-found = findings([box()], [("floor", "box", 0.5, 4)], cloud={"box": [*grid, (0.3, 0, 0.1)]})
+found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1)]})
 
 # %% inertia: 1 kg m^2 copied from a template
 crate = Body("crate", joint("prismatic", "1 0 0", inertia=1.0))
@@ -292,14 +275,13 @@ found = findings([crate], [])
 
 # %% sizes apart: a table in millimetres under a box in metres
 found = findings(
-    [box(xyz=(0, 0, 0.05))],
-    [("table", "box", 0.5, 4)],
-    [("table", Box(size=(1600, 1200, 40)), (0, 0, -20))],
+    [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(1600, 1200, 40)), (0, 0, -20))]
 )
 
 # %% sizes apart: a ball in micrometres
-ball = Body.of_shape("ball", Sphere(2e-5), 1e-10, xyz=(0, 0, 0.10002))
-found = findings([box(), ball], [("floor", "box", 0.5, 4), ("box", "ball", 0.5, 1)])
+found = findings(
+    [box(), ball(2e-5, 1e-10, xyz=(0, 0, 0.10002))], [*STANDS, ("box", "ball", 0.5, 1)]
+)
 
 # %% unit of a shape: a cloud in millimetres
 found = findings(
@@ -309,24 +291,21 @@ found = findings(
 )
 
 # %% unit of mu_omega: 3 was meant as 3 mm
-found = findings([box()], [("floor", "box", 0.5, 4)], mu_omega=3.0)
+found = findings([box()], mu_omega=3.0)
 
 # %% unit of a target: 50 was meant as 50 mm
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all")
-found = findings([finger], [], target=[50.0])
+found = findings([motor("finger")], [], target=[50.0])
 
 # %% target beyond a limit: the URDF ends at 1 m
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all")
-found = findings([finger], [], target=[1.5])
+found = findings([motor("finger")], [], target=[1.5])
 
 # %% joint beyond a limit: a drawer at 0.98 m, whose URDF ends at 1 m, is pushed on by 60 mm
 drawer = Body("drawer", joint("prismatic", "1 0 0"), positions={"joint": 0.98})
 found = findings([drawer], [], push={"drawer/part": (400, 0, 0)}, steps=3)
 
 # %% sunk contact: a box of a hundred points, of which one is kept, tips farther than a step foresees
-grid = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
 found = findings(
-    [box()], [("floor", "box", 0.5, 1)], cloud={"box": grid}, push={"box": (0, 0, -20)}, steps=3
+    [box()], [("floor", "box", 0.5, 1)], cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3
 )
 
 # %% sunk contact: a rod on one point of its side
@@ -334,10 +313,10 @@ rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, n
 found = findings([rod], [("floor", "rod", 0.5, 1)], push={"rod": (0, 0.05, 0)}, steps=20)
 
 # %% leap: a push of 500 N on 0.1 kg
-found = findings([box(mass=0.1)], [("floor", "box", 0.5, 4)], push={"box": (500, 0, 0)}, steps=2)
+found = findings([box(mass=0.1)], push={"box": (500, 0, 0)}, steps=2)
 
 # %% leap: the first target is half a metre away
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all", xyz=(0, 0, 0.05))
+finger = motor("finger", xyz=(0, 0, 0.05))
 found = findings([finger], [("floor", "finger", 0.0, 4)], target=[0.5])
 
 # %% half a turn behind: a weak spring and a fast target
@@ -345,23 +324,18 @@ wheel = Body("wheel", joint("continuous", "0 0 1"), actuated="all")
 brake = box(mass=50.0, xyz=(0, 0.1, 0.05))
 found = findings(
     [wheel, brake],
-    [("floor", "box", 0.5, 4), ("wheel", "box", 0.5, 4)],
+    [*STANDS, ("wheel", "box", 0.5, 4)],
     K_q=0.1,
     steps=8,
     target=[[np.cos(a), np.sin(a)] for a in np.linspace(0, 5, 8)],
 )
 
 # %% free fall: a box dropped from 1 m falls by h^2 g a step, for ever as slowly
-found = findings([box(xyz=(0, 0, 1.05))], [("floor", "box", 0.5, 4)])
+found = findings([box(xyz=(0, 0, 1.05))])
 
 # %% free fall: a disk between fingers that do not hold it
 disk = Body.of_shape("disk", Cylinder(0.05, 0.01), 0.2, xyz=(0, 0, 0.3))
-finger = Body(
-    "finger",
-    joint("prismatic", "1 0 0", size=(0.02, 0.02, 0.02)),
-    actuated="all",
-    xyz=(-0.1, 0, 0.3),
-)
+finger = motor("finger", size=TIP, xyz=(-0.1, 0, 0.3))
 found = findings([disk, finger], [("finger", "disk", 0.5, 1)])
 
 # %% free fall: a floor whose normal points down
@@ -372,30 +346,25 @@ found = findings(
 )
 
 # %% free fall: a smooth box slips from between two fingers, of which 2 mm are left
-fingers = [
-    Body(name, joint("prismatic", axis), actuated="all", xyz=(x, 0, 1.098))
-    for name, axis, x in (("left", "1 0 0", -0.1), ("right", "-1 0 0", 0.1))
-]
 found = findings(
-    [box(xyz=(0, 0, 1)), *fingers],
+    [box(xyz=(0, 0, 1)), *fingers(0.1, 1.098)],
     [("left", "box", 0.0, 4), ("right", "box", 0.0, 4)],
     target=[0.01, 0.01],
     steps=8,
 )
 
 # %% free fall: a ball past the end of its table
-ball = Body.of_shape("ball", Sphere(0.02), 0.3, xyz=(0.23, 0, 0.02))
 table = ("table", Box(size=(0.4, 0.4, 0.04)), (0, 0, -0.02))
-found = findings([ball], [("table", "ball", 0.5, 1)], [table])
+found = findings([ball(0.02, xyz=(0.23, 0, 0.02))], [("table", "ball", 0.5, 1)], [table])
 
 # %% drag: a box pulled by twice its friction
-found = findings([box()], [("floor", "box", 0.5, 4)], push={"box": (10, 0, 0)}, steps=20)
+found = findings([box()], push={"box": (10, 0, 0)}, steps=20)
 
 # %% drag: a pusher that moves at 0.1 m/s
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all", xyz=(-0.1, 0, 0.06))
+finger = motor("finger", xyz=(-0.1, 0, 0.06))
 found = findings(
     [box(), finger],
-    [("floor", "box", 0.5, 4), ("finger", "box", 0.0, 4)],
+    [*STANDS, ("finger", "box", 0.0, 4)],
     target=[[1e-3 * k] for k in range(1, 11)],
     steps=10,
     K_q=1e5,
@@ -405,74 +374,61 @@ found = findings(
 found = findings([box()], [("floor", "box", 0.0, 4)], push={"box": (3, 0, 0)}, steps=10)
 
 # %% border of k: a cylinder on two points of its rim
-tin = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
-found = findings([tin], [("floor", "tin", 0.5, 2)], steps=1)
+found = findings([TIN], [("floor", "tin", 0.5, 2)], steps=1)
 
 # %% exchanged points: a box of a hundred points that rocks on five
-grid = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
-found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": grid}, steps=40)
+found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": FACE}, steps=40)
 
 # %% failing backend: twelve digits of OSQP, which gives nine
-found = findings(
-    [box()], [("floor", "box", 0.5, 4)], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24
-)
+found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)
 
 # %% uncertain forces: a box under a press of 1e9 N/m, which bears 1 N
-press = Body("press", joint("prismatic", "0 0 1"), actuated="all", xyz=(0, 0, 0.15))
+press = motor("press", "0 0 1", xyz=(0, 0, 0.15))
 found = findings(
-    [box(), press],
-    [("floor", "box", 0.5, 4), ("box", "press", 0.5, 4)],
-    steps=1,
-    K_q=1e9,
-    target=[[-1e-9]],
+    [box(), press], [*STANDS, ("box", "press", 0.5, 4)], steps=1, K_q=1e9, target=[[-1e-9]]
 )
 
 # %% time of proof: 11 of 12 s (those of a long run, written here)
-found = findings([box()], [("floor", "box", 0.5, 4)], seconds={"solve": 1.0, "proof": 11.0})
+found = findings([box()], seconds={"solve": 1.0, "proof": 11.0})
 
 # %% nothing: a box on a floor
-found = findings([box()], [("floor", "box", 0.5, 4)])
+found = findings([box()])
 
 # %% nothing: a flat box
-found = findings([box(size=(0.2, 0.1, 0.01))], [("floor", "box", 0.5, 4)])
+found = findings([box(size=(0.2, 0.1, 0.01))])
 
 # %% nothing: a tall box
-found = findings([box(size=(0.05, 0.05, 0.3))], [("floor", "box", 0.5, 4)])
+found = findings([box(size=(0.05, 0.05, 0.3))])
 
 # %% nothing: a box turned about the vertical
-found = findings([box(rpy=(0, 0, 0.3))], [("floor", "box", 0.5, 4)])
+found = findings([box(rpy=(0, 0, 0.3))])
 
 # %% nothing: a box that starts 0.2 mm above the floor
-found = findings([box(xyz=(0, 0, 0.0502))], [("floor", "box", 0.5, 4)])
+found = findings([box(xyz=(0, 0, 0.0502))])
 
 # %% nothing: a box that is pushed by less than its friction
-found = findings([box()], [("floor", "box", 0.5, 4)], push={"box": (4, 0, 0)})
+found = findings([box()], push={"box": (4, 0, 0)})
 
 # %% nothing: a box that slides slowly
-found = findings([box()], [("floor", "box", 0.5, 4)], push={"box": (5.1, 0, 0)}, steps=10)
+found = findings([box()], push={"box": (5.1, 0, 0)}, steps=10)
 
 # %% nothing: two boxes on each other
-found = findings(
-    [box(), box(name="top", xyz=(0, 0, 0.15))], [("floor", "box", 0.5, 4), ("box", "top", 0.5, 4)]
-)
+found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [*STANDS, ("box", "top", 0.5, 4)])
 
 # %% nothing: two boxes side by side
 found = findings(
     [box(), box(name="other", xyz=(0.1, 0, 0.05))],
-    [("floor", "box", 0.5, 4), ("floor", "other", 0.5, 4), ("box", "other", 0.5, 4)],
+    [*STANDS, ("floor", "other", 0.5, 4), ("box", "other", 0.5, 4)],
 )
 
 # %% nothing: a ball on a floor
-ball = Body.of_shape("ball", Sphere(0.05), 0.3, xyz=(0, 0, 0.05))
-found = findings([ball], [("floor", "ball", 0.5, 1)])
+found = findings([ball()], BALL_STANDS)
 
 # %% nothing: a ball that rolls
-ball = Body.of_shape("ball", Sphere(0.05), 0.3, xyz=(0, 0, 0.05))
-found = findings([ball], [("floor", "ball", 0.5, 1)], push={"ball": (0.02, 0, 0)}, steps=20)
+found = findings([ball()], BALL_STANDS, push={"ball": (0.02, 0, 0)}, steps=20)
 
 # %% nothing: a ball with torsional friction
-ball = Body.of_shape("ball", Sphere(0.05), 0.3, xyz=(0, 0, 0.05))
-found = findings([ball], [("floor", "ball", 0.5, 1)], mu_omega=0.005)
+found = findings([ball()], BALL_STANDS, mu_omega=0.005)
 
 # %% nothing: a log
 rod = Body.of_shape("rod", Cylinder(0.02, 0.1), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
@@ -483,27 +439,22 @@ pill = Body.of_shape("pill", Capsule(0.02, 0.05), 0.2, xyz=(0, 0, 0.02), rpy=(0,
 found = findings([pill], [("floor", "pill", 0.5, 2)])
 
 # %% nothing: a tin on its end
-tin = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
-found = findings([tin], [("floor", "tin", 0.5, 4)])
+found = findings([TIN], [("floor", "tin", 0.5, 4)])
 
 # %% nothing: a box of foam and one of lead
 found = findings(
     [box(mass=0.03), box(mass=11.3, name="lead", xyz=(0.5, 0, 0.05))],
-    [("floor", "box", 0.5, 4), ("floor", "lead", 0.5, 4)],
+    [*STANDS, ("floor", "lead", 0.5, 4)],
 )
 
 # %% nothing: a box on a table of its own size
 found = findings(
-    [box(xyz=(0, 0, 0.05))],
-    [("table", "box", 0.5, 4)],
-    [("table", Box(size=(0.1, 0.1, 0.4)), (0, 0, -0.2))],
+    [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(0.1, 0.1, 0.4)), (0, 0, -0.2))]
 )
 
 # %% nothing: a box on a wide table
 found = findings(
-    [box(xyz=(0, 0, 0.05))],
-    [("table", "box", 0.5, 4)],
-    [("table", Box(size=(2, 2, 0.04)), (0, 0, -0.02))],
+    [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(2, 2, 0.04)), (0, 0, -0.02))]
 )
 
 # %% nothing: a box on a slope within its friction
@@ -517,7 +468,7 @@ found = findings(
 # %% nothing: a box against a wall
 found = findings(
     [box()],
-    [("floor", "box", 0.5, 4), ("wall", "box", 0.5, 4)],
+    [*STANDS, ("wall", "box", 0.5, 4)],
     [("wall", Box(size=(0.1, 2, 2)), (0.1, 0, 0))],
     push={"box": (3, 0, 0)},
 )
@@ -525,88 +476,57 @@ found = findings(
 # %% nothing: a box in a corner
 found = findings(
     [box()],
-    [("floor", "box", 0.5, 4), ("east", "box", 0.5, 4), ("north", "box", 0.5, 4)],
-    [
-        ("east", Box(size=(0.1, 2, 2)), (0.1, 0, 0)),
-        ("north", Box(size=(2, 0.1, 2)), (0, 0.1, 0)),
-    ],
+    [*STANDS, ("east", "box", 0.5, 4), ("north", "box", 0.5, 4)],
+    [("east", Box(size=(0.1, 2, 2)), (0.1, 0, 0)), ("north", Box(size=(2, 0.1, 2)), (0, 0.1, 0))],
     push={"box": (3, 3, 0)},
 )
 
 # %% nothing: a block in a slot without friction on its walls
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.1, 0)) for y in (-1, 1)]
 found = findings(
-    [box()], [("floor", "box", 0.5, 4), ("wall-1", "box", 0.0, 4), ("wall+1", "box", 0.0, 4)], walls
+    [box()], [*STANDS, ("wall-1", "box", 0.0, 4), ("wall+1", "box", 0.0, 4)], walls(0.1)
 )
 
 # %% nothing: a block in a slot with 5 mm of clearance
-walls = [(f"wall{y:+}", Box(size=(2, 0.1, 2)), (0, y * 0.105, 0)) for y in (-1, 1)]
-found = findings(
-    [box()], [("floor", "box", 0.5, 4), ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)], walls
-)
+found = findings([box()], IN_SLOT, walls(0.105))
 
 # %% nothing: a planar base without a floor
-found = findings([box(base="planar", xyz=(0, 0, 0.05))], [], push={"box": (1, 0, 0)})
+found = findings([box(base="planar")], [], push={"box": (1, 0, 0)})
 
 # %% nothing: a planar base on a smooth floor
-found = findings(
-    [box(base="planar", xyz=(0, 0, 0.05))], [("floor", "box", 0.0, 4)], push={"box": (1, 0, 0)}
-)
+found = findings([box(base="planar")], [("floor", "box", 0.0, 4)], push={"box": (1, 0, 0)})
 
 # %% nothing: a drawer on its joint alone
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
-found = findings([drawer], [])
+found = findings([DRAWER], [])
 
 # %% nothing: a drawer that a finger pushes
-drawer = Body("drawer", joint("prismatic", "1 0 0"))
-finger = Body(
-    "finger",
-    joint("prismatic", "1 0 0", size=(0.02, 0.02, 0.02)),
-    actuated="all",
-    xyz=(-0.06, 0, 0),
-)
-found = findings([drawer, finger], [("finger", "drawer", 0.3, 1)], target=[0.001])
+finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
+found = findings([DRAWER, finger], [("finger", "drawer", 0.3, 1)], target=[0.001])
 
 # %% nothing: a door that a finger pushes
 door = Body("door", joint("revolute", "0 0 1", size=(0.4, 0.04, 0.4)))
-finger = Body(
-    "finger",
-    joint("prismatic", "0 1 0", size=(0.02, 0.02, 0.02)),
-    actuated="all",
-    xyz=(0.15, -0.03, 0),
-)
+finger = motor("finger", "0 1 0", TIP, xyz=(0.15, -0.03, 0))
 found = findings([door, finger], [("finger", "door", 0.3, 1)], target=[0.001])
 
 # %% nothing: a box held by two fingers
-fingers = [
-    Body(name, joint("prismatic", axis), actuated="all", xyz=(x, 0, 1))
-    for name, axis, x in (("left", "1 0 0", -0.1), ("right", "-1 0 0", 0.1))
-]
 found = findings(
-    [box(xyz=(0, 0, 1)), *fingers],
+    [box(xyz=(0, 0, 1)), *fingers(0.1, 1)],
     [("left", "box", 0.5, 4), ("right", "box", 0.5, 4)],
     target=[0.05, 0.05],
 )
 
 # %% nothing: a box held by two soft fingertips
-fingers = [
-    Body(name, joint("prismatic", axis, size=(0.02, 0.02, 0.02)), actuated="all", xyz=(x, 0, 1))
-    for name, axis, x in (("left", "1 0 0", -0.06), ("right", "-1 0 0", 0.06))
-]
 found = findings(
-    [box(xyz=(0, 0, 1)), *fingers],
+    [box(xyz=(0, 0, 1)), *fingers(0.06, 1, TIP)],
     [("left", "box", 0.5, 1), ("right", "box", 0.5, 1)],
     target=[0.05, 0.05],
     mu_omega=0.01,
 )
 
 # %% nothing: a box of a hundred points, all of which are kept
-grid = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
-found = findings([box()], [("floor", "box", 0.5, 100)], cloud={"box": grid})
+found = findings([box()], [("floor", "box", 0.5, 100)], cloud={"box": FACE})
 
 # %% nothing: a robot's finger in the air
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all")
-found = findings([finger], [], target=[0.01])
+found = findings([motor("finger")], [], target=[0.01])
 
 # %% nothing: a box without weight
 found = findings([box(xyz=(0, 0, 1))], [], gravity=(0, 0, 0))
@@ -619,15 +539,14 @@ wheel = Body("wheel", joint("revolute", "0 0 1"), actuated="all", xyz=(0, 0, 0.2
 found = findings([wheel], [("floor", "wheel", 0.5, 4)], target=[0.24], K_q=1e6, steps=1)
 
 # %% nothing: a target at the limit of its URDF
-finger = Body("finger", joint("prismatic", "1 0 0"), actuated="all")
-found = findings([finger], [], target=[1.0])
+found = findings([motor("finger")], [], target=[1.0])
 
 # %% nothing: a mu_omega as long as its box
-found = findings([box()], [("floor", "box", 0.5, 4)], mu_omega=0.1)
+found = findings([box()], mu_omega=0.1)
 
 # %% nothing: a cloud of 19.9 m
 raft = [(x, y, -0.05) for x in (-9.95, 9.95) for y in (-9.95, 9.95)]
-found = findings([box()], [("floor", "box", 0.5, 4)], cloud={"box": raft})
+found = findings([box()], cloud={"box": raft})
 
 # %% nothing: a passive wheel that turns about itself, and touches nothing
 found = findings([Body("wheel", joint("continuous", "0 0 1"), positions={"joint": 1.0})], [])
