@@ -1,4 +1,4 @@
-"""A mug that hangs on a hook by its handle: a concave body as a cloud, in parts, and as a hull.
+"""A mug that hangs on a hook by its handle: a concave body as a cloud, and as a hull.
 
 The handle is half of a torus in the plane of x and z, and the hook a capsule along y. The mug hangs
 where the hook's axis, the middle of the torus and the centre of mass are on one vertical line: the
@@ -11,7 +11,6 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
-from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, PointCloud, Shape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
@@ -67,29 +66,15 @@ def handle_cloud(spacing: float, rng: np.random.Generator) -> Array:
     return np.stack([OFF + x, TUBE * np.sin(about), z], axis=-1).reshape(-1, 3)
 
 
-def handle_parts(count: int) -> list[tuple[Array, Array, Shape]]:
-    """Capsules along the handle: rotation, place and shape of each, the mug's frame."""
-    half = np.pi / (2 * count)
-    parts: list[tuple[Array, Array, Shape]] = []
-    for i in range(count):
-        angle = (2 * i + 1) * half - np.pi / 2
-        c = np.cos(angle)
-        s = np.sin(angle)
-        R = np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])  # its z axis along the arc
-        middle = np.array([OFF + ARC * np.cos(half) * c, 0.0, ARC * np.cos(half) * s])
-        parts.append((R, middle, Capsule(TUBE, ARC * np.sin(half))))
-    return parts
-
-
-def hung(parts: list[tuple[Array, Array, Shape]]) -> Hung:
+def hung(handle: Shape) -> Hung:
     """Hang a mug with that handle on the hook.
 
     It starts where one with a smooth handle hangs, 1 micrometre higher.
 
     Parameters
     ----------
-    parts : list of (R, t, Shape)
-        What touches, in the mug's frame [-, m].
+    handle : Shape
+        What touches, in the mug's frame.
 
     Raises
     ------
@@ -102,32 +87,23 @@ def hung(parts: list[tuple[Array, Array, Shape]]) -> Hung:
         {"mug": body_text(MASS, INERTIA)},
         mug={"base": "floating", "xyz": (0.0, 0.0, height + 1e-6), "rpy": turned},
     )
-    simulator = Simulator(system, _pairs(system, parts), h=0.01, K_q=np.zeros((0, 0)), fast=True)
+    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # z along y
+    pair = ContactPair(
+        "hook",
+        PlacedShape("hook", 0, upright, np.zeros(3), Capsule(HOOK, 0.05)),
+        PlacedShape("handle", system.link("mug"), np.eye(3), np.zeros(3), handle),
+        mu_v=FRICTION,
+        mu_omega=0.0,
+        rows=4,
+        k=NEAREST if isinstance(handle, PointCloud) else 1,
+    )
+    simulator = Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)), fast=True)
     q = system.q_start
     before = 0.0
     for _ in range(STEPS):
         before = float(q[2])
         q = simulator.step(q, np.zeros(0)).q
     return Hung(sunk=height - float(q[2]), moved=abs(float(q[2]) - before))
-
-
-def _pairs(system: System, parts: list[tuple[Array, Array, Shape]]) -> list[ContactPair]:
-    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])  # z along y
-    hook = PlacedShape("hook", 0, upright, np.zeros(3), Capsule(HOOK, 0.05))
-    link = system.link("mug")
-    return [
-        ContactPair(
-            f"part{i}", hook, PlacedShape(f"mug#{i}", link, R, t, shape),
-            mu_v=FRICTION, mu_omega=0.0, rows=4,
-            k=NEAREST if isinstance(shape, PointCloud) else 1,
-        )
-        for i, (R, t, shape) in enumerate(parts)
-    ]  # fmt: skip
-
-
-def whole(shape: Shape) -> list[tuple[Array, Array, Shape]]:
-    """A handle of one shape in the mug's frame."""
-    return [(np.eye(3), np.zeros(3), shape)]
 
 
 def sink(spacing: float) -> float:
