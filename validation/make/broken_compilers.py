@@ -13,7 +13,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from quasistatic_ref.optional.fast.compiled import library, why_not
+from quasistatic_ref.optional.fast.compiled import library
+from quasistatic_ref.optional.fast.compiled.library import why_not
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.standard_form import standard_form
 from validation.tools.scripts import ROOT
