@@ -18,7 +18,6 @@ EXAMPLES = {
     "slip_margins": "one_step",
     "drag_against_h": "friction",
     "both_laws": "friction",
-    "planar_pushing": "friction",
     "flat_patch": "friction",
     "which_cone_is_real": "friction",
     "boundary_layer": "friction",

@@ -152,9 +152,9 @@ def pushed_block(picture: Picture) -> Figure:
     return figure
 
 
-def planar_push(picture: Picture, within: Any = None) -> Figure:
+def planar_push(picture: Picture) -> Figure:
     """Turn of a pushed slider over that of the quasi-static law, against its speed."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     rho = picture["rho"]
     line = np.geomspace(0.8 * picture["Pi"].min(), 1.2 * picture["Pi"].max(), 100)
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
