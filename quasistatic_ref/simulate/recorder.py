@@ -148,7 +148,7 @@ class Recorder(Shown):
         first: Any = self.parts or self._rows
         known = self.record == "forces"
         if self.record == "full":
-            known = "forces" in first[0] if first else self.simulator.records_forces(step)
+            known = "forces" in first[0] if first else self.simulator.records_forces(solution)
         if known:
             row["forces"] = solution.forces
         if self.record == "forces":

@@ -302,13 +302,13 @@ class Simulator(Settings, Shown):
         """
         return closest_points(self.pairs, kinematics)
 
-    def records_forces(self, step: StepData) -> bool:
+    def records_forces(self, solution: StepSolution) -> bool:
         """Whether forces of contacts cost so little that a full record holds them.
 
         Parameters
         ----------
-        step : StepData
-            The first of the run.
+        solution : StepSolution
+            Of the first step of the run.
         """
         return False
 

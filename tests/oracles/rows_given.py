@@ -30,6 +30,21 @@ def half_way(k, count=1):
     return step_of(A, [3.0, 3.0 * k * 2.0**-53, *[-1.0] * count], [0.0, -6.0], 0.5)
 
 
+SQUARES = (23167, 23161, 22669, 23674)
+"""Their squares sum to 2^31 - 1."""
+
+
+def half_way_forces(load, gap=0.0):
+    """Four contacts press one coordinate, with a compliance of 2^-30 and forces load SQUARES 2^-16.
+
+    With J = SQUARES 2^-15 they give way by x (1 + 2^30 sum J^2) = x 2^31 = -load, and a force is
+    -2^30 J x. From 2^39 on, three forces of an odd load are half-way between two float64 numbers. A
+    gap [m] of the first contact moves them away from there.
+    """
+    J = np.array(SQUARES)[:, None] * 2.0**-15
+    return step_of(J, [-gap, 0.0, 0.0, 0.0], [-load])
+
+
 def sevenths():
     """The optimum (5, 1/7, 1, 1, 6/7), pressed by 8/49 and 48/49, which cancel along x_1.
 

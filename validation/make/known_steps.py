@@ -27,14 +27,21 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
-from quasistatic_ref.optional.fast.compiled.forces import Forces
+from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step
-from tests.oracles.rows_given import DIGITS_MEET, divisible, half_way, sevenths, step_of
+from tests.oracles.rows_given import (
+    DIGITS_MEET,
+    divisible,
+    half_way,
+    half_way_forces,
+    sevenths,
+    step_of,
+)
 from validation.make.degenerate_bits import degenerate_step
 from validation.tools.scripts import asked
 
@@ -90,14 +97,8 @@ def chosen() -> Iterator[StepData]:
     yield from (half_way(1), half_way(3), half_way(1, 40), sevenths(), divisible())
     yield from map(degenerate_step, (6, 22, 36, 41, 65))
     yield from (step_of(A, b, [0.0] * len(A[0])) for A, b in DIGITS_MEET)
-
-
-def forces_of(step: StepData, optimum: dict[str, Any] | None) -> list[list[float]] | None:
-    """The forces as they are stored; None where the library leaves some open."""
-    if optimum is None or Forces(step).in_c(step)[1]:
-        return None
-    forces: list[list[float]] = contact_forces(step).wrench.tolist()
-    return forces
+    yield half_way_forces(2.0**39 + 1.0)
+    yield from (half_way_forces(2.0**39 + 5.0, gap) for gap in (2.0**-75, 2.0**-300))
 
 
 def main() -> int:
@@ -115,14 +116,18 @@ def main() -> int:
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
-        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "", None)))
+        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "", None, None)))
         kind = family, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         told = optimum is None or set("or") & set(outcomes)
         if family < 4 and (kinds[kind] == EACH or not told):
             continue
         kinds[kind] += 1
         record = {"step": step_record(step), "optimum": optimum, "outcomes": outcomes}
-        lines.append(json_text(record | {"forces": forces_of(step, optimum)}))
+        if optimum is not None and knows(step.cone):
+            record["left"] = Forces(step).in_c(step)[1]
+            if not record["left"]:
+                record["forces"] = contact_forces(step).wrench.tolist()
+        lines.append(json_text(record))
         if len(lines) == MOST:
             break
     made = io.BytesIO()

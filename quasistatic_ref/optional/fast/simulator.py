@@ -170,9 +170,9 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def records_forces(self, step: StepData) -> bool:
+    def records_forces(self, solution: StepSolution) -> bool:
         """As in the base: where C decides those of the first step."""
-        return self.by_c and self.forms_forces and knows(self.cone) and self.in_c.decided(step)
+        return self.by_c and self.forms_forces and knows(self.cone) and self.in_c.decided(solution)
 
     def posed_step(
         self, q: Array, q_bar_a: Array, force: Array | float

@@ -29,6 +29,7 @@ from quasistatic_ref.step.groups import Group, group_steps
 
 MOST_ROWS = 8
 """Of a contact: C looks a face up by the set of its rows."""
+WRENCHES = ("near", "wrench")
 LARGEST = 1 << 30
 """What the whole numbers of a face are below."""
 
@@ -45,6 +46,7 @@ class Forces:
     def __init__(self, step: StepData) -> None:
         divided = group_steps(step)
         self._form = library().groups_forces
+        self._none = np.zeros((step.contacts.n_c, 4))
         self._groups = [group for group, _ in divided]
         of_each = places(step, None, self._groups)
         self._parts = [
@@ -56,17 +58,24 @@ class Forces:
                 "groups": len(divided), "code": np.zeros(len(divided), np.int64),
                 "group": np.array([part.group for part in self._parts], np.int64),
                 "forces": np.array([part.s.address for part in self._parts], np.int64),
-                "J": kept_J(step), "wrench": np.zeros((step.contacts.n_c, 4)),
+                "J": kept_J(step), **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
             }
         )  # fmt: skip
         room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
 
-    def in_c(self, step: StepData) -> tuple[Array, list[int]]:
+    def in_c(self, step: StepData, near: Array | None = None) -> tuple[Array, list[int]]:
         """(f_d1, f_d2, f_n, tau_n) of each contact of a step, shape (n_c, 4) [N, N m].
 
         With the numbers of the groups that C leaves open, whose forces are none.
+
+        Parameters
+        ----------
+        step : StepData
+        near : ndarray, shape (n_c, 4), optional
+            The same without compliance: where to seek [N, N m].
         """
         lend_data(self.s, step)
+        self.s.lend("near", self._none if near is None else near)
         self._form(self.s.address)
         left = self.s["code"].nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
@@ -74,7 +83,7 @@ class Forces:
     def wrench(self, solution: StepSolution) -> Array:
         """The same of a solution's step, shape (n_c, 4); what C leaves open comes from the core."""
         step = solution.step
-        wrench, left = self.in_c(step)
+        wrench, left = self.in_c(step, solution.wrench)
         for group, own in [group_steps(step)[i] for i in left]:
             near = solution.delta_q[group.coordinates], solution.wrench[group.contacts]
             wrench[group.contacts] = forces_near(own, near).wrench
@@ -94,9 +103,10 @@ class ForcesOfSteps:
         """As of :meth:`Forces.wrench`, shape (n_c, 4) [N, N m]."""
         return self._of_steps_like(solution.step).wrench(solution)
 
-    def decided(self, step: StepData) -> bool:
-        """Whether C leaves no force of a step open."""
-        return not self._of_steps_like(step).in_c(step)[1]
+    def decided(self, solution: StepSolution) -> bool:
+        """Whether C leaves no force of a solution's step open."""
+        step = solution.step
+        return not self._of_steps_like(step).in_c(step, solution.wrench)[1]
 
     def _of_steps_like(self, step: StepData) -> Forces:
         of = coupled_by(step)
@@ -145,7 +155,7 @@ class _GroupForces:
     def __init__(self, group: Group, own: StepData, where: Places) -> None:
         n_c = own.contacts.n_c
         self.s = Structure("forces.h", "Forces")
-        self.s.put({"wrench": np.zeros((n_c, 4))})
+        self.s.put({name: np.zeros((n_c, 4)) for name in WRENCHES})
         counts, kind = np.unique(own.counts, return_inverse=True)
         known = [_faces(own.cone, count) for count in counts.tolist()]
         tables = [table for table in known if table is not None]

@@ -48,13 +48,16 @@ class Known(NamedTuple):
         What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
         that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
         for neither.
+    left : list of int or None
+        The groups whose forces that library left open; None of a cone that C does not know.
     forces : list of list of float, or None
-        (f_d1, f_d2, f_n, tau_n) of each contact [N, N m]; None where that library left some open.
+        (f_d1, f_d2, f_n, tau_n) of each contact [N, N m]; None where some were left open.
     """
 
     step: StepData
     optimum: dict[str, Any] | None
     outcomes: str
+    left: list[int] | None
     forces: list[list[float]] | None
 
 
@@ -64,7 +67,13 @@ def known_steps() -> list[Known]:
     with gzip.open(FILE, "rt", encoding="utf-8") as lines:
         records = [json.loads(line) for line in lines]
     return [
-        Known(step_from_record(one["step"]), one["optimum"], one["outcomes"], one["forces"])
+        Known(
+            step_from_record(one["step"]),
+            one["optimum"],
+            one["outcomes"],
+            one.get("left"),
+            one.get("forces"),
+        )
         for one in records
     ]
 
@@ -185,11 +194,12 @@ def wrong(known: Known) -> str | None:
         unlike = different(one, known.optimum or {})
         if unlike:
             return f"{unlike} of an optimum is wrong"
-    if known.forces is not None and knows(known.step.cone):
-        wrench, left = Forces(known.step).in_c(known.step)
-        if left or wrench.tolist() != known.forces:
-            return "a force is not decided" if left else "a force is wrong"
-    return None
+    if known.left is None or not knows(known.step.cone):  # without optional/forces C knows none
+        return None
+    wrench, left = Forces(known.step).in_c(known.step)
+    if left != known.left:
+        return "forces are decided otherwise"
+    return None if left or wrench.tolist() == known.forces else "a force is wrong"
 
 
 def different(one: Tried, optimum: dict[str, Any]) -> str | None:
@@ -265,6 +275,7 @@ def stale(known: Known) -> str | None:
     contacts = step.contacts
     if lam is None or Prover(both, divided).optimum(both, lam, np.zeros(step.m)) is None:
         return None
+    unique = all(each for each, _ in (known.optimum or {})["degeneracy"])
     prover = Prover(both, divided)
     pushed = np.linspace(1.0, 2.0, step.n_v)
     others = {
@@ -289,6 +300,6 @@ def stale(known: Known) -> str | None:
         one, two = (each.optimum(in_units, lam, np.zeros(step.m)) for each in provers)
         found = prover.optimum(both, lam, np.zeros(step.m))
         as_new = two is None or (one is not None and one.slack.tolist() == two.slack.tolist())
-        if not as_new or found is None or not same(found, known.optimum, True):
+        if not as_new or found is None or not same(found, known.optimum, unique):
             return f"{words} of another step is taken for its own"
     return None

@@ -1,6 +1,7 @@
 """Forces of single contacts from C against those of the core: equal bits."""
 
 import pickle
+from fractions import Fraction
 
 import numpy as np
 
@@ -8,6 +9,7 @@ from quasistatic_ref.optional.fast.compiled import forces
 from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from tests.oracles.rows_given import SQUARES, half_way_forces
 from validation.make.confirmed_bits import random_case
 from validation.make.degenerate_bits import degenerate_step
 
@@ -34,6 +36,20 @@ def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
 
 def mixed(seed):
     return random_case(seed)[1]
+
+
+def test_a_force_half_way_between_two_float64_is_rounded_to_even():
+    """The force of a contact is load SQUARES 2^-16: of 54 bits, the last of which is one."""
+    load = 2**39 + 5
+    right = [Fraction(load * square, 2**16) for square in SQUARES]
+    wrench, left = in_c(half_way_forces(float(load)))
+    assert not left
+    assert wrench[:, 2].tolist() == [float(force) for force in right]
+    assert [force == Fraction(float(force)) for force in right] == [False, False, False, True]
+
+
+def test_a_force_that_is_hardly_off_the_middle_of_two_float64_is_left_to_the_core():
+    assert in_c(half_way_forces(2.0**39 + 5.0, gap=2.0**-300))[1] == [0]
 
 
 def test_a_full_record_of_fast_holds_the_forces_of_the_plain_path():

@@ -20,6 +20,7 @@ typedef struct { int place; int64_t low, high; } Float;
 typedef struct { int low, high; __int128 d[DIGITS]; } Sum;
 
 static const Sum EMPTY = {DIGITS, 0, {0}};
+static const Number ZERO = {0, 0, {0}};
 
 /* Set by whatever might not fit, below the grid or beyond the last digit, and cleared by hand, as the
    flags of a processor are: what this thread has computed since is worth nothing. */

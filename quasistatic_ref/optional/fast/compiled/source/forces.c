@@ -6,7 +6,8 @@
        h H x + k sum B'P z = h g,   k = h^2 / c.
 
    The faces are guessed by Newton's method in float64. In fixed point x is refined, and decides
-   whether each face is right. Units are natural, of a length of 1. */
+   whether each face is right; `satisfied` decides what may be zero or half-way. Units are natural, of
+   a length of 1. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,21 +15,35 @@
 
 #include "forces.h"
 
-enum { STEPS = 12, SOFTEST = 30, GUESSES = 8, SWEEPS = 36, FIRST = 80, FINER = 60, PRODUCTS = 1 << 14 };
+enum { STEPS = 20, SEARCH = 30, SOFTEST = 30, GUESSES = 4, STARTS = 3, SWEEPS = 36 };
+enum { FIRST = 80, LAST = 240, FINER = 60, PRODUCTS = 1 << 14 };
 
 #define NEARLY 0x1p-44   /* by which a condition of a face may be missed in float64, over the lengths z */
-#define SHORTEST 0x1p-20 /* share of the way to the next zero of the gradient, at least */
-#define FLAT 0.1         /* slope that counts as a fall, over the slope where the way begins */
+#define SHORTEST 0x1p-20 /* of a part of the way that may hold the minimum */
+#define FLAT 1e-6        /* a slope that counts as none, over that where the way begins */
 #define OPEN 1e-5        /* of an exponent that is as near to one whole number as to the next */
+
+static const int of_p[4] = {2, 0, 1, 3}; /* p is (n, d1, d2, spin), a wrench (d1, d2, n, spin) */
+
+/* A sum of a contact's lengths z that may be zero, or half-way between two float64: row z by = middle. */
+typedef struct {
+    int64_t contact;
+    const int64_t *row;
+    double by;
+    Number middle;
+} Open;
 
 typedef struct {
     const Forces *f;
     const Proof *s;
     Room m; /* of x; K is h H + k sum B'P B */
     double c, k, units[2];
-    double *B, *size, *x, *from, *way, *along; /* size: of what K is the sum of */
-    int64_t *before;                           /* faces */
+    double *B, *size, *x, *way; /* size: of what K is the sum of */
+    double *z, *along;          /* z at x, and how it changes along the way */
+    int64_t *before;            /* faces */
     Sum *sum;
+    int64_t opened;
+    Open *open;
 } Force;
 
 /* The numbers of a face: conditions of a contact's rows, then s, all times z and a denominator. */
@@ -221,56 +236,105 @@ static void solved(const Force *g, double *x)
     }
 }
 
-/* What falls along the way, once x is a share of it farther, with the faces there. */
-static double moved(Force *g, double share)
+/* z of all contacts at x, or without the gaps what x changes of it. */
+static void lengths(const Force *g, const double *x, int with_gaps, double *z)
+{
+    int64_t n = g->s->n_v;
+    for (int64_t i = 0; i < 4 * g->s->n_c; i++) {
+        z[i] = with_gaps && i % 4 == 0 ? g->s->phi[i / 4] : 0.0;
+        for (int64_t v = 0; v < n; v++)
+            z[i] += g->B[i * n + v] * x[v];
+    }
+}
+
+/* How steeply the energy falls a share of the way from x, with the faces there; how much less for each
+   share more is added to `bend`. */
+static double fall(const Force *g, double share, double *bend)
+{
+    const Forces *f = g->f;
+    double sum = 0.0;
+    for (int64_t c = 0; c < g->s->n_c; c++) {
+        const double *along = g->along + 4 * c;
+        double z[4];
+        for (int a = 0; a < 4; a++)
+            z[a] = g->z[4 * c + a] + share * along[a];
+        seek(f, c, z, NEARLY);
+        for (int i = 0; i < 16 && f->face[c]; i++) {
+            double push = g->k * (double)of_s(f, c)[i] / denominator(f, c, f->face[c]) * along[i / 4];
+            sum += push * z[i % 4];
+            *bend -= push * along[i % 4];
+        }
+    }
+    return sum;
+}
+
+/* Move x along the way, no farther than to the least energy: where the fall is zero, which Newton's
+   method finds between bounds. At x the fall is `first`. */
+static void moved(Force *g, double first)
 {
     const Proof *s = g->s;
     int64_t n = s->n_v;
-    double fall = 0.0;
-    for (int64_t v = 0; v < n; v++)
-        g->x[v] = g->from[v] + share * g->way[v];
-    for (int64_t c = 0; c < s->n_c; c++) {
-        double z[4] = {s->phi[c]};
-        for (int64_t i = 0; i < 4 * n; i++)
-            z[i / n] += g->B[4 * c * n + i] * g->x[i % n];
-        seek(g->f, c, z, NEARLY);
+    double low = 0.0, high = 1.0, share = 1.0, slope = 0.0, straight = 0.0;
+    lengths(g, g->x, 1, g->z);
+    lengths(g, g->way, 0, g->along);
+    for (int64_t i = 0; i < n * n; i++) {
+        double push = g->way[i / n] * s->hessian_values[i];
+        straight += push * g->way[i % n];
+        slope -= push * g->x[i % n];
     }
-    assembled(g);
     for (int64_t v = 0; v < n; v++)
-        fall += g->way[v] * g->m.rest[v];
-    return fall;
+        slope += g->way[v] * value(g->m.g + v);
+    for (int i = 0; i < SEARCH; i++) {
+        double bend = straight, falls = fall(g, share, &bend) + slope - share * straight;
+        if (fabs(falls) <= FLAT * first || (falls > 0.0 && share == 1.0))
+            break;
+        *(falls < 0.0 ? &high : &low) = share;
+        share += falls / bend;
+        if (!(share > low && share < high))
+            share = sqrt(fmax(low, SHORTEST * high) * high);
+    }
+    for (int64_t v = 0; v < n; v++)
+        g->x[v] += share * g->way[v];
 }
 
 /* optional/forces/face_guess: whether Newton's method ends, with x and the faces there. */
 static int settled(Force *g)
 {
-    size_t n = (size_t)g->s->n_v * sizeof(double), n_c = (size_t)g->s->n_c * sizeof(int64_t);
-    memset(g->x, 0, n);
-    assembled(g);
-    for (int step = 0; step < STEPS && inverted(g); step++) {
-        double first = 0.0, share = 1.0;
-        memcpy(g->from, g->x, n);
-        memcpy(g->before, g->f->face, n_c);
+    size_t n = (size_t)g->s->n_v, n_c = (size_t)g->s->n_c;
+    memset(g->x, 0, n * sizeof(double));
+    for (int step = 0; step < STEPS; step++) {
+        double first = 0.0;
+        assembled(g);
+        if (!inverted(g))
+            return 0;
+        memcpy(g->before, g->f->face, n_c * sizeof(int64_t));
         solved(g, g->way);
-        for (int64_t v = 0; v < g->s->n_v; v++)
+        for (size_t v = 0; v < n; v++)
             first += g->way[v] * g->m.rest[v];
-        double fall = moved(g, share);
-        if (!memcmp(g->before, g->f->face, n_c))
+        moved(g, step ? first : INFINITY);
+        if (!memcmp(g->before, g->f->face, n_c * sizeof(int64_t)))
             return 1;
-        while (step && share > SHORTEST && fall < -FLAT * first)
-            fall = moved(g, share /= 2);
     }
     return 0;
 }
 
-/* The same; where the method does not end, from the faces of larger compliances. */
-static int guessed(Force *g)
+/* The same from the faces of the last step, of the forces without compliance, or of larger compliances. */
+static int guessed(Force *g, int start)
 {
     double k = g->k;
-    int found = settled(g);
-    for (int softer = SOFTEST; !found && softer >= 0; softer -= 6) {
+    int found = 0;
+    for (int64_t c = 0; start > 0 && c < g->s->n_c; c++) {
+        double z[4];
+        for (int a = 0; a < 4; a++) {
+            double mu = g->s->mu[4 * c + a];
+            z[a] = mu > 0.0 ? -g->f->near[4 * c + of_p[a]] / mu : 0.0;
+        }
+        g->f->face[c] = 0;
+        seek(g->f, c, z, NEARLY);
+    }
+    for (int softer = start > 1 ? SOFTEST : 0; softer >= 0; softer -= 6) {
         g->k = ldexp(k, -softer);
-        found = settled(g) && !softer;
+        found = settled(g);
     }
     return found;
 }
@@ -362,82 +426,8 @@ static void refine(Force *g, int bits)
     }
 }
 
-/* What an entry of a vector differs by from an earlier one, or from less than that, or from zero. */
-static double unlike(const Number *r, int64_t v, int64_t u, int sign, Number *left)
-{
-    Sum sum = EMPTY;
-    add(&sum, r + v);
-    add_product(&sum, r + u, exact((double)sign), -1);
-    carried(&sum, left);
-    return fabs(value(left)) * DOWN;
-}
-
-/* Which entries of x may be zero, or equal to an earlier one, or its opposite; how many are zero. */
-static int64_t likenesses(Room *m, int64_t n)
-{
-    int64_t zeros = 0;
-    Number left;
-    for (int64_t v = 0; v < n; v++) {
-        m->rests[v] = unlike(m->z, v, v, 0, &left) <= m->e[v];
-        m->pivot[v] = 0;
-        zeros += m->rests[v];
-        for (int64_t u = 0; u < v; u++)
-            for (int sign = -1; sign <= 1 && !m->rests[v]; sign += 2)
-                if (!m->rests[u] && unlike(m->z, v, u, sign, &left) <= m->e[v] + m->e[u]) {
-                    m->rests[v] = 1;
-                    m->pivot[v] = sign;
-                    m->balanced[v] = u;
-                }
-    }
-    return zeros;
-}
-
-/* Whether a vector is like x. */
-static int is_like(const Room *m, const Number *r, int64_t n)
-{
-    int all = 1;
-    Number left;
-    for (int64_t v = 0; v < n; v++) {
-        unlike(r, v, m->pivot[v] ? m->balanced[v] : v, (int)m->pivot[v], &left);
-        all &= !m->rests[v] || empty(&left);
-    }
-    return all;
-}
-
-/* Whether the entries of x that may be zero are. Of vectors that are like x K makes others, and the load
-   is one: then what is left of it by the best of them is one, too, and orthogonal to all of them,
-   hence zero. */
-static int zeros_shown(Force *g)
-{
-    Room *m = &g->m;
-    int64_t n = g->s->n_v;
-    if (!likenesses(m, n))
-        return 1;
-    memset(m->net, 0, (size_t)n * sizeof(Number));
-    remaining(g, m->net, m->g);
-    for (int64_t u = 0; u < n; u++) {
-        if (!is_like(m, m->g, n))
-            return 0;
-        memset(m->g, 0, (size_t)n * sizeof(Number));
-        for (int64_t v = 0; v < n; v++) {
-            int one = m->pivot[v] && m->balanced[v] == u;
-            m->net[v] = number(exact(v == u ? 1.0 : one ? (double)m->pivot[v] : 0.0));
-        }
-        if (!m->rests[u])
-            pressed(g, m->net, 0, m->g);
-    }
-    if (!is_like(m, m->g, n))
-        return 0;
-    for (int64_t v = 0; v < n; v++)
-        if (m->rests[v] && !m->pivot[v]) {
-            memset(m->z + v, 0, sizeof(Number));
-            m->e[v] = 0.0;
-        }
-    return 1;
-}
-
-/* A sum of lengths z, which are known within e: whole numbers times these. */
-static double summed(const int64_t *row, const Number *z, const double *e, Number *out)
+/* The sum of lengths z, which are known within e; and a bound of its error. */
+static double summed(const int64_t *row, double by, const Number *z, const double *e, Number *out)
 {
     Sum sum = EMPTY;
     double error = 0.0;
@@ -446,40 +436,92 @@ static double summed(const int64_t *row, const Number *z, const double *e, Numbe
         error += fabs((double)row[a]) * e[a];
     }
     carried(&sum, out);
-    return error * UP;
+    times(&sum, out, exact(by));
+    return fabs(by) * error * UP;
 }
 
-/* The forces, if each face is right: DECIDED, REFUTED with other faces, or OPEN_NUMBER. */
-static int judged(Force *g)
+static int may_be_zero(const Number *x, double error)
 {
-    static const int of_p[4] = {2, 0, 1, 3}; /* p is (n, d1, d2, spin), a wrench (d1, d2, n, spin) */
+    return error > 0.0 && fabs(value(x)) * DOWN <= error;
+}
+
+/* The forces, if each face is right: DECIDED, REFUTED with other faces, or OPEN_NUMBER. What may be
+   zero, and at the finest what may be half-way, is collected. */
+static int judged(Force *g, int finest)
+{
     const Proof *s = g->s;
-    int code = DECIDED;
+    int refuted = 0, code = DECIDED;
+    g->opened = 0;
     for (int64_t c = 0; c < s->n_c; c++) {
-        int64_t face = g->f->face[c];
-        const int64_t *row = numbers(g->f, c, face);
+        const int64_t *row = numbers(g->f, c, g->f->face[c]);
+        double h = denominator(g->f, c, g->f->face[c]), e[4], near[4];
         Number z[4], x;
-        double e[4], near[4];
+        int wrong = 0;
         motion(s, g->m.z, g->m.e, c, 1, z, e);
-        for (int a = 0; a < 4; a++)
-            near[a] = value(z + a);
         for (int64_t i = 0; i < g->f->count[c]; i++, row += 4) {
-            double error = summed(row, z, e, &x), size = fabs(value(&x)) * DOWN;
-            if (size > error && value(&x) < 0.0)
-                code = REFUTED;
-            else if (size <= error && error > 0.0 && code == DECIDED)
-                code = OPEN_NUMBER;
+            double error = summed(row, 1.0, z, e, &x);
+            if (may_be_zero(&x, error))
+                g->open[g->opened++] = (Open){c, row, 1.0, ZERO};
+            else
+                wrong |= value(&x) < 0.0;
         }
-        if (code == REFUTED)
+        for (int a = 0; a < 4; a++, row += 4) {
+            Open open = {c, row, s->mu[4 * c + a], ZERO};
+            double error = summed(row, open.by, z, e, &x), unit = g->units[1] / g->c;
+            double *out = g->f->wrench + 4 * c + of_p[a];
+            near[a] = value(z + a);
+            *out = 0.0;
+            if (!may_be_zero(&x, error)) {
+                if (nearest(&x, error, h, unit, out))
+                    continue;
+                if (!finest || !half_way(&x, error, h, unit, out, &open.middle))
+                    code = OPEN_NUMBER;
+            }
+            g->open[g->opened++] = open;
+        }
+        if (wrong)
             seek(g->f, c, near, 0.0);
-        for (int a = 0; a < 4 && code == DECIDED; a++, row += 4) {
-            double mu = s->mu[4 * c + a], error = mu * summed(row, z, e, &x) * UP;
-            times(g->sum, &x, exact(mu));
-            if (!nearest(&x, error, denominator(g->f, c, face), g->units[1] / g->c,
-                         g->f->wrench + 4 * c + of_p[a]))
-                code = OPEN_NUMBER;
+        refuted |= wrong;
+    }
+    return refuted ? REFUTED : code;
+}
+
+/* Whether what is open is what it may be, x being the solution without rounding. */
+static int settled_exactly(Force *g)
+{
+    Room *m = &g->m;
+    Proof s = *g->s;
+    size_t n = (size_t)s.n_v, count = (size_t)g->opened;
+    Number *K = calloc(n * n + n + count * (n + 1), sizeof(Number)), one = number(exact(1.0));
+    Number *f = K + n * n, *A = f + n, *b = A + count * n, *x = m->net, z[4];
+    if (!K)
+        return NO_MEMORY;
+    memset(x, 0, n * sizeof(Number));
+    memset(m->e, 0, n * sizeof(double));
+    remaining(g, x, f);
+    for (size_t i = 0; i < count; i++) {
+        const Open *open = g->open + i;
+        double e[4];
+        motion(&s, x, m->e, open->contact, 1, z, e);
+        summed(open->row, -open->by, z, e, b + i);
+        total(b + i, &open->middle, b + i);
+        for (size_t v = 0; v < n; v++) {
+            x[v] = one;
+            motion(&s, x, m->e, open->contact, 0, z, e);
+            summed(open->row, open->by, z, e, A + i * n + v);
+            x[v] = ZERO;
         }
     }
+    for (size_t v = 0; v < n; v++) {
+        product(&one, exact(-1.0), x + v);
+        pressed(g, x, 0, K + v * n);
+        x[v] = ZERO;
+    }
+    for (size_t i = 0; i < n * n; i++)
+        m->K[i] = value(K + i);
+    s.hessian = K;
+    int code = satisfied(&s, m, f, A, b, g->opened);
+    free(K);
     return code;
 }
 
@@ -497,17 +539,36 @@ static int forced(Force *g)
     lost = 0;
     memset(m->z, 0, (size_t)n * sizeof(Number));
     int code = OPEN_NUMBER;
-    for (int bits = FIRST; code == OPEN_NUMBER && bits <= 3 * FIRST; bits += FIRST) {
+    for (int bits = FIRST; code == OPEN_NUMBER && bits <= LAST; bits += FIRST) {
         refine(g, bits);
         if (!lost && !error_bounds(m->R, m->G, m->rest, n, m->e))
             return OPEN_BOUND;
-        if (!lost && zeros_shown(g))
-            code = judged(g);
+        code = judged(g, bits == LAST);
+        if (code == DECIDED && g->opened && !lost)
+            code = settled_exactly(g);
         if (lost)
             return LOST;
     }
     for (int64_t v = 0; v < n; v++)
         g->x[v] = value(m->z + v);
+    return code;
+}
+
+/* The same from a guess, and from those that follow where it is wrong. */
+static int from_guess(Force *g)
+{
+    int64_t n = g->s->n_v;
+    double most = 0.0;
+    int above = 0, code = REFUTED;
+    for (int64_t v = 0; v < n; v++)
+        most = fmax(most, fabs(g->x[v]));
+    frexp(most, &above);
+    g->units[1] = ldexp(1.0, above);
+    for (int64_t v = 0; v < n; v++)
+        g->x[v] /= g->units[1];
+    for (int tries = 0; code == REFUTED && tries < GUESSES; tries++)
+        code = forced(g);
+    g->units[1] = 1.0;
     return code;
 }
 
@@ -523,15 +584,15 @@ int forces(Forces *f)
         return LOST;
     void *room = room_of(&s, &g.m);
     g.sum = calloc(n, sizeof(Sum));
-    g.B = calloc(4 * n_c * n + 4 * n_c + n * n + 3 * n, sizeof(double));
+    g.open = calloc(n_c * (size_t)f->width + 1, sizeof(Open));
+    g.B = calloc(4 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
     int code = NO_MEMORY;
-    if (room && g.sum && g.B) {
-        double most = 0.0;
-        g.along = g.B + 4 * n_c * n;
-        g.size = g.along + 3 * n_c;
+    if (room && g.sum && g.open && g.B) {
+        g.z = g.B + 4 * n_c * n;
+        g.along = g.z + 4 * n_c;
+        g.size = g.along + 4 * n_c;
         g.x = g.size + n * n;
-        g.from = g.x + n;
-        g.way = g.from + n;
+        g.way = g.x + n;
         g.before = (int64_t *)(g.way + n);
         for (size_t v = 0; v < n; v++)
             g.sum[v] = EMPTY;
@@ -540,18 +601,12 @@ int forces(Forces *f)
         in_floats(&g);
         *f->compliance = g.c = compliance(&g);
         g.k = *s.h * *s.h / g.c;
-        code = g.c > 0.0 && guessed(&g) ? REFUTED : OPEN_CLAIM;
-        for (size_t v = 0; v < n; v++)
-            most = fmax(most, fabs(g.x[v]));
-        int above = 0;
-        frexp(most, &above);
-        g.units[1] = ldexp(1.0, above);
-        for (size_t v = 0; v < n; v++)
-            g.x[v] /= g.units[1];
-        for (int tries = 0; code == REFUTED && tries < GUESSES; tries++)
-            code = forced(&g);
+        code = OPEN_CLAIM;
+        for (int start = 0; g.c > 0.0 && code != DECIDED && start < STARTS; start++)
+            code = guessed(&g, start) ? from_guess(&g) : OPEN_CLAIM;
     }
     free(g.B);
+    free(g.open);
     free(g.sum);
     free(room);
     return code;

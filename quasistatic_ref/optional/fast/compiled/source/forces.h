@@ -18,7 +18,7 @@ typedef struct {
     const int64_t *table, *denominator; /* 0 of rows that depend on each other */
     const int64_t *side, *start;        /* coordinates of one side after the other; where each starts */
     const int64_t *bears;               /* whether n, d1 and d2 bear loads, in this cone */
-    double *compliance, *wrench;
+    double *near, *compliance, *wrench; /* near: those without compliance */
 } Forces;
 
 int forces(Forces *f);

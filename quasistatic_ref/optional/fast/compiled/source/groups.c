@@ -19,8 +19,9 @@ typedef struct {
     int64_t *code;
     double *delta_q, *lam, *net, *slack, *rest, *bound, *least;
     int64_t *claims;
-    /* What forms the forces of each group; those of all contacts. */
+    /* What forms the forces of each group; of all contacts those without compliance, and with it. */
     Forces *const *forces;
+    const double *near;
     double *wrench;
 } Step;
 
@@ -165,6 +166,7 @@ void groups_forces(Step *s)
         if (!p)
             continue;
         posed(s, p);
+        rows_taken(s->forces[i]->near, s->near, p->contacts, p->n_c, 4);
         s->code[i] = forces(s->forces[i]);
         for (int64_t c = 0; c < p->n_c; c++)
             memcpy(s->wrench + 4 * p->contacts[c], s->forces[i]->wrench + 4 * c, 4 * sizeof(double));

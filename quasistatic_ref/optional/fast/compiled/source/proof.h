@@ -108,6 +108,8 @@ void *room_of(const Proof *s, Room *m);
 int regular(const Proof *s, Room *m);
 int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others);
 int zeros(Proof *s, Room *m);
+int satisfied(const Proof *s, const Room *m, const Number *f, const Number *A, const Number *b,
+              int64_t count);
 void refined(const Proof *s, Room *m, int bits);
 int proof(Proof *s);
 int independent(Proof *s);

@@ -398,7 +398,7 @@ static void balance(const Proof *s, const Room *m, int64_t v, Number *a, Number 
 /* The row a x = b by which a number is half-way between two others. */
 static void half(const Proof *s, const Room *m, const Tie *tie, Number *a, Number *b)
 {
-    Number zero = {0, 0, {0}};
+    Number zero = ZERO;
     if (tie->of == OF_SLACK)
         row_of(s, tie->at, a, &zero);
     else if (tie->of == OF_NET)
@@ -450,6 +450,23 @@ int zeros(Proof *s, Room *m)
         return DECIDED;
     void *room = lifting(&l, s, m, count + m->balances + m->ties);
     int code = room ? decided(s, m, &l, count) : NO_MEMORY;
+    free(room);
+    return code;
+}
+
+/* Whether the solution x of K x = f, K being s->hessian, satisfies A x = b: `count` rows. */
+int satisfied(const Proof *s, const Room *m, const Number *f, const Number *A, const Number *b,
+              int64_t count)
+{
+    Lifting l;
+    size_t n = (size_t)s->n_v;
+    void *room = lifting(&l, s, m, count);
+    if (!room)
+        return NO_MEMORY;
+    memcpy(l.r, f, n * sizeof(Number));
+    memcpy(l.r + n, b, (size_t)count * sizeof(Number));
+    memcpy(l.A, A, (size_t)count * n * sizeof(Number));
+    int code = factored(&l) && vanish(&l, NULL, 0) ? DECIDED : OPEN_NUMBER;
     free(room);
     return code;
 }
