@@ -32,6 +32,9 @@ SIZE = (12.6, 7.0875)
 """Of a slide [in], 16 to 9: the labels of a figure are as small as they may be."""
 EDGE = 0.45
 """Around what stands on a slide [in]."""
+PAGES = {"savefig.bbox": None, "pdf.fonttype": 3}
+"""A slide is its whole page, also where nothing stands on its rim. And in several pages with fonts
+of type 42, matplotlib 3.11 writes ligatures in the place of other signs: "fi" for a minus."""
 SLIM = 0.82
 """Width of a line over the estimate by which it is broken [-]; what is too wide is a fault."""
 TITLE, TEXT, EQUATION, MARK = 1.7, 1.35, 1.5, 0.9
@@ -77,8 +80,7 @@ def _below(page: Figure, top: float, text: str, share: float, **look: Any) -> fl
 def pages(name: str) -> Iterator[Figure]:
     """Every slide of a lecture, closed when the next is asked for."""
     made = slides(name)
-    # A slide is its whole page, also where nothing stands on its rim.
-    with figure_style(STYLE), plt.rc_context({"savefig.bbox": None}):
+    with figure_style(STYLE), plt.rc_context(PAGES):
         for k, slide in enumerate(made, 1):
             page = drawn(slide, f"{k} of {len(made)}, minute {slide['minute']}")
             yield page
