@@ -96,6 +96,11 @@ class Contacts(Plain, Shown):
         """Number of columns of J."""
         return int(self.J.shape[-1])
 
+    @property
+    def kept_J(self) -> Array:
+        """J as it is kept: shape (n_c, 4, n_v), or without its zeros in a step of many bodies."""
+        return self.J
+
     def raised(self, s: Array) -> Contacts:
         """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
         return replace(self, phi=self.phi + s)

@@ -59,6 +59,11 @@ class SparseContacts(Contacts):
         return read_only(self.blocks.dense())
 
     @property
+    def kept_J(self) -> Array:
+        """The columns of J that are not zero, shape (n_c, 4, w)."""
+        return self.blocks.J
+
+    @property
     def n_v(self) -> int:
         """Number of columns of J."""
         return self.blocks.n_v

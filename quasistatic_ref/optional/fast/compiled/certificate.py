@@ -31,15 +31,8 @@ LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
-def kept_J(step: StepData) -> Array:
-    """J as a step keeps it, of any shape: whole, or without its zeros."""
-    contacts: Any = step.contacts
-    J: Array = contacts.blocks.J if hasattr(contacts, "blocks") else contacts.J
-    return J
-
-
 def _kept_A(A: Any) -> Array:
-    """The same of A."""
+    """A as a step keeps it: whole, or without its zeros."""
     kept: Array = A if isinstance(A, np.ndarray) else A.data
     return kept
 
@@ -86,7 +79,7 @@ def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
 def _in_J(step: StepData, groups: Sequence[Group], column: Indices) -> Iterator[Indices]:
     """Of each group; `column` (2, n_v + 1): the group of a coordinate, and its number there."""
     contacts: Any = step.contacts
-    J = kept_J(step)
+    J = step.contacts.kept_J
     numbers = np.arange(J.size).reshape(J.shape)
     for k, group in enumerate(groups):
         own = numbers[group.contacts]
@@ -256,7 +249,7 @@ def room_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
 def lend_data(s: Structure, step: StepData) -> None:
     """Let C read the data of a step."""
     contacts = step.contacts
-    s.lend("J", kept_J(step))
+    s.lend("J", step.contacts.kept_J)
     s.lend("delta_q_bar_a", step.delta_q_bar_a)
     s.lend("phi", contacts.phi)
     s["tau"][: step.n_a] = step.tau_a
@@ -324,7 +317,7 @@ class Prover:
             {
                 "groups": len(groups), "group": np.array(addresses, np.int64),
                 "code": np.zeros(len(groups), np.int64),
-                "J": kept_J(step), "A": _kept_A(A),
+                "J": step.contacts.kept_J, "A": _kept_A(A),
             }
         )  # fmt: skip
         room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)

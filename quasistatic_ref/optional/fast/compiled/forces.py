@@ -11,7 +11,6 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.optional.fast.compiled.certificate import (
     Places,
     group_proof,
-    kept_J,
     lend_data,
     places,
     room_for_step,
@@ -58,7 +57,8 @@ class Forces:
                 "groups": len(divided), "code": np.zeros(len(divided), np.int64),
                 "group": np.array([part.group for part in self._parts], np.int64),
                 "forces": np.array([part.s.address for part in self._parts], np.int64),
-                "J": kept_J(step), **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
+                "J": step.contacts.kept_J,
+                **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
             }
         )  # fmt: skip
         room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
