@@ -40,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
-    guests = needed_part("guests.opinion", "opinion")
+    guests = needed_part("guests.mujoco_opinion", "opinion")
     mjcf = needed_part("mjcf.mjcf", "opinion")
     control = controls(options.control)
     with about_file(options.scene):

@@ -397,20 +397,24 @@ class System(Shown):
         force = checked_array(force, "force", (3,), ModelError)
         torque = checked_array(torque, "torque", (3,), ModelError)
         link = self.link(name)
-        joint = self._model.frames[self._frames[link - 1]].parentJoint if link else 0
-        if joint == 0:
-            problem = "has a fixed base, so a load has no effect on it"
-            raise ModelError(problem, field="name", value=name)
+        centre = self._centre(name, link)
         kinematics = self.kinematics(q)
         if at is None:
-            # The root link's frame is that of the base's joint.
-            of_body = name in self._roots
-            centre = self._model.inertias[joint].lever if of_body else self.centres[link]
             arm = product(kinematics.R[link], centre)
         else:
             arm = checked_array(at, "at", (3,), ModelError) - kinematics.t[link]
         moment = torque + np.cross(arm, force)
         return product(kinematics.J[link].T, np.concatenate([force, moment]))
+
+    def _centre(self, name: str, link: int) -> Array:
+        """Where a load acts by default, (3,) [m], in the link; ModelError if it cannot move."""
+        joint = self._model.frames[self._frames[link - 1]].parentJoint if link else 0
+        if joint == 0:
+            problem = "has a fixed base, so a load has no effect on it"
+            raise ModelError(problem, field="name", value=name)
+        # The root link's frame is that of the base's joint.
+        own = self._model.inertias[joint].lever if name in self._roots else self.centres[link]
+        return np.asarray(own)
 
     def pose(self, q: Array, link: str) -> tuple[Array, Array]:
         """Rotation, shape (3, 3), and origin [m], (3,), of a link at q, in the world frame."""

@@ -29,7 +29,7 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.findings import Finding
 from quasistatic_ref.optional.guests.mujoco import Coordinates, mujoco_step
-from quasistatic_ref.optional.guests.opinion import second_opinion
+from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion
 from quasistatic_ref.optional.guests.still import still
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.arrays import Array

@@ -1,31 +1,56 @@
 """A state of a Drake plant as a step: what Drake says of it, without its velocity and compliance.
 
-What is used: masses, joints that are not locked and their limits, gravity, springs of joints,
-actuation and applied generalised forces, collision geometries as signed distances, and their
-friction. Without effect are velocities, damping, compliance, hydroelastic properties and gains of
-controllers. Refused are other force elements, constraints, deformable bodies, applied spatial
-forces, and limits of joints with several coordinates.
+``FATES`` says what becomes of each element: it is used, without effect, or refused.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import tangents
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.guests.mujoco import Coordinates
+from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.optional.guests.mujoco import DEPTHS, Coordinates, step_from, velocity_words
 from quasistatic_ref.parts import needed_package
+from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.tolerances import DEEP
 
+FATES = {
+    "used": """
+        WeldJoint PrismaticJoint RevoluteJoint ScrewJoint UniversalJoint PlanarJoint BallRpyJoint
+        RpyFloatingJoint QuaternionFloatingJoint
+        UniformGravityFieldElement RevoluteSpring PrismaticSpring
+        Box Capsule Convex Cylinder Ellipsoid HalfSpace Mesh Sphere
+        geometry_query actuation applied_generalized_force
+        joint.position_limits joint.locked actuator.rotor_inertia actuator.gear_ratio
+        coulomb_friction
+    """,
+    "without effect": """
+        velocity desired_state joint.damping joint.velocity_limits joint.acceleration_limits
+        actuator.controller_gains actuator.effort_limit
+        contact_model discrete_contact_approximation stiction_tolerance penetration_allowance
+        point_contact_stiffness hunt_crossley_dissipation relaxation_time hydroelastic
+    """,
+    "refused": """
+        LinearSpringDamper DoorHinge LinearBushingRollPitchYaw
+        applied_spatial_force constraints deformable_model
+        limits_of_several_coordinates MeshcatCone
+    """,
+}
+"""What becomes of each joint, force element, shape, port and property that Drake has."""
 SPRINGS = ("RevoluteSpring", "PrismaticSpring")
 GRAVITY = "UniformGravityFieldElement"
 MARGIN = 0.1
 """Gap up to which Drake looks for contacts, by default [m]."""
+HULLS = ("Convex", "Mesh")
+FLAT = ("Box", *HULLS)
+"""Shapes between two of which Drake's gap is exact to rounding, as with a sphere; between others
+its documentation observes errors of 3e-6 to 5e-5 m, from 2 mm apart."""
 
 
 def drake_step(
@@ -35,6 +60,7 @@ def drake_step(
     stiffness: Mapping[str, float],
     targets: Mapping[str, float] | None = None,
     margin: float = MARGIN,
+    depth: str = "closed",
 ) -> tuple[StepData, Coordinates]:
     """The step that begins in a state of a Drake plant, at rest.
 
@@ -53,6 +79,9 @@ def drake_step(
         Their targets [m, rad]; by default where they are.
     margin : float
         Gap up to which Drake looks for contacts [m]: one of each pair of geometries.
+    depth : str
+        ``"closed"``: contacts and limits that are violated count as closed. ``"as is"``: one step
+        closes them.
 
     Returns
     -------
@@ -62,6 +91,8 @@ def drake_step(
 
     Raises
     ------
+    InputError
+        If `depth` is another word.
     ModelError
         Naming what no step can say.
 
@@ -85,10 +116,10 @@ def drake_step(
     np.float64(2.943)
     """
     drake = needed_package("pydrake.all", "drake", "drake_step")
+    if depth not in DEPTHS:
+        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
     check(plant)
-    own = plant.CreateDefaultContext()
-    own.SetTimeStateAndParametersFrom(context)
-    plant.SetVelocities(own, np.zeros(plant.num_velocities()))
+    own = at_rest(plant, context)
     joints = {
         scoped(plant, joint): joint for joint in map(plant.get_joint, plant.GetJointIndices())
     }
@@ -101,19 +132,26 @@ def drake_step(
     M = plant.CalcMassMatrix(own)[np.ix_(dofs[n_a:], dofs[n_a:])]
     tau = (loads(drake, plant, context, own) - passive(drake, plant, own))[dofs]
     K_q = np.diag(K[dofs[:n_a]])
-    step = StepData(
-        h=h,
-        K_q=K_q,
-        M_u=(M + M.T) / 2,
-        tau_a=tau[:n_a],
-        tau_u=tau[n_a:],
-        delta_q_bar_a=of_springs[dofs[:n_a]] / np.diag(K_q),  # Eq. (1)
-        contacts=contacts(drake, plant, context, own, T, margin),
-        extra=limits(plant, own, joints, dofs),
-    )
+    found = [pair for pair in pairs(drake, plant, context, own, margin) if (pair.J @ T).any()]
+    closed = depth == "closed"
+    extra = limits(plant, own, joints, dofs, closed)
+    of_contacts = contacts(found, T, closed)
+    step = step_from(h, K_q, M, tau, of_springs[dofs], contacts=of_contacts, extra=extra)
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
-    left_out = tuple(words(plant, context))
-    return step, Coordinates(names, dofs, T, left_out, 0.0)
+    v = plant.GetVelocities(context)
+    left_out = (*velocity_words(v), *words(plant, found))
+    g = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
+    slides = max((pair.slides(v) for pair in found), default=0.0)
+    number = slides / (g * h) if slides and g else np.inf if slides else 0.0
+    return step, Coordinates(names, dofs, T, left_out, number)
+
+
+def at_rest(plant: Any, context: Any) -> Any:
+    """A context of the plant's alone, without velocity."""
+    own = plant.CreateDefaultContext()
+    own.SetTimeStateAndParametersFrom(context)
+    plant.SetVelocities(own, np.zeros(plant.num_velocities()))
+    return own
 
 
 def scoped(plant: Any, joint: Any) -> str:
@@ -215,70 +253,152 @@ def loads(drake: Any, plant: Any, context: Any, own: Any) -> Array:
     return tau
 
 
-def contacts(drake: Any, plant: Any, context: Any, own: Any, T: Array, margin: float) -> Contacts:
-    """One contact of each pair of geometries that is nearer than the margin [m].
+class Pair(NamedTuple):
+    """The closest points of two geometries.
+
+    Parameters
+    ----------
+    name : str
+        Those of the geometries, alpha's first.
+    geometries : tuple
+        Drake's ids of them.
+    bodies : tuple
+        Drake's bodies.
+    phi : float
+        [m].
+    n : ndarray, shape (3,)
+    J : ndarray, shape (4, nv)
+        Of Eq. :eq:`eq-3`, along Drake's velocities.
+    mu_v : float
+        [-].
+    iterated : bool
+        Whether Drake iterates the closest points.
+    """
+
+    name: str
+    geometries: tuple[Any, Any]
+    bodies: tuple[Any, Any]
+    phi: float
+    n: Array
+    J: Array
+    mu_v: float
+    iterated: bool
+
+    def slides(self, v: Array) -> float:
+        """The slip rate over mu_v [m/s] of a contact that is closed, at a velocity v, (nv,)."""
+        slip = self.J[:3] @ v
+        speed = float(np.linalg.norm(slip - (self.n @ slip) * self.n))
+        if self.phi > 0 or not speed or not self.mu_v:
+            return 0.0
+        return speed / self.mu_v
+
+
+def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list[Pair]:
+    """One pair of closest points of each pair of geometries that is nearer than the margin [m].
 
     Parameters
     ----------
     drake : module
     plant, context, own : object
         Drake's.
-    T : ndarray, shape (nv, n_v)
-        [-].
     margin : float
         [m].
 
     Raises
     ------
     ModelError
-        Naming a pair whose normal is not known.
+        Naming a pair whose normal is not known, or saying that Drake has none of two shapes.
     """
     query = plant.get_geometry_query_input_port().Eval(context)
     inspector = query.inspector()
-    found = query.ComputeSignedDistancePairwiseClosestPoints(margin)
     world = plant.world_frame()
-    names: list[str] = []
-    phi, n, J, mu_v = [], [], [], []
-    for pair in sorted(found, key=lambda pair: (pair.id_A.get_value(), pair.id_B.get_value())):
+    try:
+        closest = query.ComputeSignedDistancePairwiseClosestPoints(margin)
+    except RuntimeError as error:
+        problem = f"cannot be had from Drake: {str(error).splitlines()[0]}"
+        raise ModelError(problem, field="signed distances") from error
+    found = []
+    for pair in sorted(closest, key=lambda pair: (pair.id_A.get_value(), pair.id_B.get_value())):
+        name = f"{inspector.GetName(pair.id_B)}/{inspector.GetName(pair.id_A)}"
+        kinds = {type(inspector.GetShape(i)).__name__ for i in (pair.id_A, pair.id_B)}
+        at = {pair.id_A: pair.p_ACa, pair.id_B: pair.p_BCb}
+        phi, n = float(pair.distance), np.asarray(pair.nhat_BA_W)
+        if "Sphere" in kinds and kinds & {*HULLS}:
+            phi, n, at = sphere_and_hull(query, pair)
+        if not np.isfinite(n).all():
+            raise ModelError("has no normal at this distance", field=f"pair {name}")
         relative = np.zeros((6, plant.num_velocities()))
         frictions = []
-        for id_, at, side in ((pair.id_A, pair.p_ACa, 1.0), (pair.id_B, pair.p_BCb, -1.0)):
+        bodies = []
+        for id_, side in ((pair.id_A, 1.0), (pair.id_B, -1.0)):
             body = plant.GetBodyFromFrameId(inspector.GetFrameId(id_))
-            point = inspector.GetPoseInFrame(id_) @ at
+            bodies.append(body)
+            point = inspector.GetPoseInFrame(id_) @ at[id_]
             relative += side * plant.CalcJacobianSpatialVelocity(
                 own, drake.JacobianWrtVariable.kV, body.body_frame(), point, world, world
             )
             of_side = inspector.GetProximityProperties(id_)
             frictions.append(of_side.GetProperty("material", "coulomb_friction"))
-        name = f"{inspector.GetName(pair.id_B)}/{inspector.GetName(pair.id_A)}"
-        normal = np.asarray(pair.nhat_BA_W)
-        if not np.isfinite(normal).all():
-            raise ModelError("has no normal at this distance", field=f"pair {name}")
-        along = relative @ T
-        if not along.any():
-            continue
-        names.append(name)
-        phi.append(pair.distance)
-        n.append(normal)
-        J.append(np.vstack([along[3:], normal @ along[:3]]))
-        combined = drake.CalcContactFrictionFromSurfaceProperties(*frictions)
-        mu_v.append(combined.static_friction())
-    normals = np.array(n).reshape(-1, 3)
-    d1, d2 = tangents(normals)
+        iterated = not (kinds <= {*FLAT} or ("Sphere" in kinds and "Ellipsoid" not in kinds))
+        mu_v = drake.CalcContactFrictionFromSurfaceProperties(*frictions).static_friction()
+        J = np.vstack([relative[3:], n @ relative[:3]])
+        ids, of = (pair.id_B, pair.id_A), (bodies[1], bodies[0])
+        found.append(Pair(name, ids, of, phi, n, J, mu_v, iterated))
+    return found
+
+
+def sphere_and_hull(query: Any, pair: Any) -> tuple[float, Array, dict[Any, Array]]:
+    """Gap, normal and points of a sphere and a hull, which Drake iterates to some 1e-6 m.
+
+    Parameters
+    ----------
+    query, pair : object
+        Drake's.
+
+    Returns
+    -------
+    phi : float
+        [m].
+    n : ndarray, shape (3,)
+        From B to A, world frame.
+    at : dict of object to ndarray, shape (3,)
+        The points by geometry, in its frame [m].
+    """
+    inspector = query.inspector()
+    ball, hull = pair.id_A, pair.id_B
+    if type(inspector.GetShape(hull)).__name__ == "Sphere":
+        ball, hull = hull, ball
+    mesh = inspector.GetConvexHull(hull)
+    corners = np.array([mesh.vertex(i) for i in range(mesh.num_vertices())])
+    X_B, X_H = query.GetPoseInWorld(ball), query.GetPoseInWorld(hull)
+    centre = X_H.inverse() @ X_B.translation()
+    (height,), (outward,) = convex_hull(corners).signed_distance(centre[None])
+    radius = inspector.GetShape(ball).radius()
+    of_world = X_H.rotation() @ outward
+    inward = X_B.rotation().inverse() @ -of_world
+    at = {ball: radius * inward, hull: centre - height * outward}
+    return float(height - radius), of_world if ball == pair.id_A else -of_world, at
+
+
+def contacts(found: list[Pair], T: Array, closed: bool) -> Contacts:
+    """Pairs of closest points as contacts, T (nv, n_v) [-]; no gap below zero if `closed`."""
+    n = np.array([pair.n for pair in found]).reshape(-1, 3)
+    phi = np.array([pair.phi for pair in found])
+    d1, d2 = tangents(n)
     return Contacts(
-        name=tuple(names),
-        phi=np.array(phi),
-        n=normals,
+        name=tuple(pair.name for pair in found),
+        phi=np.maximum(phi, 0.0) if closed else phi,
+        n=n,
         d1=d1,
         d2=d2,
-        J=np.array(J).reshape(-1, 4, T.shape[1]),
-        mu_v=np.array(mu_v),
-        mu_omega=np.zeros(len(names)),
-        rows=np.full(len(names), 4),
+        J=np.array([pair.J @ T for pair in found]).reshape(-1, 4, T.shape[1]),
+        mu_v=np.array([pair.mu_v for pair in found]),
+        mu_omega=np.zeros(len(found)),
+        rows=np.full(len(found), 4),
     )
 
 
-def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array) -> Extra:
+def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array, closed: bool) -> Extra:
     """Limits of joints as rows.
 
     Parameters
@@ -288,6 +408,8 @@ def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array) -> Extr
     joints : mapping of str to object
     dofs : ndarray of int, shape (n_v,)
         Drake's velocities of the coordinates.
+    closed : bool
+        Whether limits that are violated count as closed.
 
     Raises
     ------
@@ -310,12 +432,21 @@ def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array) -> Extr
             if np.isfinite(end[0]):
                 names.append(f"limit of joint[{name}] ({len(names)})")
                 A.append(sign * np.eye(len(dofs))[places[joint.velocity_start()]])
-                b.append(sign * (end[0] - here))
+                short = sign * (end[0] - here)
+                b.append(min(short, 0.0) if closed else short)
     return Extra(tuple(names), np.array(A).reshape(-1, len(dofs)), np.array(b))
 
 
-def words(plant: Any, context: Any) -> Iterator[str]:
-    """What a step leaves out."""
-    v = plant.GetVelocities(context)
-    if v.any():
-        yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
+def words(plant: Any, found: list[Pair]) -> Iterator[str]:
+    """What a step leaves out, or has as Drake iterates it."""
+    for pair in found:
+        if pair.iterated:
+            error = "Drake iterates its closest points, and its gap may be off by up to 5e-5 m"
+            yield f"contact[{pair.name}]: {error}"
+        if pair.phi < -DEEP:
+            yield f"contact[{pair.name}]: its bodies penetrate by {-1e3 * pair.phi:.3g} mm"
+    for index in plant.GetJointActuatorIndices():
+        actuator = plant.get_joint_actuator(index)
+        if actuator.has_controller():
+            gains = "its gains are without effect; a spring is one of `stiffness`"
+            yield f"actuator[{actuator.name()}]: {gains}"

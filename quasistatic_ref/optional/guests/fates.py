@@ -140,6 +140,22 @@ def check(state: Still) -> None:
                 raise ModelError(problem, field=named(state, field, i), value=kind.lower())
 
 
+def check_run(state: Still) -> None:
+    """Refuse what a state can say and a run cannot: ModelError, naming element and field."""
+    model = state.model
+    loose = model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1]
+    for i in np.flatnonzero(loose & (model.tendon_stiffness > 0)).tolist():
+        problem = "has a range in which the spring is slack, and K_q is that of a whole run"
+        raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
+    sticky = "pulls at every gap within the margin of a run; leave it out"
+    for i in range(model.nu):
+        if kind_of(state, "actuator_trntype", i) == "BODY":
+            raise ModelError(sticky, field=f"{state.words('actuator', i)}.body")
+    for field in ("geom_adhesion", "pair_adhesion"):
+        for i in np.flatnonzero(getattr(model, field))[:1].tolist():
+            raise ModelError(sticky, field=named(state, field, i))
+
+
 def named(state: Still, field: str, i: int) -> str:
     """An element's field in words, such as ``joint[knee].stiffnesspoly``."""
     kind, _, rest = field.partition("_")

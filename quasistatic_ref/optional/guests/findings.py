@@ -8,17 +8,39 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
 from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PRESSES
 
-YIELDS = "MuJoCo documents that its friction yields to any force"
-STRONGER = "geom: friction, or what presses the bodies together"
-SPINS = "geom: condim 4 and the second number of friction"
-RESTS = "what MuJoCo has and a step has not: rolling friction, the damping of joints"
-APART = "geom or body: size and pos, or contact/exclude for bodies that may overlap"
+
+class Words(NamedTuple):
+    """What sentences call an engine and its options.
+
+    Parameters
+    ----------
+    engine : str
+    yields : str
+        Why its friction creeps.
+    slower : str
+        The options with which it yields less.
+    stronger, spins : str
+        The options of friction, and of torsional friction.
+    rests : str
+        What lets a body rest, which a step has not.
+    apart : str
+        What keeps bodies from overlapping.
+    """
+
+    engine: str
+    yields: str
+    slower: str
+    stronger: str
+    spins: str
+    rests: str
+    apart: str
 
 
 @dataclass(frozen=True)
@@ -32,7 +54,7 @@ class Finding:
     body : str
         The body that moves, or is pushed.
     contacts : tuple of str
-        As MuJoCo numbers them.
+        By their names.
     number : float
         What makes it a finding [`unit`].
     unit : str
@@ -57,7 +79,7 @@ def findings(
     reasons: Mapping[str, str],
     weight: float,
     tolerance: float,
-    slower: str,
+    words: Words,
 ) -> Iterator[Finding]:
     """All findings.
 
@@ -71,40 +93,41 @@ def findings(
         Of the whole model [N].
     tolerance : float
         Speed up to which a contact holds [m/s].
-    slower : str
-        The options with which MuJoCo's friction yields less.
+    words : Words
     """
     by_name = {body.name: body for body in bodies}
     for body in bodies:
         own = [c for c in contacts if _mover(c, by_name) is body]
-        yield from _motion(body, own, tolerance, slower)
+        yield from _motion(body, own, tolerance, words)
     for two in dict.fromkeys(c.bodies for c in contacts):
         between = [c for c in contacts if c.bodies == two]
         both = [by_name[name] for name in two if name in by_name]
         if all(body.rests or body.steady for body in both):
-            yield from _penetration(between, _mover(between[0], by_name), reasons, weight)
+            yield from _penetration(between, _mover(between[0], by_name), reasons, weight, words)
 
 
 def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
     """The body of a contact that moves more: the other is at rest, or nearly."""
     two = [bodies[name] for name in contact.bodies if name in bodies]
-    return max(two, key=lambda b: b.fastest(b.mujoco) + b.fastest(b.exact))
+    return max(two, key=lambda b: b.fastest(b.theirs) + b.fastest(b.exact))
 
 
-def _motion(body: Body, own: Sequence[Contact], tolerance: float, slower: str) -> Iterator[Finding]:
+def _motion(
+    body: Body, own: Sequence[Contact], tolerance: float, words: Words
+) -> Iterator[Finding]:
     """What contacts let a body do."""
     moved = [c for c in own if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
-    creeps = [c for c in own if c.mujoco.share < INSIDE_CONE and _creep(c, body) > tolerance]
-    rests = body.fastest(body.mujoco) <= tolerance
+    creeps = [c for c in own if c.theirs.share < INSIDE_CONE and _creep(c, body) > tolerance]
+    rests = body.fastest(body.theirs) <= tolerance
     if slides:
-        yield _slides(body, slides)
+        yield _slides(body, slides, words)
     elif moved:
-        yield _turns(body, moved)
-    elif creeps and body.steady and body.fastest(body.mujoco) <= FAST:
-        yield _creeps(body, creeps, slower)
+        yield _turns(body, moved, words)
+    elif creeps and body.steady and body.fastest(body.theirs) <= FAST:
+        yield _creeps(body, creeps, words)
     elif own and rests and body.fastest(body.exact) > tolerance:
-        yield _moves(body, own)
+        yield _moves(body, own, words)
 
 
 def _motion_of(side: Bearing, body: Body) -> float:
@@ -113,21 +136,21 @@ def _motion_of(side: Bearing, body: Body) -> float:
 
 
 def _creep(contact: Contact, body: Body) -> float:
-    """MuJoCo's motion of a contact that friction resists [m/s]."""
-    slip = contact.mujoco.slip if contact.mu_v else 0.0
-    spin = contact.mujoco.spin if contact.mu_omega else 0.0
-    return _motion_of(replace(contact.mujoco, slip=slip, spin=spin), body)
+    """The engine's motion of a contact that friction resists [m/s]."""
+    slip = contact.theirs.slip if contact.mu_v else 0.0
+    spin = contact.theirs.spin if contact.mu_omega else 0.0
+    return _motion_of(replace(contact.theirs, slip=slip, spin=spin), body)
 
 
-def _creeps(body: Body, through: Sequence[Contact], slower: str) -> Finding:
-    speed, unit, words = _fast(body, body.size * body.mujoco.turn > body.mujoco.speed)
+def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Finding:
+    speed, unit, creeps = _fast(body, body.size * body.theirs.turn > body.theirs.speed)
     bears = f"{body.bears:.3g} N and {body.asked:.3g} N is"
-    if any(c.mu_omega and c.mujoco.spin * body.size > c.mujoco.slip for c in through):
+    if any(c.mu_omega and c.theirs.spin * body.size > c.theirs.slip for c in through):
         most = sum(c.mu_omega * c.exact.normal for c in through if c.exact)
         bears = f"{1e3 * most:.3g} N mm of torque and {_torque(through):.3g} N mm is"
-    could = f"{words}, where its contacts could bear {bears} asked for"
-    sentence = f"{could}; in the exact answer it sticks; {YIELDS}"
-    return _finding("creeps", body, through, speed, unit, slower, sentence)
+    could = f"{creeps}, where its contacts could bear {bears} asked for"
+    sentence = f"{could}; in the exact answer it sticks; {words.yields}"
+    return _finding("creeps", body, through, speed, unit, words.slower, sentence)
 
 
 def _torque(through: Sequence[Contact]) -> float:
@@ -135,40 +158,40 @@ def _torque(through: Sequence[Contact]) -> float:
     return 1e3 * sum(c.exact.torque for c in through if c.exact)
 
 
-def _slides(body: Body, through: Sequence[Contact]) -> Finding:
-    words = f"{body.name} slides: its friction is at its limit"
+def _slides(body: Body, through: Sequence[Contact], words: Words) -> Finding:
+    slides = f"{body.name} slides: its friction is at its limit"
     share = 1.0
     if body.free:
         share = body.bears / body.asked
         holds = f"its contacts hold {share:.2g} of what its load needs"
-        words = f"{body.name} slides: {holds}, {body.bears:.3g} N of {body.asked:.3g} N"
-    return _finding(
-        "slides", body, through, share, "", STRONGER, f"{words}; in MuJoCo, {_fast(body, False)[2]}"
-    )
+        slides = f"{body.name} slides: {holds}, {body.bears:.3g} N of {body.asked:.3g} N"
+    sentence = f"{slides}; in {words.engine}, {_fast(body, False)[2]}"
+    return _finding("slides", body, through, share, "", words.stronger, sentence)
 
 
-def _turns(body: Body, through: Sequence[Contact]) -> Finding:
+def _turns(body: Body, through: Sequence[Contact], words: Words) -> Finding:
     mu_omega = max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
     needed = body.torque / sum(c.exact.normal for c in through if c.exact)
-    words = f"torsional friction {1e3 * mu_omega:.3g} mm: {body.name} turns about {about}"
+    turns = f"torsional friction {1e3 * mu_omega:.3g} mm: {body.name} turns about {about}"
     needs = f"; {1e3 * needed:.3g} mm or more would hold it" if needed else ""
-    sentence = f"{words}{needs}; in MuJoCo, {_fast(body, True)[2]}"
-    return _finding("turns", body, through, mu_omega, "m", SPINS, sentence)
+    sentence = f"{turns}{needs}; in {words.engine}, {_fast(body, True)[2]}"
+    return _finding("turns", body, through, mu_omega, "m", words.spins, sentence)
 
 
-def _moves(body: Body, own: Sequence[Contact]) -> Finding:
+def _moves(body: Body, own: Sequence[Contact], words: Words) -> Finding:
     speed = body.fastest(body.exact)
-    sentence = f"{body.name} rests in MuJoCo; its contacts, loads and joints alone let it move"
-    return _finding("moves", body, own, speed, "m/s", RESTS, sentence)
+    alone = "its contacts, loads and joints alone let it move"
+    sentence = f"{body.name} rests in {words.engine}; {alone}"
+    return _finding("moves", body, own, speed, "m/s", words.rests, sentence)
 
 
 def _penetration(
-    between: Sequence[Contact], body: Body, reasons: Mapping[str, str], weight: float
+    between: Sequence[Contact], body: Body, reasons: Mapping[str, str], weight: float, words: Words
 ) -> Iterator[Finding]:
     """Whether two bodies are pushed apart by more than their loads."""
     depth = max(c.depth for c in between)
-    theirs = sum(c.mujoco.normal for c in between)
+    theirs = sum(c.theirs.normal for c in between)
     ours = sum(c.exact.normal for c in between if c.exact)
     more = theirs - ours
     pushes = more > FORCES_AGREE * max(theirs, weight)
@@ -180,12 +203,12 @@ def _penetration(
         f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, and are pushed apart with "
         f"{theirs:.3g} N where their loads ask for {ours:.3g} N"
     ) + (f"; what keeps them there: {reason}" if reason else "")
-    yield _finding("penetrates", body, between, depth, "m", APART, sentence)
+    yield _finding("penetrates", body, between, depth, "m", words.apart, sentence)
 
 
 def _fast(body: Body, turns: bool) -> tuple[float, str, str]:
-    """MuJoCo's motion of a body, or its turning: a number, its unit, and in words."""
-    motion = body.mujoco
+    """The engine's motion of a body, or its turning: a number, its unit, and in words."""
+    motion = body.theirs
     if turns:
         words = f"{body.name} turns by {np.degrees(motion.turn):.3g} degrees/s"
         return motion.turn, "rad/s", words
@@ -199,6 +222,6 @@ def _finding(
 ) -> Finding:  # fmt: skip
     """A finding whose sentence begins with its contacts, each pair once, and ends with a remedy."""
     names = tuple(c.name for c in through)
-    pairs = dict.fromkeys(name.partition(": ")[2] for name in names)
+    pairs = dict.fromkeys(name.rpartition(": ")[2] for name in names)
     whole = f"{' and '.join(pairs)}: {sentence} ({remedy})"
     return Finding(kind, body.name, names, float(number), unit, remedy, whole)

@@ -64,6 +64,33 @@ class Coordinates(Plain):
         freeze_copies(self, "dofs", "T")
 
 
+def step_from(
+    h: float, K_q: Array, M_u: Array, tau: Array, of_springs: Array, **rest: Any
+) -> StepData:
+    """A step of what an engine says of a state at rest, the actuated coordinates first.
+
+    Parameters
+    ----------
+    h : float
+        [s].
+    K_q, M_u : ndarray
+    tau, of_springs : ndarray, shape (n_v,)
+        Forces of all but springs, and of springs [N, N m].
+    **rest : object
+        Other fields of StepData.
+    """
+    n_a = len(K_q)
+    return StepData(
+        h=h,
+        K_q=K_q,
+        M_u=(M_u + M_u.T) / 2,
+        tau_a=tau[:n_a],
+        tau_u=tau[n_a:],
+        delta_q_bar_a=np.linalg.solve(K_q, of_springs[:n_a]),  # Eq. (1)
+        **rest,
+    )
+
+
 def mujoco_step(
     model: Any, data: Any, h: float, depth: str = "closed"
 ) -> tuple[StepData, Coordinates]:
@@ -127,21 +154,12 @@ def mujoco_step(
     held = ties.equalities(state, tied, scale, as_is)
     limits, free_limits = ties.limits(state, scale, held.basis, as_is)
     contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
-    tau = T.T @ of_state.others
-    step = StepData(
-        h=h,
-        K_q=K_q,
-        M_u=(M_u + M_u.T) / 2,
-        tau_a=tau[:n_a],
-        tau_u=tau[n_a:],
-        delta_q_bar_a=np.linalg.solve(K_q, (T.T @ of_state.of_springs)[:n_a]),  # Eq. (1)
-        contacts=contacts,
-        cone=cone,
-        extra=ties.together(limits, held.rows),
-    )
+    forces = T.T @ of_state.others, T.T @ of_state.of_springs
+    extra = ties.together(limits, held.rows)
+    step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (
         *of_state.left_out, *held.left_out, *free_limits, *free_contacts, *touches.words(state),
-        *touches.deep_words(state, step), *velocity_words(data),
+        *touches.deep_words(state, step), *velocity_words(data.qvel),
     )  # fmt: skip
     step, dofs, rubbed = with_friction(step, state, tied)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
@@ -244,10 +262,10 @@ def coordinate_name(state: Still, dof: int) -> str:
     return state.words("joint", joint) + own
 
 
-def velocity_words(data: Any) -> Iterator[str]:
-    """That the velocity is dropped, where there is one."""
-    if data.qvel.any():
-        yield f"velocity: dropped; its largest component is {np.abs(data.qvel).max():.2g}"
+def velocity_words(v: Array) -> Iterator[str]:
+    """That the velocity, (nv,), is dropped, where there is one."""
+    if v.any():
+        yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
 
 
 def quasi_dynamic_number(model: Any, data: Any, state: Still, h: float) -> float:

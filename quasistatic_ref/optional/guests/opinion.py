@@ -1,9 +1,8 @@
-"""A second opinion on the contacts of a MuJoCo state: MuJoCo's forces and motions next to exact."""
+"""A second opinion on the contacts of a state: an engine's forces and motions next to exact."""
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -12,32 +11,31 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.optional.guests import touches
-from quasistatic_ref.optional.guests.compared import WINDOW, Body, Compared, Contact
-from quasistatic_ref.optional.guests.findings import Finding, findings
-from quasistatic_ref.optional.guests.mujoco import mujoco_step
-from quasistatic_ref.optional.guests.settled import velocities
-from quasistatic_ref.optional.guests.still import still
+from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, Said
+from quasistatic_ref.optional.guests.findings import Finding, Words, findings
+from quasistatic_ref.optional.guests.mujoco import Coordinates
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.tolerances import CREEP
+from quasistatic_ref.step.data import StepData
 
-FORMAT, VERSION = "quasistatic-ref/opinion", 1
+FORMAT, VERSION = "quasistatic-ref/opinion", 2
 SHOWN = 1e-6
 """Smallest number that is printed, in its unit; a difference, in a thousandth of what differs."""
 SHORT = 0.01
-"""Time step for forces of what slides, over MuJoCo's [-]: lift-off is 1e-4 of the former."""
+"""Time step for forces of what slides, over the engine's [-]: lift-off is 1e-4 of the former."""
 MOST_LINES = 5
 """Sentences about what is left out that are printed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Opinion(Plain):
-    """What MuJoCo and the exact model say of the same contacts.
+    """What an engine and the exact model say of the same contacts.
 
     Parameters
     ----------
+    engine : str
+        ``"MuJoCo"`` or ``"Drake"``.
     h : float
-        Time step of the exact answer, MuJoCo's own [s].
+        Time step of the exact answer, the engine's own [s].
     tolerance : float
         Speed up to which a contact holds [m/s].
     certificate : str
@@ -50,6 +48,7 @@ class Opinion(Plain):
         What the exact answer does not have, or holds as it is.
     """
 
+    engine: str
     h: float
     tolerance: float
     certificate: str
@@ -67,15 +66,15 @@ class Opinion(Plain):
         return "\n".join(self._lines())
 
     def _lines(self) -> Iterator[str]:
-        sides = [(c.mujoco, c.exact) for c in self.contacts]
-        yield "MuJoCo's numbers, the exact ones, and how they differ"
+        sides = [(c.theirs, c.exact) for c in self.contacts]
+        yield f"{self.engine}'s numbers, the exact ones, and how they differ"
         yield from aligned(_table(
             "contact", [c.name for c in self.contacts], sides,
             {"normal [N]": ("normal", 1), "friction [N]": ("friction", 1),
              "torque [N mm]": ("torque", 1e3), "of its limit": ("share", 1)},
         ))  # fmt: skip
         yield ""
-        motions = [(b.mujoco, b.exact) for b in self.bodies]
+        motions = [(b.theirs, b.exact) for b in self.bodies]
         yield from aligned(_table(
             "body", [b.name for b in self.bodies], motions,
             {"moves [mm/s]": ("speed", 1e3), "turns [deg/s]": ("turn", 180 / np.pi)},
@@ -84,12 +83,13 @@ class Opinion(Plain):
         yield from (f"- {finding.sentence}" for finding in self.findings)
         if not self.findings:
             yield "no finding" if self.contacts else "no finding: nothing touches"
-        moving = [b.name for b in self.bodies if b.fastest(b.mujoco) > self.tolerance]
+        moving = [b.name for b in self.bodies if b.fastest(b.theirs) > self.tolerance]
         if moving and {*moving} - {finding.body for finding in self.findings}:
-            yield f"in MuJoCo, these still move: {', '.join(moving)}; a state at rest says more"
+            still = f"in {self.engine}, these still move: {', '.join(moving)}"
+            yield f"{still}; a state at rest says more"
         yield from (f"  {sentence}" for sentence in self.left_out[:MOST_LINES])
         if len(self.left_out) > MOST_LINES:
-            yield f"  and {len(self.left_out) - MOST_LINES} more; --json has all of them"
+            yield f"  and {len(self.left_out) - MOST_LINES} more; left_out has all of them"
 
 
 def _table(
@@ -98,7 +98,7 @@ def _table(
     sides: Sequence[tuple[Any, Any]],
     columns: Mapping[str, tuple[str, float]],
 ) -> list[tuple[str, ...]]:
-    """Rows with three columns for each number: MuJoCo's, the exact one, how they differ."""
+    """Rows with three columns for each number: the engine's, the exact one, how they differ."""
     rows = [(first, *(word for column in columns for word in (column, "exact", "diff")))]
     for name, (theirs, exact) in zip(names, sides, strict=True):
         cells = []
@@ -117,66 +117,51 @@ def _digits(number: float, size: float = 1.0) -> str:
     return f"{number if abs(number) > SHOWN * size else 0.0:.3g}"
 
 
-def second_opinion(model: Any, data: Any, tolerance: float = CREEP) -> Opinion:
-    """What MuJoCo says of the contacts of a state, and what rigid bodies with that friction do.
+def opinion_of(
+    said: Said,
+    step_of: Callable[[float], tuple[StepData, Coordinates]],
+    h: float,
+    tolerance: float,
+    words: Words,
+    weight: float,
+    reasons: Callable[[StepData], Mapping[str, str]],
+) -> Opinion:
+    """The exact answer next to an engine's, and what is found.
 
     Parameters
     ----------
-    model : mujoco.MjModel
-    data : mujoco.MjData
-        Neither is changed. A state that has settled says most.
+    said : Said
+    step_of : callable
+        The step of the state with a time step [s].
+    h : float
+        The engine's time step [s].
     tolerance : float
         Speed up to which a contact holds [m/s].
-
-    Returns
-    -------
-    Opinion
-        It prints as tables and sentences.
+    words : Words
+    weight : float
+        Of the whole model [N].
+    reasons : callable
+        What keeps deep contacts of the step where they are.
 
     Raises
     ------
     InputError
         If `tolerance` is not positive.
-    ModelError
-        As of ``mujoco_step``, and if MuJoCo's simulation is unstable.
-
-    Examples
-    --------
-    >>> import mujoco
-    >>> box = '<body name="box" pos="0 0 .05"><freejoint/><geom type="box" size=".05 .05 .05"/>'
-    >>> floor = '<geom name="floor" type="plane" size="1 1 1"/>'
-    >>> text = f"<mujoco><worldbody>{floor}{box}</body></worldbody></mujoco>"
-    >>> model = mujoco.MjModel.from_xml_string(text)
-    >>> opinion = qr.second_opinion(model, mujoco.MjData(model))
-    >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # a quarter of 1 kg [N]
-    ((), 2.4525)
     """
     if not 0 < tolerance < np.inf:
         raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
-    h = float(model.opt.timestep)
-    step, coordinates = mujoco_step(model, data, h)
+    step, coordinates = step_of(h)
     T = coordinates.T
     answer = solve_step(step)
-    state = still(model, data)
-    state.run()
-    now = copy.copy(data)
-    state.mujoco.mj_forward(model, now)
-    means = velocities(model, now, WINDOW)
     exact = T @ answer.delta_q / h
-    both = Compared(state, now, answer, exact / h, *means, exact)
+    both = Compared(said, answer, exact / h, exact)
     contacts = tuple(both.contacts())
     if any(c.exact and c.exact.slip > tolerance for c in contacts):
         # What slides lifts off by a part of its way, about a h^2, against what presses it.
-        short = solve_step(mujoco_step(model, data, h * SHORT)[0])
-        acceleration = T @ short.delta_q / (h * SHORT) ** 2
-        both = Compared(state, now, short, acceleration, *means, exact)
+        short = solve_step(step_of(h * SHORT)[0])
+        both = Compared(said, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    reasons = {name: reason for name, _, reason in touches.deep(state, step)}
-    slower = (
-        f'option: cone="elliptic" with impratio above {model.opt.impratio:g}, or noslip_iterations'
-    )
-    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
-    found = tuple(findings(contacts, bodies, reasons, weight, tolerance, slower))
+    found = tuple(findings(contacts, bodies, reasons(step), weight, tolerance, words))
     kind = answer.certificate.kind
-    return Opinion(h, tolerance, kind, contacts, bodies, found, coordinates.left_out)
+    return Opinion(words.engine, h, tolerance, kind, contacts, bodies, found, coordinates.left_out)

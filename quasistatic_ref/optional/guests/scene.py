@@ -18,8 +18,9 @@ from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.guests.moves import Placed
 from quasistatic_ref.optional.guests.settled import numbered
-from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
+from quasistatic_ref.optional.guests.system import MujocoSystem
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
@@ -174,12 +175,11 @@ def mujoco_scenario(
     Examples
     --------
     >>> import mujoco
-    >>> ball = '<body pos="0 0 0.1"><freejoint/><geom name="ball" size="0.1" mass="0.3"/></body>'
-    >>> floor = '<geom name="floor" type="plane" size="1 1 1"/>'
-    >>> text = f"<mujoco><worldbody>{floor}{ball}</worldbody></mujoco>"
+    >>> falls = '<body pos="0 0 1"><freejoint/><geom size="0.1"/></body>'
+    >>> text = f"<mujoco><worldbody>{falls}</worldbody></mujoco>"
     >>> scene = qr.mujoco_scenario(mujoco.MjModel.from_xml_string(text), steps=3)
-    >>> scene.run(progress=False).forces[:, 0, 2].round(3)  # the weight [N]
-    array([2.943, 2.943, 2.943])
+    >>> scene.run(progress=False).q[:, 2].round(6)  # it falls by g h^2 a step [m]
+    array([1.      , 0.999019, 0.998038, 0.997057])
     """
     mujoco = needed_package("mujoco", "engines", "mujoco_scenario")
     tables = dict(START)

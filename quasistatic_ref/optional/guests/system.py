@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import copy
 import hashlib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Mapping
+from dataclasses import replace
 from threading import RLock
 from typing import Any
 
@@ -18,7 +17,6 @@ from quasistatic_ref.contact.jacobian import columns_at
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import UnitParts
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
@@ -29,7 +27,7 @@ from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.named import Named
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.guests import ties
-from quasistatic_ref.optional.guests.fates import check, kind_of, named
+from quasistatic_ref.optional.guests.fates import check, check_run, kind_of, named
 from quasistatic_ref.optional.guests.loads import (
     Spring,
     check_stiff,
@@ -38,12 +36,13 @@ from quasistatic_ref.optional.guests.loads import (
     passive_springs,
     stiffness,
 )
+from quasistatic_ref.optional.guests.moves import Columns, Placed
 from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
 from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.places import Places
 from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, Mask, read_only
+from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import FILLED, FULL_RANK
@@ -59,46 +58,6 @@ NOTHING = '<robot name="mujoco"><link name="body"/></robot>'
 """In place of the URDF of a body, whose visual elements a page would show."""
 ELSEWHERE = 0.1
 """How far from the start springs are looked at once more [m, rad]."""
-
-
-class Columns(ColumnMap):
-    """Which of MuJoCo's velocities move a body, and with which coordinates.
-
-    Parameters
-    ----------
-    moves : ndarray, shape (L, 1, nv)
-        1 where a velocity moves a body [-].
-    T : ndarray, shape (nv, n_v)
-        MuJoCo's displacement, per unit of the coordinates [-].
-    """
-
-    def __init__(self, moves: Array, T: Array) -> None:
-        self.moves = moves
-        self.T = T
-        self.n_v = T.shape[1]
-        self.owner = np.abs(T).argmax(axis=1)
-
-    @cached_property
-    def coordinates(self) -> Array:
-        """T, shape (nv, n_v) [-]."""
-        return self.T
-
-    def of_coordinates(self, columns: Array) -> Array:
-        """`columns` of MuJoCo's velocities, (..., nv), per unit of delta_q, (..., n_v) [m, rad]."""
-        per_unit: Array = columns @ self.T
-        return per_unit
-
-
-@dataclass(frozen=True, eq=False)
-class Placed(Kinematics):
-    """Where every body is, how it moves, and what MuJoCo finds closest.
-
-    Parameters
-    ----------
-    points : ClosestPoints, optional
-    """
-
-    points: ClosestPoints | None = None
 
 
 class MujocoSystem(System):
@@ -180,7 +139,7 @@ class MujocoSystem(System):
         of_state = replace(of_state, springs=self.springs)
         tied = ties.tied_joints(state, ("JOINT",), of_state.heavy(state.M, h))
         self._taken = tied.eliminated
-        self._follow = followers(state, tied)
+        self._follow = ties.followers(state, tied)
         order, self.n_a, self.K_q = actuated(state, of_state, tied.T)
         self.T = tied.T[:, order]
         self.dofs = tied.dofs[order]
@@ -454,58 +413,6 @@ class MujocoSystem(System):
         """MuJoCo's first configuration, shape (n_q,)."""
         return np.asarray(self.model.qpos0[self._entries])
 
-    def load(
-        self,
-        q: Array,
-        name: str,
-        force: ArrayLike = (0.0, 0.0, 0.0),
-        torque: ArrayLike = (0.0, 0.0, 0.0),
-        at: ArrayLike | None = None,
-    ) -> Array:
-        """Generalised force of a force and torque on a link, shape (n_v,); see ``System.load``."""
-        here, i = self.kinematics(q), self.link(name)
-        arm = here.R[i] @ self.centres[i] if at is None else np.asarray(at) - here.t[i]
-        push = np.asarray(force, dtype=np.float64)
-        moment = np.asarray(torque) + np.cross(arm, push)
-        return np.asarray(here.J[i].T @ np.concatenate([push, moment]))
-
-
-def check_run(state: Still) -> None:
-    """Refuse what a state can say and a run cannot: ModelError, naming element and field."""
-    model = state.model
-    loose: Mask = model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1]
-    for i in np.flatnonzero(loose & (model.tendon_stiffness > 0)).tolist():
-        problem = "has a range in which the spring is slack, and K_q is that of a whole run"
-        raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
-    sticky = "pulls at every gap within the margin of a run; leave it out"
-    for i in range(model.nu):
-        if kind_of(state, "actuator_trntype", i) == "BODY":
-            raise ModelError(sticky, field=f"{state.words('actuator', i)}.body")
-    for field in ("geom_adhesion", "pair_adhesion"):
-        for i in np.flatnonzero(getattr(model, field))[:1].tolist():
-            raise ModelError(sticky, field=named(state, field, i))
-
-
-def followers(state: Still, tied: ties.Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
-    """Joints that follow others: their entries of qpos, the other's (-1: none), and a line.
-
-    Raises
-    ------
-    ModelError
-        Naming an equality of higher order, or one that takes another joint than its first.
-    """
-    model = state.model
-    found = []
-    for row in tied.eliminated:
-        i = int(state.data.efc_id[row])
-        a, b, *higher = model.eq_data[i, :5].tolist()
-        if any(higher):
-            problem = "couples joints by more than a line; a run has a and b of polycoef"
-            raise ModelError(problem, field=f"{state.words('equality', i)}.polycoef", value=higher)
-        first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
-        of_second = int(model.jnt_qposadr[second]) if second >= 0 else -1
-        found.append((int(model.jnt_qposadr[first]), of_second, (a, b)))
-    taken = {int(model.jnt_dofadr[model.eq_obj1id[state.data.efc_id[r]]]) for r in tied.eliminated}
-    if taken & set(tied.dofs.tolist()):
-        raise ModelError("of joints tie a joint twice; leave one out", field="equality")
-    return found
+    def _centre(self, name: str, link: int) -> Array:
+        """Where a load acts by default: the centre of mass of MuJoCo's body."""
+        return np.asarray(self.centres[link])

@@ -214,3 +214,28 @@ def _rows(parts: Sequence[tuple[list[str], Array, Array]], n: int) -> Extra:
     names = [name for part in parts for name in part[0]]
     A = np.concatenate([part[1] for part in parts])
     return Extra(tuple(names), A.reshape(-1, n), np.concatenate([part[2] for part in parts]))
+
+
+def followers(state: Still, tied: Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
+    """Joints that follow others: their entries of qpos, the other's (-1: none), and a line.
+
+    Raises
+    ------
+    ModelError
+        Naming an equality of higher order, or one that takes another joint than its first.
+    """
+    model = state.model
+    found = []
+    for row in tied.eliminated:
+        i = int(state.data.efc_id[row])
+        a, b, *higher = model.eq_data[i, :5].tolist()
+        if any(higher):
+            problem = "couples joints by more than a line; a run has a and b of polycoef"
+            raise ModelError(problem, field=f"{state.words('equality', i)}.polycoef", value=higher)
+        first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
+        of_second = int(model.jnt_qposadr[second]) if second >= 0 else -1
+        found.append((int(model.jnt_qposadr[first]), of_second, (a, b)))
+    taken = {int(model.jnt_dofadr[model.eq_obj1id[state.data.efc_id[r]]]) for r in tied.eliminated}
+    if taken & set(tied.dofs.tolist()):
+        raise ModelError("of joints tie a joint twice; leave one out", field="equality")
+    return found

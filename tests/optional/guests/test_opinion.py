@@ -62,7 +62,7 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(
     assert block.asked == pytest.approx(GRAVITY * np.sin(slope), rel=1e-6)
     assert block.bears == pytest.approx(0.5 * GRAVITY * np.cos(slope), rel=1e-6)
     cap = opinions["capsule"].bodies[-1]
-    normal = sum(c.mujoco.normal for c in opinions["capsule"].contacts)
+    normal = sum(c.theirs.normal for c in opinions["capsule"].contacts)
     assert cap.asked == pytest.approx(0.045 * GRAVITY, rel=1e-6)
     assert cap.bears == pytest.approx(0.7 * normal, rel=1e-3)
     mug = opinions["mug"].bodies[-1]

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
@@ -15,8 +17,12 @@ from quasistatic_ref.lab.folders import peer_file
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
+from quasistatic_ref.optional.derivatives.step.touching import touching_rows
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, StepData
 
 TIGHT, AS_IT_COMES, DEFAULT = 1e-8, 1e-7, 1e-4
 """Of its runs with tolerances of 1e-12, with Clarabel's own and with OSQP [m, rad]: what these
@@ -28,6 +34,8 @@ STIFFNESS = {"joint_1": 50.0, "joint_2": 25.0}
 BASE, LINK, RADIUS, BALL = 0.1, 0.3, 0.05, 0.25
 """Distance of the arms from the middle, length of their first link, radii [m]."""
 LIGHT = (1e-6,) * 3
+INSTANCES, ORDER = ("sphere", "arm_left", "arm_right"), [4, 5, 6, 0, 1, 2, 3]
+"""The peer's order of coordinates, and where they are in ours."""
 
 
 def arm(side: float) -> str:
@@ -64,8 +72,8 @@ def ball() -> str:
     )
 
 
-def ours(model: dict[str, Any]) -> Array:
-    """y, z and angle of the ball, and joints of both arms, after each step, (steps, 7) [m, rad]."""
+def ours(model: dict[str, Any]) -> list[StepResult]:
+    """Each step of our scene, whose coordinates are joints of both arms, then those of the ball."""
     start = model["start"]
     bodies = [
         Body(
@@ -92,37 +100,89 @@ def ours(model: dict[str, Any]) -> Array:
                 STIFFNESS, start[f"arm_{name}"], model["rate"][f"arm_{name}"], strict=True
             )
         }
-        q = simulator.step(q, system.placed(target)[: system.n_q_a]).q
-        joints = [system.of(q, f"{name}/{joint}") for name in HAND for joint in STIFFNESS]
-        found.append([*(system.of(q, f"ball/{joint}") for joint in ("y", "z", "turn")), *joints])
-    return np.array(found)
+        found.append(simulator.step(q, system.placed(target)[: system.n_q_a]))
+        q = found[-1].q
+    return found
+
+
+def held(step: StepData) -> DataRates:
+    """Rates of a step's data by targets, and by q while J, masses and loads stay as they are."""
+    springs = step.h * np.pad(step.K_q, ((0, step.n_u), (0, 0)))
+    load = np.hstack([springs, -springs, np.zeros((step.n_v, step.n_u))])
+    motion = np.zeros((step.contacts.n_c, 4, load.shape[1]))
+    motion[:, 0, step.n_a :] = np.einsum("jc,jcv->jv", step.contacts.n, step.contacts.J[:, :3])
+    terms = np.abs(motion).max(axis=(0, 1), initial=0.0)
+    return DataRates(load, motion, terms, lambda y: np.zeros(load.shape))
+
+
+def gradients(answer: StepSolution) -> tuple[Array, Array]:
+    """The peer's B and A: dq+/du (n_v, n_a) and dq+/dq (n_v, n_v); NaN where there is none."""
+    step = answer.step
+    found = Equations(touching_rows(answer, np.zeros(step.contacts.n_c))).rates(held(step))
+    x = found.x.copy()
+    none = np.zeros(x.shape[1], dtype=bool)
+    x[:, np.any([none, *found.contradicts.values(), *found.opens], axis=0)] = np.nan
+    return x[:, : step.n_a], np.eye(step.n_v) + x[:, step.n_a :]
+
+
+def in_plane(step: StepData) -> StepData:
+    """A step with two rows of each contact, gap + slip and gap - slip in the plane of y and z.
+
+    Each row is that of a contact without friction whose normal motion it is.
+    """
+    contacts = step.contacts
+    along = np.cross([1.0, 0.0, 0.0], contacts.n)
+    J = contacts.J[:, :3]
+    gaps = np.einsum("jc,jcv->jv", contacts.n, J)
+    slips = contacts.mu_v[:, None] * np.einsum("jc,jcv->jv", along, J)
+    rows = np.stack([gaps + slips, gaps - slips], axis=1).reshape(-1, step.n_v)
+    n = contacts.n.repeat(2, axis=0)
+    motion = np.pad(n[:, :, None] * rows[:, None], ((0, 0), (0, 1), (0, 0)))
+    d1, d2 = tangents(n)
+    facets = Contacts(
+        name=tuple(f"{name} {side}" for name in contacts.name for side in "+-"),
+        phi=contacts.phi.repeat(2), n=n, d1=d1, d2=d2, J=motion,
+        mu_v=np.zeros(len(n)), mu_omega=np.zeros(len(n)), rows=np.full(len(n), 4),
+    )  # fmt: skip
+    return step.replace(contacts=facets, cone="frictionless")
 
 
 def evidence() -> Evidence:
-    """Sixty steps, in which the hand closes and turns the ball, against three of its runs."""
+    """Sixty steps, in which the hand closes and turns the ball, against three of its runs.
+
+    Its gradients by targets, in every tenth step, are compared where ours exist.
+    """
     given = json_read(peer_file())
-    mine = ours(given["model"])
-    columns = ("sphere", "arm_left", "arm_right")
-    limits = {"clarabel, tight": TIGHT, "clarabel": AS_IT_COMES, "osqp": DEFAULT}
+    results = ours(given["model"])
+    mine = np.array([result.q[ORDER] for result in results])
+    every = len(results) // len(given["gradients"])
+    pairs = [
+        (B, theirs["B"])
+        for result, theirs in zip(results[::every], given["gradients"], strict=True)
+        if not np.isnan(B := gradients(result.solution)[0][ORDER]).any()
+    ]
+    limits = {"clarabel 1e-12": TIGHT, "clarabel 1e-8": AS_IT_COMES, "osqp": DEFAULT}
     return Evidence.of(
         *(
             comparison(
                 f"coordinates, {solver} [m, rad]",
                 mine,
-                np.hstack([np.array(given["runs"][solver][name]) for name in columns]),
+                np.hstack([np.array(given["runs"][solver][name]) for name in INSTANCES]),
                 limit,
             )
             for solver, limit in limits.items()
-        )
+        ),
+        comparison("dq+/du [-]", [B for B, _ in pairs], [B for _, B in pairs], TIGHT),
     )
 
 
 CLAIM = Claim(
     name="peer",
     sentence="The planar hand of quasistatic_simulator, written as a scene of ours, goes the way "
-    "of its own runs.",
+    "of its own runs, and has its gradients.",
     where="Pang and Tedrake, quasistatic_simulator (c917755), Python path with Drake's solvers",
-    sweep="two arms of two joints close on a ball and turn it, 60 steps of 50 ms",
+    sweep="two arms of two joints close on a ball and turn it, 60 steps of 50 ms; gradients "
+    "of every tenth",
     reason="TIGHT, AS_IT_COMES, DEFAULT: what its solvers leave at their tolerances.",
     measure=evidence,
 )

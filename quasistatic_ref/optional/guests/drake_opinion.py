@@ -1,0 +1,221 @@
+"""What Drake says of the contacts of a state, and the second opinion on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests.compared import WINDOW, Mover, Said, Touch
+from quasistatic_ref.optional.guests.drake import MARGIN, at_rest, drake_step, pairs
+from quasistatic_ref.optional.guests.findings import Words
+from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
+from quasistatic_ref.parts import needed_package
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import CREEP
+
+CONTINUOUS = 1e-3
+"""Time step of the exact answer where a plant has none [s]."""
+
+
+def drake_opinion(
+    diagram: Any,
+    context: Any,
+    stiffness: Mapping[str, float] | None = None,
+    targets: Mapping[str, float] | None = None,
+    tolerance: float = CREEP,
+    margin: float = MARGIN,
+) -> Opinion:
+    """What Drake says of the contacts of a state, and what rigid bodies with that friction do.
+
+    Parameters
+    ----------
+    diagram : pydrake.systems.framework.Diagram
+        With one plant and its scene graph, and what drives them.
+    context : pydrake.systems.framework.Context
+        The diagram's. It is not changed. A state that has settled says most.
+    stiffness, targets : mapping of str to float, optional
+        Of actuated joints, as of ``drake_step`` [N/m, N m/rad; m, rad]: those of the controllers.
+    tolerance : float
+        Speed up to which a contact holds [m/s].
+    margin : float
+        Gap up to which Drake looks for contacts [m].
+
+    Returns
+    -------
+    Opinion
+        It prints as tables and sentences. Gaps that are violated count as closed.
+
+    Raises
+    ------
+    InputError
+        If `tolerance` is not positive.
+    ModelError
+        As of ``drake_step``, and if there is another number of plants or a contact is a surface.
+
+    Examples
+    --------
+    >>> import pydrake.all as drake
+    >>> builder = drake.DiagramBuilder()
+    >>> plant, _ = drake.AddMultibodyPlantSceneGraph(builder, 0.001)
+    >>> ball = plant.AddRigidBody("ball", drake.SpatialInertia.SolidSphereWithMass(0.3, 0.1))
+    >>> rubs, at = drake.CoulombFriction(0.5, 0.5), drake.RigidTransform([0, 0, 0.0999])
+    >>> here = drake.RigidTransform()
+    >>> _ = plant.RegisterCollisionGeometry(ball, here, drake.Sphere(0.1), "ball", rubs)
+    >>> floor = drake.HalfSpace()
+    >>> _ = plant.RegisterCollisionGeometry(plant.world_body(), here, floor, "floor", rubs)
+    >>> plant.Finalize()
+    >>> diagram = builder.Build()
+    >>> context = diagram.CreateDefaultContext()
+    >>> plant.SetFreeBodyPose(plant.GetMyContextFromRoot(context), ball, at)
+    >>> simulator = drake.Simulator(diagram, context.Clone())
+    >>> _ = simulator.AdvanceTo(1.0)
+    >>> opinion = qr.drake_opinion(diagram, simulator.get_context())
+    >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # the weight [N]
+    ((), 2.943)
+    """
+    drake = needed_package("pydrake.all", "drake", "drake_opinion")
+    plants = [s for s in diagram.GetSystems() if isinstance(s, drake.MultibodyPlant)]
+    if len(plants) != 1:
+        raise ModelError("must have one plant", field="diagram", value=len(plants))
+    (plant,) = plants
+    step_of = partial(
+        drake_step, plant, plant.GetMyContextFromRoot(context), stiffness=stiffness or {},
+        targets=targets, margin=margin,
+    )  # fmt: skip
+    h = float(plant.time_step()) or CONTINUOUS
+    step_of(h)  # refuses what no step can say
+    of_plant = plant.GetMyContextFromRoot(context)
+    own = at_rest(plant, of_plant)
+    mean, later = velocities(drake, diagram, plant, context)
+    gravity = np.array(plant.gravity_field().gravity_vector())
+    said = Said(
+        touches=tuple(touches(drake, plant, of_plant, own, margin)),
+        movers=tuple(movers(drake, plant, of_plant, own)),
+        M=plant.CalcMassMatrix(own),
+        gravity=gravity,
+        v=plant.GetVelocities(of_plant),
+        acceleration=plant.get_generalized_acceleration_output_port().Eval(of_plant),
+        mean=mean,
+        later=later,
+    )
+    weight = float(plant.CalcTotalMass(own) * np.linalg.norm(gravity))
+    return opinion_of(said, step_of, h, tolerance, words(drake, plant), weight, lambda step: {})
+
+
+def words(drake: Any, plant: Any) -> Words:
+    """What sentences call Drake's options."""
+    sap = plant.time_step() and (
+        plant.get_discrete_contact_approximation() == drake.DiscreteContactApproximation.kSap
+    )
+    slower = "a smaller time_step" if sap else "set_stiction_tolerance with a smaller one"
+    return Words(
+        engine="Drake",
+        yields="Drake documents that it regularises friction near rest",
+        slower=f"MultibodyPlant: {slower}",
+        stronger="proximity properties: coulomb_friction, or what presses the bodies together",
+        spins="geometries: more points of contact; Drake's have no torsional friction",
+        rests="what Drake has and a step has not: the damping of joints, gains of controllers",
+        apart="poses of bodies, or a collision filter for bodies that may overlap",
+    )
+
+
+def velocities(drake: Any, diagram: Any, plant: Any, context: Any) -> tuple[Array, Array]:
+    """Drake's mean velocity over a WINDOW, and over the one after it, (nv,) each."""
+    simulator = drake.Simulator(diagram, context.Clone())
+    now = plant.GetMyContextFromRoot(simulator.get_mutable_context())
+    means = []
+    for _ in range(2):
+        start = plant.GetPositions(now).copy()
+        began = simulator.get_context().get_time()
+        simulator.AdvanceTo(began + WINDOW)
+        rate = (plant.GetPositions(now) - start) / WINDOW
+        means.append(np.array(plant.MapQDotToVelocity(now, rate)))
+    return means[0], means[1]
+
+
+def touches(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> Iterator[Touch]:
+    """Drake's contacts: pairs that are closed, or that it presses.
+
+    Parameters
+    ----------
+    drake : module
+    plant, context, own : object
+        Drake's.
+    margin : float
+        [m].
+
+    Raises
+    ------
+    ModelError
+        If one is a surface, for which the step has one point.
+    """
+    results = plant.get_contact_results_output_port().Eval(context)
+    if results.num_hydroelastic_contacts():
+        problem = "has surfaces of contact, for each of which a step has one point; take kPoint"
+        raise ModelError(problem, field="plant contact_model")
+    forces = {}
+    for i in range(results.num_point_pair_contacts()):
+        info = results.point_pair_contact_info(i)
+        A, B = info.point_pair().id_A, info.point_pair().id_B
+        forces[B, A], forces[A, B] = -info.contact_force(), info.contact_force()  # on the second
+    for pair in pairs(drake, plant, context, own, margin):
+        force = forces.get(pair.geometries)
+        if pair.phi > 0 and force is None:
+            continue
+        frame = np.array(tangents(pair.n[None]))[:, 0]
+        f = np.zeros(3) if force is None else np.asarray(force)
+        alpha, beta = (called(plant, body) for body in pair.bodies)
+        yield Touch(
+            pair.name, (alpha, beta), -pair.phi, pair.mu_v, 0.0, pair.J, frame,
+            np.array([*(frame @ f), pair.n @ f, 0.0]),
+        )  # fmt: skip
+
+
+def called(plant: Any, body: Any) -> str:
+    """The name of what a body is welded to; ``"world"`` for what cannot move."""
+    first = min(plant.GetBodiesWeldedTo(body), key=lambda one: int(one.index()))
+    if first.index() == plant.world_body().index():
+        return "world"
+    alone = plant.NumBodiesWithName(first.name()) == 1
+    return str(first.name() if alone else first.scoped_name())
+
+
+def movers(drake: Any, plant: Any, context: Any, own: Any) -> Iterator[Mover]:
+    """The bodies that can move, each with all that is welded to it."""
+    inspector = plant.get_geometry_query_input_port().Eval(context).inspector()
+    world = plant.world_frame()
+    M = plant.CalcMassMatrix(own)
+    seen = {"world"}
+    for i in range(plant.num_bodies()):
+        body = plant.get_body(drake.BodyIndex(i))
+        name = called(plant, body)
+        if name in seen:
+            continue
+        seen.add(name)
+        group = plant.GetBodiesWeldedTo(body)
+        masses = np.array([one.get_mass(own) for one in group])
+        places = [plant.EvalBodyPoseInWorld(own, one) for one in group]
+        centres = np.array([
+            X @ one.CalcCenterOfMassInBodyFrame(own) for X, one in zip(places, group, strict=True)
+        ])  # fmt: skip
+        centre = masses @ centres / masses.sum() if masses.sum() else centres[0]
+        at = plant.EvalBodyPoseInWorld(own, body).inverse() @ centre
+        J = plant.CalcJacobianSpatialVelocity(
+            own, drake.JacobianWrtVariable.kV, body.body_frame(), at, world, world
+        )
+        moves = J.any(axis=0)
+        free = body.is_floating_base_body() and not M[np.ix_(moves, ~moves)].any()
+        size = 0.0
+        for X, one in zip(places, group, strict=True):
+            for geometry in plant.GetCollisionGeometriesForBody(one):
+                box = inspector.GetObbInGeometryFrame(geometry)
+                if box is not None:
+                    middle = X @ inspector.GetPoseInFrame(geometry) @ box.center()
+                    reach = np.linalg.norm(middle - centre) + np.linalg.norm(box.half_width())
+                    size = max(size, float(reach))
+        yield Mover(name, float(masses.sum()), size, bool(free), J[3:], J[:3])
