@@ -11,6 +11,7 @@ from quasistatic_ref.lab.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.bench.report import promise_rows
 from quasistatic_ref.lab.bench.timing import in_turn, least
+from quasistatic_ref.lab.bench.whole_run import WALL
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from tests.extras import missing
 from tests.helpers import error
@@ -31,8 +32,10 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert set(found["grasp"]) == {"step", "over_solver", "certified", "certified, p99"}
     in_jax = set() if missing("jax") else {MAPPED, "step_jax"}
     assert set(found["derivatives"]) == {STEP, "derivatives"} | in_jax
+    of_run = found["run"]
+    assert of_run[WALL] > of_run["the stages of its steps"] > 0.0
     text = (tmp_path / "bench.md").read_text()
-    for title in ("certificate", "Derivatives", "Scenes of solids"):
+    for title in ("certificate", "300 steps", "Derivatives", "Scenes of solids"):
         assert title in text
     assert f"| full, plain | {found['certification']['full, plain']:.1f} |" in text
     assert text.count("| not judged |") == len(found["promises"])

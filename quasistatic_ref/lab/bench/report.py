@@ -7,6 +7,7 @@ from quasistatic_ref.lab.bench.acceptance import PAPER
 from quasistatic_ref.lab.bench.derived import SCENE, STEP
 from quasistatic_ref.lab.bench.grasp import PLAIN
 from quasistatic_ref.lab.bench.solids import COLUMNS
+from quasistatic_ref.lab.bench.whole_run import WALL
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.solve.backends import CERTIFY
 
@@ -63,6 +64,7 @@ def page(tables: Mapping[str, Any]) -> str:
             "With a certificate, fast; and on the plain path [us]",
             _over(tables["certification"], CERTIFY[0]),
         ),
+        *_section("300 steps of the grasp with all that a run does", _over(tables["run"], WALL)),
         *_section(f"Derivatives of a step of {SCENE}", _over(tables["derivatives"], STEP)),
         *_section("Scenes of solids [us]", _solids(tables["solids"])),
         "",

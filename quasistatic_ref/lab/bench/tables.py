@@ -16,6 +16,7 @@ from quasistatic_ref.lab.bench.grasp import (
     places,
 )
 from quasistatic_ref.lab.bench.solids import SCENES, solid_scenes
+from quasistatic_ref.lab.bench.whole_run import whole_run
 from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.parts import fast_part
 from quasistatic_ref.solve.backends import installed
@@ -27,7 +28,7 @@ REPEAT = 12
 minute to minute, ratios of least times of 12 stay within 5 % of each other, of 2 within 20 %."""
 
 RUNS = 5
-"""Runs of a scene of solids, each from its start, so that they have the same steps."""
+"""Runs of a scene, each from its start, so that they have the same steps."""
 
 
 def tables(quick: bool, tell: Tell) -> dict[str, Any]:
@@ -58,6 +59,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     scenes = [*SCENES][:1] if quick else [*SCENES]
     each: dict[str, Callable[[], Any]] = {
         "certification": lambda: certification(some, twice),
+        "run": lambda: whole_run(6 if quick else 300, 1 if quick else RUNS),
         "derivatives": lambda: of_derivatives(2 if quick else 100, twice),
         "solids": lambda: solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS),
     }

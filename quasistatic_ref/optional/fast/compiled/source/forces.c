@@ -15,7 +15,7 @@
 
 #include "forces.h"
 
-enum { STEPS = 20, SEARCH = 30, SOFTEST = 30, GUESSES = 4, STARTS = 3, SWEEPS = 36 };
+enum { STEPS = 40, SEARCH = 30, SOFTEST = 30, GUESSES = 8, STARTS = 3, SWEEPS = 36 };
 enum { FIRST = 80, LAST = 240, FINER = 60, PRODUCTS = 1 << 14 };
 
 #define NEARLY 0x1p-44   /* by which a condition of a face may be missed in float64, over the lengths z */
@@ -218,11 +218,29 @@ static void assembled(Force *g)
         m->rest[i / n] -= m->K[i] * g->x[i % n];
 }
 
-static int inverted(Force *g)
+/* The way to where nothing is left to bear, by K = L D L'; 0 if a pivot is not positive. */
+static int aimed(Force *g)
 {
     int64_t n = g->s->n_v;
-    memcpy(g->m.R, g->m.K, (size_t)(n * n) * sizeof(double));
-    return inverse(g->m.R, n, g->m.pivot);
+    double *U = g->m.R, *x = g->way;
+    memcpy(U, g->m.K, (size_t)(n * n) * sizeof(double));
+    memcpy(x, g->m.rest, (size_t)n * sizeof(double));
+    for (int64_t c = 0; c < n; c++) {
+        if (!(U[c * n + c] > 0.0))
+            return 0;
+        for (int64_t i = c + 1; i < n; i++) {
+            double f = U[c * n + i] / U[c * n + c];
+            for (int64_t j = i; j < n && f != 0.0; j++)
+                U[i * n + j] -= f * U[c * n + j];
+            x[i] -= f * x[c];
+        }
+    }
+    for (int64_t i = n - 1; i >= 0; i--) {
+        for (int64_t j = i + 1; j < n; j++)
+            x[i] -= U[i * n + j] * x[j];
+        x[i] /= U[i * n + i];
+    }
+    return 1;
 }
 
 /* R times what is left to bear. */
@@ -305,10 +323,9 @@ static int settled(Force *g)
     for (int step = 0; step < STEPS; step++) {
         double first = 0.0;
         assembled(g);
-        if (!inverted(g))
+        if (!aimed(g))
             return 0;
         memcpy(g->before, g->f->face, n_c * sizeof(int64_t));
-        solved(g, g->way);
         for (size_t v = 0; v < n; v++)
             first += g->way[v] * g->m.rest[v];
         moved(g, step ? first : INFINITY);
@@ -531,7 +548,8 @@ static int forced(Force *g)
     Room *m = &g->m;
     int64_t n = g->s->n_v;
     assembled(g);
-    if (!inverted(g))
+    memcpy(m->R, m->K, (size_t)(n * n) * sizeof(double));
+    if (!inverse(m->R, n, m->pivot))
         return SINGULAR;
     for (int64_t i = 0; i < n * n; i++)
         g->size[i] *= 1.0 + 0.25 * (double)g->s->n_c; /* K is a sum of so many */
