@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from quasistatic_ref.model.system import System
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref import Scenario, System, load_scenario
 from tests.extras import missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref import Contacts, StepData, standard_form
 from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
@@ -10,8 +11,6 @@ from quasistatic_ref.optional.fast.backends import sparse_from
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Contacts, StepData
-from quasistatic_ref.step.standard_form import standard_form
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 from scipy.integrate import quad
 
-from quasistatic_ref import tolerances
+from quasistatic_ref import load_scenario, tolerances
 from quasistatic_ref.cli.time_step import time_step_record
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.cached_runs import grasp as run_of
@@ -30,7 +30,6 @@ from quasistatic_ref.lab.vectors.versions import RELEASE
 from quasistatic_ref.optional.account.motions import link_motion
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.optional.fast.compiled import library
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.helpers import error, pinch

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from quasistatic_ref.model.system import Body, System
+from quasistatic_ref import Body, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, collision, inertial, joint, link, robot, written
 
 

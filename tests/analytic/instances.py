@@ -3,6 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.closeness import assert_within
 
 G = 9.81
 INSTANCES = 40
@@ -16,7 +17,7 @@ def log(rng, low, high):
 
 def near(found, expected, scale):
     """Equal up to rounding, relative to a length or force of the instance."""
-    np.testing.assert_allclose(found, expected, rtol=0, atol=CLOSED_FORM * scale)
+    assert_within(found, expected, CLOSED_FORM * scale)
 
 
 def instances(rng, count=INSTANCES):

@@ -3,13 +3,14 @@
 import numpy as np
 
 from quasistatic_ref import load_scenario
+from tests.closeness import assert_relative, assert_within
 from tests.tolerances import SCENARIO
 
 G = 9.81
 H = 0.01
 
 
-def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
+def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag():
     mu_v = 0.4
     m = 0.5
     v = 0.01
@@ -17,26 +18,26 @@ def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
     trajectory = load_scenario("block_push", fast=True).run(progress=False)
     lag = trajectory["q_bar_a"][:, 0] - trajectory["q"][1:, 0]
     expected = (mu_v * m * G + m * v / H) / K_q
-    np.testing.assert_allclose(lag[200:], expected, rtol=SCENARIO, atol=0)
+    assert_relative(lag[200:], expected, SCENARIO)
     height = trajectory["q"][-1, 3] - 0.05
-    np.testing.assert_allclose(height, mu_v * H * v, rtol=SCENARIO, atol=0)
+    assert_relative(height, mu_v * H * v, SCENARIO)
 
 
-def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
+def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides():
     scenario = load_scenario("block_incline", fast=True)
     q = scenario.run(progress=False)["q"]
     rough, smooth = (scenario.system.joint(f"{name}/base").q for name in ("rough", "smooth"))
-    np.testing.assert_allclose(q[-1, rough], q[0, rough], rtol=0, atol=SCENARIO)
+    assert_within(q[-1, rough], q[0, rough], SCENARIO)
     a = np.radians(25)
     v = G * H * (np.sin(a) - 0.3 * np.cos(a))
     step = (q[-1] - q[-2])[smooth][:3]
-    np.testing.assert_allclose(step @ [np.cos(a), 0, -np.sin(a)], v * H, rtol=SCENARIO, atol=0)
+    assert_relative(step @ [np.cos(a), 0, -np.sin(a)], v * H, SCENARIO)
 
 
-def test_a_stack_stands_and_each_contact_carries_what_is_above() -> None:
+def test_a_stack_stands_and_each_contact_carries_what_is_above():
     trajectory = load_scenario("stack", fast=True).run(progress=False)
     q = trajectory["q"]
     n_z = trajectory["wrench"][-1][:, 2]
-    np.testing.assert_allclose(q[-1], q[0], rtol=0, atol=SCENARIO)
+    assert_within(q[-1], q[0], SCENARIO)
     loads = n_z.reshape(3, 4).sum(axis=1)
-    np.testing.assert_allclose(loads, [1.0 * G, 0.5 * G, 0.2 * G], rtol=SCENARIO, atol=0)
+    assert_relative(loads, [1.0 * G, 0.5 * G, 0.2 * G], SCENARIO)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref import coulomb_step
+from quasistatic_ref import StepData, coulomb_step, standard_form
 from quasistatic_ref.lab.claims.closed_forms.lift import MU_V, PAD, SQUEEZE, M, lifting_step
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
@@ -21,10 +21,9 @@ from quasistatic_ref.lab.scenes.rigid import (
     sphere_step,
 )
 from quasistatic_ref.lab.sweep_numbers import exact
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.analytic.instances import INFEASIBLE, INSTANCES, G, instances, log, near
+from tests.closeness import assert_relative, assert_within
 from tests.oracles.balance import balances
 from tests.oracles.random_steps import mixed_step
 
@@ -70,7 +69,7 @@ def test_r3_free_fall(rng):
         M_u = (M_u + M_u.T) / 2
         none = contacts_of([], np.zeros((0, 3, 3)), np.zeros((0, 4, 6)), 0.0)
         moved = exact(free_step(M_u, at_centre.T @ [*(m * down), 0, 0, 0], none, h)).delta_q
-        np.testing.assert_allclose(moved, [*(h**2 * down), 0, 0, 0], rtol=0, atol=1e-11 * h**2 * G)
+        assert_within(moved, [*(h**2 * down), 0, 0, 0], 1e-11 * h**2 * G)
 
 
 def test_r4_approach_and_penetration(rng, both):
@@ -322,7 +321,7 @@ def test_the_page_of_r45_has_the_g_of_the_step():
     (sign,) = re.findall(r"\$g = (-?)h\\,\[K_q\\,\\delta\\bar q_a \+ \\tau_a;\\ \\tau_u\]\$", page)
     step = mixed_step(3)
     g = step.h * np.append(step.K_q @ step.delta_q_bar_a + step.tau_a, step.tau_u)
-    np.testing.assert_allclose(standard_form(step).g, -g if sign else g, rtol=1e-12)
+    assert_relative(standard_form(step).g, -g if sign else g, 1e-12)
 
 
 def test_r46_smallest_step_of_a_lift(rng, both):

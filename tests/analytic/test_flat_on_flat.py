@@ -5,9 +5,8 @@ from itertools import islice
 import numpy as np
 import pytest
 
+from quasistatic_ref import Box, ContactError
 from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, OWN, SAYS
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.make.forces_by_hand import (
     BOX,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.lab.scenes.rigid import rigid_step
-from quasistatic_ref.solve.solve import solve_step
 from tests.oracles.held_torque import held_torque
 
 HEIGHT = 0.02

@@ -6,13 +6,12 @@ import json
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.optional.account.motions import rotation_angle
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import SLOW
+from tests.closeness import assert_relative, assert_within
 from tests.tolerances import (
-    EXACT,
     MULTIPLIERS,
     ROUNDING,
 )
@@ -61,7 +60,7 @@ def test_with_torsion_the_bunny_hangs_still_and_without_it_turns(scenario, runs)
 def test_the_bunny_starts_at_rest_and_drag_is_small_ever_after(runs, demo, case):
     run = runs[case]
     assert np.abs(run["delta_q"][:20, 7:]).max() < AT_REST
-    np.testing.assert_allclose(run["wrench"][0, :5, 2].sum(), 0.2 * 9.81, rtol=1e-3)
+    assert_relative(run["wrench"][0, :5, 2].sum(), 0.2 * 9.81, 1e-3)
     assert run.header["largest_drag_share"] < SLOW
     assert run.findings == ()
     assert "drag" not in demo.errors
@@ -73,19 +72,19 @@ def test_the_report_of_the_demo_is_that_of_the_trajectories(demo, scenario, runs
     for case, run in runs.items():
         said = report[case.replace("_", " ")]
         turn = largest_turn(scenario, run)
-        np.testing.assert_allclose(said["rotation_deg"], turn, rtol=ROUNDING)
+        assert_relative(said["rotation_deg"], turn, ROUNDING)
         lift = 1e3 * (run["q"][TOP, bunny + 2] - run["q"][CLOSED, bunny + 2])
-        np.testing.assert_allclose(said["lift_mm"], lift, rtol=ROUNDING)
+        assert_relative(said["lift_mm"], lift, ROUNDING)
         assert (said["variables"], said["rows"], said["steps"]) == (13, 80, 300)
 
 
 def test_nothing_but_mu_omega_differs_between_the_runs(runs):
     one, two = runs.values()
-    np.testing.assert_allclose(one["mu_omega"], [0.0] * 5 + [0.003] * 10, rtol=EXACT)
-    np.testing.assert_allclose(two["mu_omega"], np.zeros(15), rtol=EXACT)
+    np.testing.assert_array_equal(one["mu_omega"], [0.0] * 5 + [0.003] * 10)
+    np.testing.assert_array_equal(two["mu_omega"], np.zeros(15))
     for key in ("mu_v", "rows", "K_q", "q_bar_a"):
-        np.testing.assert_allclose(one[key], two[key], rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(one["q"][0], two["q"][0], rtol=EXACT, atol=EXACT)
+        np.testing.assert_array_equal(one[key], two[key])
+    np.testing.assert_array_equal(one["q"][0], two["q"][0])
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -130,7 +129,7 @@ def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, ca
         R = scenario.system.kinematics(run["q"][k]).R[bunny]
         drag = R @ (run["M_u"][k][:3] @ run["delta_q"][k, 7:]) / 0.01**2
         expected = drag + np.array([0, 0, 0.2 * 9.81])
-        np.testing.assert_allclose(force, expected, rtol=0, atol=MULTIPLIERS * f[:, 2].max())
+        assert_within(force, expected, MULTIPLIERS * f[:, 2].max())
 
 
 def test_the_committed_files_are_what_the_script_writes(build, tmp_path):

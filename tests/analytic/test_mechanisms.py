@@ -4,13 +4,14 @@ import numpy as np
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
+from tests.closeness import assert_relative, assert_within
 from tests.tolerances import FIRST_ORDER, SCENARIO
 
 G = 9.81
 H = 0.01
 
 
-def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
+def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips():
     m = 0.2
     inertia = 1.0666666666666667e-3
     K_q = 1e3
@@ -30,17 +31,17 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
     assert certified(trajectory) == "100 of 100 steps exact"
     q = trajectory["q"]
     held, pivoting = (scenario.system.joint(f"{name}/base") for name in ("held", "pivoting"))
-    np.testing.assert_allclose(q[-1, held.q], q[0, held.q], rtol=0, atol=SCENARIO)
+    assert_within(q[-1, held.q], q[0, held.q], SCENARIO)
     # delta_q is the twist at the centre of mass, which sinks by slip and turn.
     expected = H * omega * np.array([0, 0, -(a + offset), 1, 0, 0])
     twist = trajectory["delta_q"][0, pivoting.v]
     np.testing.assert_allclose(twist, expected, rtol=SCENARIO, atol=SCENARIO * H * omega)
     angle = 2 * np.arcsin(q[-1, pivoting.q][3])
-    np.testing.assert_allclose(angle, omega * 100 * H, rtol=FIRST_ORDER, atol=0)
-    np.testing.assert_allclose(trajectory["phi"][1, 2:], mu_omega * H * omega, rtol=SCENARIO)
+    assert_relative(angle, omega * 100 * H, FIRST_ORDER)
+    assert_relative(trajectory["phi"][1, 2:], mu_omega * H * omega, SCENARIO)
 
 
-def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
+def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it():
     inertia = 0.1 + 2 * 0.4**2
     K_q = 2000.0
     r = 0.6
@@ -49,18 +50,18 @@ def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "500 of 500 steps exact"
     M_u = scenario.system.M_u(scenario.system.q_start)
-    np.testing.assert_allclose(M_u, [[inertia]], rtol=SCENARIO, atol=0)
+    assert_relative(M_u, [[inertia]], SCENARIO)
     x, theta = trajectory["q"][1:].T
     pushed = slice(120, 400)  # in touch, on the move
     place = r * np.tan(theta) - w / np.cos(theta)
-    np.testing.assert_allclose(x[120:], place[120:], rtol=0, atol=SCENARIO)
+    assert_within(x[120:], place[120:], SCENARIO)
     before = trajectory["q"][:-1, 1]
     s = r / np.cos(before) - w * np.tan(before)
     v = trajectory["delta_q"][:, 0] / H
     lag = trajectory["q_bar_a"][:, 0] - x
     expected = inertia * v * np.cos(before) ** 2 / (H * K_q * s**2)
-    np.testing.assert_allclose(v[pushed], 0.1, rtol=0.011, atol=0)
-    np.testing.assert_allclose(lag[pushed], expected[pushed], rtol=FIRST_ORDER, atol=0)
-    np.testing.assert_allclose(x[-1], 0.345, rtol=0, atol=SCENARIO)
-    np.testing.assert_allclose(theta[-50:], theta[-1], rtol=0, atol=SCENARIO)
-    np.testing.assert_allclose(np.degrees(theta[-1]), 33.63, rtol=0, atol=0.005)
+    assert_relative(v[pushed], 0.1, 0.011)
+    assert_relative(lag[pushed], expected[pushed], FIRST_ORDER)
+    assert_within(x[-1], 0.345, SCENARIO)
+    assert_within(theta[-50:], theta[-1], SCENARIO)
+    assert_within(np.degrees(theta[-1]), 33.63, 0.005)

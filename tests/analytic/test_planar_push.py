@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.closeness import assert_within
 
 G = 9.81
 
@@ -68,4 +69,4 @@ def test_r28_a_push_turns_a_slider_by_lynch_s_law_with_another_c(seed):
 
 
 def near(found, expected, scale):
-    np.testing.assert_allclose(np.subtract(found, expected) / scale, 0.0, rtol=0, atol=CLOSED_FORM)
+    assert_within(np.subtract(found, expected) / scale, 0.0, CLOSED_FORM)

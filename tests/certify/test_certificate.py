@@ -7,13 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import exact_certificate, verify
+from quasistatic_ref import Extra, solve_step, verify
+from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows, places
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from flint import fmpq_mat
 
+from quasistatic_ref import StepDataError
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.degeneracy import (
     differentiable,
@@ -15,7 +16,6 @@ from quasistatic_ref.certify.degeneracy import (
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step

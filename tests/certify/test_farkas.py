@@ -5,12 +5,11 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
+from quasistatic_ref import Extra, StepData, StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.exact import relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
 
 

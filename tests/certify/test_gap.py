@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.certify.gap import (
     duality_gap,
     energy,
@@ -17,7 +18,6 @@ from quasistatic_ref.certify.gap import (
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_rational import fraction
 from tests.oracles.random_steps import any_step, mixed_step

@@ -5,11 +5,10 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
+from quasistatic_ref import Extra, StepDataError
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from quasistatic_ref.step.data import Extra
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import program
 

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from quasistatic_ref import Extra, standard_form
 from quasistatic_ref.certify.residuals import largest, optimality_residuals
 from quasistatic_ref.optional.ellipsoid.cone import cone_violations
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.standard_form import standard_form
+from tests.closeness import assert_within
 from tests.helpers import judged, planted_step, sphere_on_floor
 from tests.tolerances import ROUNDING
 
@@ -21,7 +21,7 @@ def plant():
 
 
 def near(actual, expected):
-    np.testing.assert_allclose(actual, expected, rtol=0.0, atol=ROUNDING)
+    assert_within(actual, expected, ROUNDING)
 
 
 def test_a_planted_optimum_has_no_residual():

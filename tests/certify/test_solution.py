@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.cli.solution_files import solution_text
 from tests.helpers import random_step

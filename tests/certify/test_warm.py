@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import standard_form
 from quasistatic_ref.certify.warm import BLOCK, warm_rows
-from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
 from tests.tolerances import ROUNDING
 

@@ -8,9 +8,9 @@ import sys
 
 import pytest
 
+from quasistatic_ref import step_written
 from quasistatic_ref.cli import solve as solve_command
 from quasistatic_ref.cli.main import COMMANDS, main
-from quasistatic_ref.step.files import step_written
 from tests.helpers import one_sentence, point_on_floor
 
 

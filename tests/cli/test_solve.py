@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
+from quasistatic_ref import step_written
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.step.files import step_written
 from tests.helpers import point_on_floor
 
 

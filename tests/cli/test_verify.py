@@ -4,8 +4,8 @@ import json
 
 import pytest
 
+from quasistatic_ref import step_written
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.step.files import step_written
 from tests.helpers import one_sentence, pinch, point_on_floor
 
 

@@ -2,10 +2,9 @@
 
 import numpy as np
 
+from quasistatic_ref import ContactPair, PlacedShape
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 
 def placed(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box, Capsule, Cone, Cylinder
 from quasistatic_ref.contact.crossings import Edges, crossings, edge_crossings, edges, line
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
+from tests.closeness import assert_within
 from tests.tolerances import ROUNDING
 from validation.make.forces_by_hand import FLAT, HALF, UP, Scene, wrong
 
@@ -70,7 +71,7 @@ def test_crossings_are_where_they_are_by_hand():
     t = 0.2 * np.tan(np.pi / 8)
     corners = [[x * u, y * v] for x, y in ((0.2, t), (t, 0.2)) for u in (-1, 1) for v in (-1, 1)]
     octagon = found(TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), (0.0, 0.0))
-    np.testing.assert_allclose(octagon, sorted(corners), rtol=0.0, atol=ROUNDING)
+    assert_within(octagon, sorted(corners), ROUNDING)
 
 
 def test_edges_that_are_parallel_or_no_part_of_what_touches_do_not_cross():

@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref import (
+    Box,
+    ContactError,
+    ContactPair,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    convex_hull,
+)
 from tests.contact.still import placed
 
 CLOUD = PointCloud(np.eye(3))

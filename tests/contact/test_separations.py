@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from quasistatic_ref import Box, Capsule, ContactError, PointCloud
 from quasistatic_ref.contact.separations import BISECTOR, gaps, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, PointCloud, Shape
+from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import TIED_FACES
-from tests.tolerances import CLOSED_FORM, EXACT
+from tests.closeness import assert_within
+from tests.tolerances import CLOSED_FORM
 
 STRAIGHT = np.eye(3)
 ORIGIN = np.zeros(3)
@@ -33,19 +34,19 @@ def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeIn
         (at(PointCloud(np.array([10 * X, -10 * X]))), 2.0),
     ],
 )
-def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size) -> None:
+def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size):
     assert rounding(at(CUBE), other) == TIED_FACES * size
 
 
-def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -> None:
+def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two():
     # Cubes with an edge in common but for 1e-10 along both sides.
     depth = 1e-10
     found, tie = pair_normal("p", at(CUBE), at(CUBE, [2 - depth, 0.0, 2 - depth]))
     between = (X + Z) / np.sqrt(2)
-    np.testing.assert_allclose(found.n, between, rtol=EXACT, atol=CLOSED_FORM)
-    np.testing.assert_allclose(found.phi, -np.sqrt(2) * depth, rtol=EXACT, atol=CLOSED_FORM)
+    assert_within(found.n, between, CLOSED_FORM)
+    assert_within(found.phi, -np.sqrt(2) * depth, CLOSED_FORM)
     way = found.beta - found.alpha
-    np.testing.assert_allclose(way, -np.sqrt(2) * depth * between, rtol=EXACT, atol=CLOSED_FORM)
+    assert_within(way, -np.sqrt(2) * depth * between, CLOSED_FORM)
     assert tie == BISECTOR
 
 
@@ -58,18 +59,18 @@ def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -
         (at(CUBE), at(CUBE, [1.5, 1.5, 1.5])),
     ],
 )
-def test_solids_as_deep_along_several_normals_are_refused(a, b) -> None:
+def test_solids_as_deep_along_several_normals_are_refused(a, b):
     with pytest.raises(ContactError, match=r"along \[.*\] as along \[.*\], 0.5 m: ") as refusal:
         pair_normal("p", a, b)
     assert "-0." not in str(refusal.value)
 
 
-def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals() -> None:
+def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals():
     for a, b in ((CUBE, CAPSULE), (CAPSULE, CUBE)):
         one = at(a)
         other = at(b, [1.0, 0.2, 1.1], TO_Y)
         witness, listed = pair_and_gaps("p", one, other)
         assert listed is not None
         found, normals = listed
-        np.testing.assert_allclose(found, gaps(one, other, normals), rtol=EXACT, atol=CLOSED_FORM)
-        np.testing.assert_allclose(witness.phi, found.max(), rtol=EXACT, atol=CLOSED_FORM)
+        assert_within(found, gaps(one, other, normals), CLOSED_FORM)
+        assert_within(witness.phi, found.max(), CLOSED_FORM)

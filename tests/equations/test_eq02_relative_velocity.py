@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
+from tests.closeness import assert_close, assert_relative
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 
 LINKS = {
@@ -86,8 +87,8 @@ def test_alpha_and_beta_are_two_points_where_there_is_a_gap(scene):
     beta = (t + 0.4 * R[:, 0])[None]
     alpha = (t + 0.1 * R[:, 0])[None]
     f = contact_jacobian(kinematics, np.array([0]), np.array([box]), alpha, beta, R[:, 2][None])
-    np.testing.assert_allclose(f[0, :3] @ v, 0.4 * R[:, 1], rtol=ROUNDING, atol=ROUNDING)
-    np.testing.assert_allclose(f[0, 3] @ v, 1.0, rtol=ROUNDING)
+    assert_close(f[0, :3] @ v, 0.4 * R[:, 1], ROUNDING)
+    assert_relative(f[0, 3] @ v, 1.0, ROUNDING)
     f = contact_jacobian(kinematics, np.array([box]), np.array([0]), alpha, beta, R[:, 2][None])
-    np.testing.assert_allclose(f[0, :3] @ v, -0.1 * R[:, 1], rtol=ROUNDING, atol=ROUNDING)
-    np.testing.assert_allclose(f[0, 3] @ v, -1.0, rtol=ROUNDING)
+    assert_close(f[0, :3] @ v, -0.1 * R[:, 1], ROUNDING)
+    assert_relative(f[0, 3] @ v, -1.0, ROUNDING)

@@ -1,8 +1,7 @@
 """Eq. (4), phi + [J'(n~ + d~_i)]' delta_q >= 0. Under test: step.problem.StepProblem."""
 
-import numpy as np
-
-from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref import StepProblem
+from tests.closeness import assert_close
 from tests.helpers import contact_row, random_step
 from tests.tolerances import ROUNDING
 
@@ -27,4 +26,4 @@ def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
         for j in range(3):
             if i < contacts.rows[j]:
                 expected.append(contacts.phi[j] + contact_row(contacts, j, i) @ delta_q)
-        np.testing.assert_allclose(found[i], expected, rtol=ROUNDING, atol=ROUNDING)
+        assert_close(found[i], expected, ROUNDING)

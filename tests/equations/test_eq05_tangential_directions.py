@@ -1,7 +1,6 @@
 """Eq. (5), d~_1 and d~_2. Under test: step.problem.StepProblem."""
 
-import numpy as np
-
+from tests.closeness import assert_close
 from tests.equations.test_eq04_contact_rows import at
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -41,7 +40,7 @@ def assert_shares_are_printed(rng, printed, first):
     shares = shares_of_the_problem(step, delta_q)
     for i, directions in enumerate(zip(*printed(step.contacts), strict=True), start=first):
         expected = shares_by_loops(step, delta_q, directions)
-        np.testing.assert_allclose(shares[i], expected, rtol=ROUNDING, atol=ROUNDING)
+        assert_close(shares[i], expected, ROUNDING)
 
 
 def test_they_are_what_the_first_two_constraints_add_to_the_gap(rng):

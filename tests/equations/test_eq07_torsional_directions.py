@@ -1,7 +1,7 @@
 """Eq. (7), d~_5 and d~_6. Under test: step.problem.StepProblem."""
 
+from quasistatic_ref import StepProblem
 from quasistatic_ref.step.cones import pyramid
-from quasistatic_ref.step.problem import StepProblem
 from tests.equations.test_eq05_tangential_directions import assert_shares_are_printed
 from tests.helpers import random_step
 

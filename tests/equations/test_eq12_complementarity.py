@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import standard_form
 from quasistatic_ref.certify.residuals import optimality_residuals
-from quasistatic_ref.step.standard_form import standard_form
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import planted_step, random_step, slacks
 from tests.tolerances import ROUNDING
 
@@ -17,7 +18,7 @@ def test_the_residual_is_the_largest_product(seed):
     lam = rng.normal(size=16)
     expected = np.abs(slacks(step, delta_q) * lam).max()
     actual = optimality_residuals(standard_form(step), delta_q, lam).complementarity
-    np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
+    assert_relative(actual, expected, ROUNDING)
 
 
 def test_erratum_lam_without_its_index_does_not_fit_a_contact_of_several(rng):
@@ -26,7 +27,7 @@ def test_erratum_lam_without_its_index_does_not_fit_a_contact_of_several(rng):
     assert len(slack_of_the_second) != len(lam)  # so (12) cannot mean the whole of lambda
     assert step.offsets.tolist() == [0, 6, 10, 16]
     own = lam[6:10]
-    np.testing.assert_allclose(np.multiply(slack_of_the_second, own), 0.0, rtol=0.0, atol=ROUNDING)
+    assert_within(np.multiply(slack_of_the_second, own), 0.0, ROUNDING)
     another = lam[0:4] + lam[10:14]  # another contact's multipliers do not complement this slack
     assert np.abs(slack_of_the_second).max() > 0
     assert np.flatnonzero(own).tolist() != np.flatnonzero(another).tolist()

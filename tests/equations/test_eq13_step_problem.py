@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.step.problem import StepProblem
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref import StepProblem, standard_form
+from tests.closeness import assert_relative
 from tests.helpers import planted_step, random_step, slacks
 from tests.tolerances import ROUNDING
 
@@ -35,9 +35,7 @@ def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
         delta_q = rng.normal(size=step.n_v)
         problem.delta_q_a.value = delta_q[:n_a]
         problem.delta_q_u.value = delta_q[n_a:]
-        np.testing.assert_allclose(
-            problem.problem.objective.value, objective(step, delta_q), rtol=ROUNDING, atol=0.0
-        )
+        assert_relative(problem.problem.objective.value, objective(step, delta_q), ROUNDING)
 
 
 def test_H_and_g_give_the_printed_objective(rng):
@@ -46,7 +44,7 @@ def test_H_and_g_give_the_printed_objective(rng):
     for _ in range(5):
         delta_q = rng.normal(size=step.n_v)
         actual = 0.5 * delta_q @ form.H @ delta_q - form.g @ delta_q
-        np.testing.assert_allclose(actual, objective(step, delta_q), rtol=ROUNDING, atol=0.0)
+        assert_relative(actual, objective(step, delta_q), ROUNDING)
 
 
 @pytest.mark.parametrize("seed", range(2))

@@ -10,10 +10,19 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import (
+    Body,
+    InputError,
+    Scenario,
+    System,
+    load_scenario,
+    solve_step,
+    step_read,
+    trajectory_read,
+)
 from quasistatic_ref.cli.run import worst_residual
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, toml_read
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.folders import vectors_folder
@@ -30,13 +39,10 @@ from quasistatic_ref.lab.vectors.check.report import Report
 from quasistatic_ref.lab.vectors.files import answers_written, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import certified, trajectory_read
+from quasistatic_ref.simulate.trajectory import certified
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.files import step_read, step_text
+from quasistatic_ref.step.files import step_text
 from tests.errors import texts
 from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA

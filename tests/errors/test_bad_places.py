@@ -5,9 +5,9 @@ import sys
 import numpy as np
 import pytest
 
+from quasistatic_ref import step_written
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.step.files import step_written
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.helpers import planted_step
 from tests.model.urdf.urdf_texts import written

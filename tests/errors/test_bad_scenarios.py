@@ -2,11 +2,10 @@
 
 import pytest
 
-from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref import QuasistaticError, load_scenario
 from quasistatic_ref.model.readers import mesh_files
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario import contacts
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
 from tests.model.urdf.urdf_texts import collision, link, robot, written

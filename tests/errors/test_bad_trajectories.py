@@ -7,8 +7,8 @@ import zipfile
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.scenario.scenario import load_scenario
 from tests.errors.scene import scene_written
 from tests.oracles.spoilt_files import zip_bytes
 

@@ -6,17 +6,20 @@ import json
 import numpy as np
 import pytest
 
+from quasistatic_ref import (
+    Extension,
+    InputError,
+    RunFailed,
+    load_scenario,
+    rollout,
+    trajectory_read,
+)
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.npz import json_array
 from quasistatic_ref.optional.runs import saved_files
 from quasistatic_ref.optional.runs.saved_files import saved_folder, saved_steps
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate import rollout as module
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
 STEPS = 9

@@ -2,8 +2,7 @@
 
 import pytest
 
-from quasistatic_ref import errors
-from quasistatic_ref.errors import InputError, QuasistaticError, StepNotSolved
+from quasistatic_ref import InputError, QuasistaticError, StepNotSolved, errors
 from quasistatic_ref.formats.quoting import LONGEST, MOST_NAMES, suggestion
 from tests.helpers import point_on_floor
 

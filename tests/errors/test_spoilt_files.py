@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, note, settings
 from hypothesis import strategies as st
 
-from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref import QuasistaticError
 from tests.errors.readers import FAMILIES
 from validation.make.hostile_files import STRACE, opened_elsewhere
 

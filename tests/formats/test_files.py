@@ -10,7 +10,7 @@ import sys
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.formats.files import json_text, text_of, text_written
 from quasistatic_ref.formats.files import written_whole as whole
 

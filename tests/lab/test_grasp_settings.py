@@ -2,8 +2,8 @@
 
 import pytest
 
+from quasistatic_ref import ScenarioError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.lab.grasp import grasp_scenarios
 
 

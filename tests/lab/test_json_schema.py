@@ -8,11 +8,10 @@ import pytest
 from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
+from quasistatic_ref import InputError, load_scenario
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.commands.schema import scenario_schema
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.scenario_table import TABLES
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from tests.errors.scene import SCENE, changed, scene_written

@@ -9,6 +9,7 @@ from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of
 from quasistatic_ref.lab.claims.engines.mujoco_scenes import heap
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.step.friction import friction_rows
+from tests.closeness import assert_within
 from tests.helpers import random_frame
 from tests.tolerances import ROUNDING
 
@@ -34,7 +35,7 @@ def test_one_point_midway_changes_tangential_rows_by_the_formula(rng):
     expected = np.array([t1, t2, -t1, -t2, 0 * t1, 0 * t1])
     assert np.abs(expected).max() > 1e-4
     difference = rows(phi / 2 * n) - rows(np.zeros(3))
-    np.testing.assert_allclose(difference, expected, rtol=0.0, atol=ROUNDING)
+    assert_within(difference, expected, ROUNDING)
 
 
 def test_without_the_formula_the_rows_do_not_agree(monkeypatch):

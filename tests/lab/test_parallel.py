@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.parallel import Log, results, workers
 
 HEAD = {"settings": [1, 2]}

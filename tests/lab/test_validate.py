@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.claims.claim import (
     FAILS,
     HOLDS,

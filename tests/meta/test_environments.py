@@ -4,8 +4,8 @@ from collections import Counter
 
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.errors import InputError
 from validation.make.environments import (
     LONG,
     MODES,

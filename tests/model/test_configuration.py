@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.model.configuration import (
     UnitParts,
     configuration,
@@ -27,7 +27,7 @@ UNITS = {"quaternion": slice(3, 7), "heading": slice(9, 11), "turn": slice(11, 1
 Q = np.array([5, 6, 7, 3, 4, 12, 84, 8, 9, 3, 4, 8, 15, 0.5], dtype=np.float64)
 
 
-def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths() -> None:
+def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths():
     quaternion = [3 / 85, 4 / 85, 12 / 85, 84 / 85]
     expected = [5, 6, 7, *quaternion, 8, 9, 3 / 5, 4 / 5, 8 / 17, 15 / 17, 0.5]
     q = Q.copy()
@@ -35,7 +35,7 @@ def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths() -> Non
     assert np.array_equal(q, Q)
 
 
-def test_lengths_off_by_rounding_alone_keep_their_bits() -> None:
+def test_lengths_off_by_rounding_alone_keep_their_bits():
     q = normalised(JOINTS, Q)
     q[UNITS["quaternion"]] = [0.0, 0.0, 0.0, 1.0 + 2.0**-52]
     q[UNITS["turn"]] = [1.0 - 2.0**-53, 0.0]
@@ -43,7 +43,7 @@ def test_lengths_off_by_rounding_alone_keep_their_bits() -> None:
     assert np.array_equal(configuration(JOINTS, len(q), q), q)
 
 
-def test_a_configuration_has_no_negative_zeros() -> None:
+def test_a_configuration_has_no_negative_zeros():
     q = normalised(JOINTS, Q)
     q[:3] = q[-1] = -0.0
     for found in (normalised(JOINTS, q), configuration(JOINTS, len(q), q)):
@@ -51,7 +51,7 @@ def test_a_configuration_has_no_negative_zeros() -> None:
         assert not np.signbit(found).any()
 
 
-def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length() -> None:
+def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length():
     q = normalised(JOINTS, Q)
     longer = q.copy()
     factor = 1 + 2.0**-31  # above rounding, below what is refused
@@ -62,7 +62,7 @@ def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length() -> No
     assert found[UNITS["turn"]].tolist() == [-1.0, 0.0]
 
 
-def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order() -> None:
+def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order():
     q = normalised(JOINTS, Q)
     half_turns = np.eye(4)[1:]
     for half_turn in half_turns:
@@ -73,7 +73,7 @@ def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order()
         configuration(JOINTS, len(q), q)
 
 
-def test_the_length_that_is_refused_is_named_with_its_remedy() -> None:
+def test_the_length_that_is_refused_is_named_with_its_remedy():
     q = normalised(JOINTS, Q)
     UnitParts(JOINTS).check(q)
     q[UNITS["quaternion"]] *= 2
@@ -88,7 +88,7 @@ def test_the_length_that_is_refused_is_named_with_its_remedy() -> None:
 
 
 @pytest.mark.parametrize("name", UNITS)
-def test_float32_is_refused_and_rounding_is_not(name: str) -> None:
+def test_float32_is_refused_and_rounding_is_not(name):
     q = normalised(JOINTS, Q)
     checked = UnitParts(JOINTS).check
     for factor, refused in ((1 + 5e-10, False), (1 - 5e-10, False), (1 + 2e-9, True), (0.5, True)):
@@ -101,7 +101,7 @@ def test_float32_is_refused_and_rounding_is_not(name: str) -> None:
             checked(other)
 
 
-def test_a_part_of_length_zero_has_no_direction() -> None:
+def test_a_part_of_length_zero_has_no_direction():
     q = normalised(JOINTS, Q)
     q[UNITS["turn"]] = 0
     with pytest.raises(ModelError, match=r"q\[arm/spin\]: its \(cos, sin\) has length 0"):

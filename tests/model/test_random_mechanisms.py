@@ -9,6 +9,7 @@ from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian, sl
 from quasistatic_ref.lab.program.step import loads
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import random_q, random_tree
 from quasistatic_ref.lab.vectors.own.system import own_system
+from tests.closeness import assert_within
 from tests.tolerances import ROUNDING
 
 MECHANISMS, CALLS = 12, 10
@@ -87,7 +88,7 @@ def test_random_mechanisms_move_and_weigh_as_their_links_do():
         for place, answer in zip(q, answers, strict=False):
             for a, b in zip(answer, expected(mechanism, place), strict=True):
                 size = np.abs(b).max(initial=0.0)
-                np.testing.assert_allclose(a, b, rtol=0.0, atol=ROUNDING * size)
+                assert_within(a, b, ROUNDING * size)
         for call, answer in enumerate(answers):
             assert all(map(np.array_equal, answer, answers[call % 3]))
     assert followers > 2 * MECHANISMS

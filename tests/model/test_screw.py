@@ -9,6 +9,7 @@ from quasistatic_ref.model.joints.continuous import Continuous
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.screw import half_turn, linear_part, translation
+from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
@@ -45,19 +46,14 @@ def quaternion_about(axis, angle):
 @pytest.mark.parametrize("angle", ANGLES)
 def test_the_translation_of_a_screw_is_that_of_the_matrix_exponential(angle, v):
     w = angle * AXIS
-    np.testing.assert_allclose(
-        translation(v, w.tolist(), half_turn(w.tolist())),
-        screw(v, w)[1],
-        rtol=ROUNDING,
-        atol=ROUNDING,
-    )
+    assert_close(translation(v, w.tolist(), half_turn(w.tolist())), screw(v, w)[1], ROUNDING)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
 def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle):
     w = (angle * AXIS).tolist()
     v = linear_part(LINEAR, w)
-    np.testing.assert_allclose(screw(v, w)[1], LINEAR, rtol=0, atol=4 * ROUNDING)
+    assert_within(screw(v, w)[1], LINEAR, 4 * ROUNDING)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -71,9 +67,9 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     delta_q = [7.0, *LINEAR, *w]
     expected = at + R @ screw(LINEAR, w)[1]
     q_next = [9.0, *moved(FLOATING, q, delta_q)]
-    np.testing.assert_allclose(q_next[1:4], expected, rtol=0, atol=ROUNDING * 4)
+    assert_within(q_next[1:4], expected, ROUNDING * 4)
     found = change(FLOATING, q, q_next)
-    np.testing.assert_allclose(found, delta_q[1:], rtol=0, atol=8 * ROUNDING)
+    assert_within(found, delta_q[1:], 8 * ROUNDING)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -85,9 +81,9 @@ def test_a_planar_base_moves_by_its_twist_in_its_own_frame(angle):
     q = [9.0, *at, np.cos(heading), np.sin(heading)]
     expected = at + (R @ screw([0.3, -0.7, 0.0], [0.0, 0.0, angle])[1])[:2]
     expected = [*expected, np.cos(heading + angle), np.sin(heading + angle)]
-    np.testing.assert_allclose(moved(PLANAR, q, delta_q), expected, rtol=0, atol=ROUNDING * 4)
+    assert_within(moved(PLANAR, q, delta_q), expected, ROUNDING * 4)
     found = change(PLANAR, q, [9.0, *expected])
-    np.testing.assert_allclose(found, delta_q[1:], rtol=0, atol=8 * ROUNDING)
+    assert_within(found, delta_q[1:], 8 * ROUNDING)
 
 
 @pytest.mark.parametrize("angle", [*ANGLES, -0.3, -3.0])
@@ -108,10 +104,10 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     after = [9.0, *moved(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
     expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]
     found = Rotation.from_quat(after[4:]).as_matrix()
-    np.testing.assert_allclose(found, expected, rtol=0, atol=4 * ROUNDING)
+    assert_within(found, expected, 4 * ROUNDING)
     shorter = angle if angle < np.pi else angle - 2 * np.pi
     back = change(FLOATING, after, q)[3:]
-    np.testing.assert_allclose(back, -shorter * axis, rtol=4 * ROUNDING, atol=4 * ROUNDING)
+    assert_close(back, -shorter * axis, 4 * ROUNDING)
 
 
 @pytest.mark.parametrize("joint", [FLOATING, PLANAR, CONTINUOUS])
@@ -129,4 +125,4 @@ def test_only_the_twist_without_a_turn_keeps_the_quaternion_as_it_is():
         turned = moved(FLOATING, [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [7.0, *LINEAR, *w])
         angle = np.sqrt(np.dot(w, w))
         expected = quaternion_about(np.array(w) / angle, angle)
-        np.testing.assert_allclose(turned[3:], expected, rtol=0, atol=ROUNDING)
+        assert_within(turned[3:], expected, ROUNDING)

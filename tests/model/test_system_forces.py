@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import Body, System
 from quasistatic_ref.model import workspace
 from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.model.system import Body, System
 from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, mimic, robot
 from tests.tolerances import ROUNDING
 
@@ -18,13 +18,13 @@ CART = robot(
 )
 
 
-def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere() -> None:
+def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere():
     system = System([Body("crane", CART, actuated="all"), Body("box", BOX, "floating")])
     assert system.constant_mass_matrix
     assert system.M_u(system.integrate(system.q_start, np.ones(8))) is system.M_u(system.q_start)
 
 
-def test_m_u_of_a_free_body_beside_free_joints_is_the_one_that_it_has_alone() -> None:
+def test_m_u_of_a_free_body_beside_free_joints_is_the_one_that_it_has_alone():
     alone = System([Body("box", BOX, "floating")]).mass_blocks[0]
     system = System([Body("crane", CART), Body("box", BOX, "floating")])
     for q in (system.q_start, system.integrate(system.q_start, np.full(8, 0.3))):
@@ -35,7 +35,7 @@ def test_m_u_of_a_free_body_beside_free_joints_is_the_one_that_it_has_alone() ->
         assert M_u[0, 1] == pytest.approx(-3.0 * 0.7 * np.cos(q[1]), abs=10 * ROUNDING)
 
 
-def test_m_u_of_one_joint_that_moves_its_links_alone_is_one_array() -> None:
+def test_m_u_of_one_joint_that_moves_its_links_alone_is_one_array():
     # Of the bob with an actuated cart: I + m_b l^2.
     system = System([Body("crane", CART, actuated=["slide"])])
     M_u = system.M_u(system.q_start)
@@ -43,7 +43,7 @@ def test_m_u_of_one_joint_that_moves_its_links_alone_is_one_array() -> None:
     assert system.M_u(np.array([0.2, 1.0])) is M_u
 
 
-def test_m_u_of_two_tilted_free_bodies_is_as_their_files_say_to_the_last_bit() -> None:
+def test_m_u_of_two_tilted_free_bodies_is_as_their_files_say_to_the_last_bit():
     alone = System([Body("box", BOX, "floating")]).mass_blocks[0]
     tilted = [Body(name, BOX, "floating", rpy=(0.3, 0.4, 0.5)) for name in ("one", "other")]
     system = System([Body("crane", CART), *tilted])
@@ -52,7 +52,7 @@ def test_m_u_of_two_tilted_free_bodies_is_as_their_files_say_to_the_last_bit() -
         assert M_u[block, block].tobytes() == alone.tobytes()
 
 
-def test_m_u_of_a_joint_follows_what_an_actuated_joint_moves_below_its_mimic() -> None:
+def test_m_u_of_a_joint_follows_what_an_actuated_joint_moves_below_its_mimic():
     # A wheel, and a geared one (0.5 turns for one) along whose spoke a bead of 3 kg moves. With the
     # bead at the distance x: M = I_wheel + 0.5^2 (I_geared + I_bead + m x^2).
     wheels = robot(
@@ -72,7 +72,7 @@ def test_m_u_of_a_joint_follows_what_an_actuated_joint_moves_below_its_mimic() -
             assert system.M_u(q)[-1, -1] == pytest.approx(expected, rel=ROUNDING)
 
 
-def test_sines_are_computed_once_at_a_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sines_are_computed_once_at_a_configuration(monkeypatch):
     angles: list[float] = []
 
     def counted(angle: float) -> tuple[float, float]:

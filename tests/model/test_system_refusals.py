@@ -1,13 +1,11 @@
 """System: configurations, names and bodies that cannot be, each refused in words."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.system import Body, System
+from quasistatic_ref import Body, ModelError, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
 
 BAD_Q: dict[str, tuple[str, int, float, str]] = {
@@ -19,9 +17,7 @@ BAD_Q: dict[str, tuple[str, int, float, str]] = {
 
 
 @pytest.mark.parametrize(("name", "entry", "value", "words"), BAD_Q.values(), ids=BAD_Q)
-def test_a_configuration_that_is_none_is_refused(
-    scene: System, name: str, entry: int, value: float, words: str
-) -> None:
+def test_a_configuration_that_is_none_is_refused(scene, name, entry, value, words):
     q = scene.q_start.copy()
     at = scene.joint(name).q
     if entry < 0:
@@ -33,7 +29,7 @@ def test_a_configuration_that_is_none_is_refused(
         scene.checked(q)
 
 
-def test_a_configuration_of_another_length_is_refused(scene: System) -> None:
+def test_a_configuration_of_another_length_is_refused(scene):
     with pytest.raises(ModelError, match=rf"q: must have shape \({scene.n_q},\)"):
         scene.checked(scene.q_start[:-1])
     with pytest.raises(ModelError, match="q: must be numbers"):
@@ -44,7 +40,7 @@ def test_a_configuration_of_another_length_is_refused(scene: System) -> None:
         scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
 
 
-def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
+def test_unknown_names_are_answered_with_the_nearest(scene):
     with pytest.raises(ModelError, match="joint: is not a joint; did you mean 'arm/slide'"):
         scene.joint("arm/slid")
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'desk/upper'"):
@@ -77,22 +73,20 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
 
 
 @pytest.mark.parametrize(("changes", "words"), BAD_BODY.values(), ids=BAD_BODY)
-def test_a_body_that_cannot_be_is_refused(
-    tmp_path: Path, changes: dict[str, Any], words: str
-) -> None:
+def test_a_body_that_cannot_be_is_refused(tmp_path, changes, words):
     good = {"name": "c", "urdf": written(tmp_path, CHAIN)}
     System([Body(**good)])
     with pytest.raises(ModelError, match=words):
         System([Body(**(good | changes))])
 
 
-def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
+def test_two_bodies_of_one_name_are_refused(tmp_path):
     body = Body("box", written(tmp_path, BOX))
     with pytest.raises(ModelError, match=r"body\.name: is the name of two bodies; rename one"):
         System([body, body])
 
 
-def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path: Path) -> None:
+def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path):
     mote = inertial("1", ("1", "1", "1")).replace(
         "<inertial>", '<inertial><origin xyz="1e9 0 0"/>'
     )  # its moment about the base, 1e18 + 1, has no room for the 1
@@ -102,7 +96,7 @@ def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path: Path
     assert System([Body("mote", path, "floating", "all")]).n_u == 0
 
 
-def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path: Path) -> None:
+def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path):
     """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 1e-5, I2 = 2^40 all four are I2."""
     light, heavy = (inertial("1", (moment,) * 3) for moment in ("1e-5", str(2**40)))
     links = [link("b0"), link("b1", inertial=light), link("b2", inertial=heavy)]

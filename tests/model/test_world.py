@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.model.system import Body, System
+from quasistatic_ref import Body, Sphere, System
 from quasistatic_ref.model.workspace import PART
-from quasistatic_ref.shapes.placed_shape import Sphere
+from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.tolerances import ROUNDING
 
@@ -21,7 +21,7 @@ def balls(count: int) -> System:
     ])  # fmt: skip
 
 
-def test_a_part_holds_as_many_bodies_as_have_room() -> None:
+def test_a_part_holds_as_many_bodies_as_have_room():
     # Six coordinates a ball: 48 of a part are those of 8 balls, and 17 = 8 + 8 + 1.
     full = PART // 6
     assert 6 * full == PART
@@ -29,7 +29,7 @@ def test_a_part_holds_as_many_bodies_as_have_room() -> None:
     assert [part.model.nv for part in parts] == [PART, PART, 6]
 
 
-def test_bodies_of_all_parts_move_and_weigh_as_each_alone() -> None:
+def test_bodies_of_all_parts_move_and_weigh_as_each_alone():
     """Of a ball about its centre: J = [R 0; 0 R], and its weight is m R' g."""
     system = balls(9)
     assert len(system.workspace().parts) == 2
@@ -40,14 +40,14 @@ def test_bodies_of_all_parts_move_and_weigh_as_each_alone() -> None:
         number = system.link(f"ball{k}")
         v = system.joint(f"ball{k}/base").v
         R = Rotation.from_euler("xyz", [0.1 * k, 0.2, 0.3]).as_matrix()
-        np.testing.assert_allclose(kinematics.R[number], R, rtol=0, atol=ROUNDING)
+        assert_within(kinematics.R[number], R, ROUNDING)
         assert kinematics.t[number] == pytest.approx([k, 2 * k, -k], abs=ROUNDING)
         J[number, :, v] = np.kron(np.eye(2), R)
         weight[v] = [*((1.0 + k) * R.T @ GRAVITY), 0, 0, 0]
-    np.testing.assert_allclose(kinematics.J, J, rtol=0, atol=ROUNDING)
+    assert_within(kinematics.J, J, ROUNDING)
     # Weights are of size 100.
     force = system.gravity_force(system.q_start, GRAVITY)
-    np.testing.assert_allclose(force, weight, rtol=0, atol=100 * ROUNDING)
+    assert_within(force, weight, 100 * ROUNDING)
 
 
 LIMITS = {
@@ -61,9 +61,7 @@ LIMITS = {
 
 
 @pytest.mark.parametrize(("kind", "said", "limits"), LIMITS.values(), ids=LIMITS)
-def test_a_joint_has_the_limits_that_its_file_gives_it(
-    kind: str, said: str, limits: tuple[float, float] | None
-) -> None:
+def test_a_joint_has_the_limits_that_its_file_gives_it(kind, said, limits):
     hinge = joint("j", "a", "b", kind)
     written = hinge.replace('lower="-1" upper="1"', said)
     assert written != hinge
@@ -71,7 +69,7 @@ def test_a_joint_has_the_limits_that_its_file_gives_it(
     assert system.joint("one/j").limits == limits
 
 
-def test_a_mechanism_in_a_second_part_moves_as_it_does_alone() -> None:
+def test_a_mechanism_in_a_second_part_moves_as_it_does_alone():
     pendulum = robot(link("rail"), link("bob"), joint("swing", "rail", "bob", axis="0 1 0"))
     crane = Body("crane", pendulum)
     full = [Body.of_shape(f"ball{k}", Sphere(0.1), 1.0) for k in range(PART // 6)]

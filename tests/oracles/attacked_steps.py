@@ -9,8 +9,7 @@ from itertools import count
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref import Contacts, InputError, StepData
 from tests.oracles.random_steps import any_step, mixed_step
 
 CONES = "pyramid", "product", "frictionless"

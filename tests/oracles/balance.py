@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.optimize import linprog
 
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref import standard_form
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import convex_hull
 from quasistatic_ref.lab.program.distance import closest_points, core
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Shape
 
 Array = np.ndarray

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from quasistatic_ref import Extra, StepData
 from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
-from quasistatic_ref.step.data import Extra, StepData
 
 
 def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:

@@ -23,12 +23,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import InputError, StepData, StepInfeasible, solve_step
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read
 from quasistatic_ref.cli.solution_files import solution_text as text_of
 from quasistatic_ref.cli.verify import refutation
-from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import StepData
 from tests.oracles.records import places, put, value_at
 from tests.oracles.solution_truth import least_bound, truth_of, wrenches
 

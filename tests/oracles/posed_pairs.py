@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from quasistatic_ref import ContactPair
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.step.data import Array, Indices
 

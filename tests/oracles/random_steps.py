@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from quasistatic_ref import Extra, StepData
 from quasistatic_ref.lab.scenes.at_random import divided, random_frames, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.step.data import Extra, StepData
 
 
 def any_step(

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import Extra, StepData
 from quasistatic_ref.cli.solution_files import infeasible_text
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step, point_step
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_sha256, step_text
 from tests.oracles.forged_scenes import facing, scenes
 from tests.oracles.forgeries import good_file, with_its_wrenches

@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from quasistatic_ref import StepData
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from quasistatic_ref.step.data import StepData
 from tests.oracles.rational_kkt import Exact, Program, exact, on_rows, proved, solved
 
 Json = Any

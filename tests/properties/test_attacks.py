@@ -5,13 +5,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import solver as fast_solvers
 from quasistatic_ref.solve.prover import Prover
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
 from validation.make.attacks import Attack, bounds, exact_answers, matrices

@@ -2,14 +2,11 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref import StepInfeasible, load_scenario, solve_step, verify
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rows import flat_rows
-from quasistatic_ref.errors import StepInfeasible
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solve import solve_step
 from tests.oracles.random_steps import mixed_step
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", NONE)

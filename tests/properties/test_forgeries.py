@@ -7,10 +7,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref import Certificate, solve_step
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, outcomes, refused

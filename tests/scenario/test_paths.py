@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref import ScenarioError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.scenario.paths import path_in, shared_folders
 

@@ -3,21 +3,23 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, ScenarioError
-from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
     Box,
     Capsule,
+    ContactPair,
     Cylinder,
     HalfSpace,
+    InputError,
     PointCloud,
+    ScenarioError,
     Sphere,
+    load_scenario,
 )
+from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
+from tests.closeness import assert_close, assert_relative, assert_within
 from tests.model.urdf.urdf_texts import collision, joint, link, mimic, robot, written
 from tests.scenes import PUSH
-from tests.tolerances import EXACT, ROUNDING
+from tests.tolerances import ROUNDING
 
 K_Q = "K_q = { slide = 500, turn = 2.5 }"
 
@@ -26,7 +28,7 @@ def test_the_settings_are_those_of_the_file(load):
     scenario = load()
     assert (scenario.h, scenario.steps) == (0.01, 5)
     assert (scenario.certify, scenario.record) == ("full", "full")
-    np.testing.assert_allclose(scenario.gravity, [0, 0, -9.81], rtol=EXACT)
+    np.testing.assert_array_equal(scenario.gravity, [0, 0, -9.81])
     assert [c.name for c in scenario.system.coordinates[:3]] == [
         "rail/slide", "rail/turn", "ball/base.x",
     ]  # fmt: skip
@@ -70,7 +72,7 @@ STIFFNESS = {
 
 @pytest.mark.parametrize(("line", "expected"), STIFFNESS.values(), ids=STIFFNESS)
 def test_stiffness_may_be_given_by_joint_or_by_body(load, line, expected):
-    np.testing.assert_allclose(load((K_Q, line)).K_q, expected, rtol=EXACT)
+    np.testing.assert_array_equal(load((K_Q, line)).K_q, expected)
 
 
 BASE = 'base = "floating"\nactuated = "all"\nK_q = { base = %s }'
@@ -87,9 +89,9 @@ BASES = {
 @pytest.mark.parametrize(("value", "expected"), BASES.values(), ids=BASES)
 def test_an_actuated_base_has_a_stiffness_too(load, value, expected):
     K_q = load(('base = "floating"', BASE % value)).K_q
-    np.testing.assert_allclose(K_q[2:, 2:], expected, rtol=EXACT)
-    np.testing.assert_allclose(K_q[:2, :2], [[500, 0], [0, 2.5]], rtol=EXACT)
-    np.testing.assert_allclose(K_q[:2, 2:], np.zeros((2, 6)), rtol=EXACT)
+    np.testing.assert_array_equal(K_q[2:, 2:], expected)
+    np.testing.assert_array_equal(K_q[:2, :2], [[500, 0], [0, 2.5]])
+    np.testing.assert_array_equal(K_q[:2, 2:], np.zeros((2, 6)))
 
 
 def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
@@ -104,20 +106,18 @@ def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
     stiffness = {"b/j": 10, "b/i": 20, "a/j": 30, "a/i": 40}
     names = [c.name for c in scenario.system.coordinates]
     assert sorted(names) == sorted(stiffness)
-    np.testing.assert_allclose(
-        np.diag(scenario.K_q), [stiffness[name] for name in names], rtol=EXACT
-    )
+    np.testing.assert_array_equal(np.diag(scenario.K_q), [stiffness[name] for name in names])
 
 
 def test_targets_are_the_waypoints(load):
     q_bar_a = load().targets(0.05)
     expected = [0.01, np.cos(3.5), np.sin(3.5)]
-    np.testing.assert_allclose(q_bar_a, expected, rtol=ROUNDING)
+    assert_relative(q_bar_a, expected, ROUNDING)
 
 
 def test_a_waypoint_may_leave_joints_out(load):
     scenario = load(("t = 0.1\nslide = 0.02\nturn = 7.0", "t = 0.1\nturn = 7.0"))
-    np.testing.assert_allclose(scenario.targets(0.05)[0], 0.0, rtol=EXACT)
+    np.testing.assert_array_equal(scenario.targets(0.05)[0], 0.0)
 
 
 def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
@@ -127,7 +127,7 @@ def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
     force = scenario.force(0.04, q)
     # The ball's frame is the world's and its origin the centre of mass: 0.4 of the last waypoint.
     expected = [0, 0, 0, 0.04, 0, 0, 0, 0.0004]
-    np.testing.assert_allclose(force, expected, rtol=ROUNDING, atol=ROUNDING)
+    assert_close(force, expected, ROUNDING)
     assert force.shape == (system.n_v,)
 
 
@@ -160,10 +160,8 @@ def test_gravity_is_in_tau_a_only_where_it_is_not_compensated(load, compensated,
     step = simulator.step(q, scenario.targets(0.0)).step
     # The plate of 2 kg slides along x, where gravity pulls at 1 m/s^2; the wheel is off its axis
     # by 0.1 and -0.2 m, but turns about z: the torque is r x f = 0.2 * 2 * 1.
-    np.testing.assert_allclose(step.tau_a, [expected, 0.2 * expected], rtol=ROUNDING, atol=ROUNDING)
-    np.testing.assert_allclose(
-        step.tau_u, [0.3, 0, -0.3 * 9.81, 0, 0, 0], rtol=ROUNDING, atol=ROUNDING
-    )
+    assert_close(step.tau_a, [expected, 0.2 * expected], ROUNDING)
+    assert_close(step.tau_u, [0.3, 0, -0.3 * 9.81, 0, 0, 0], ROUNDING)
 
 
 WORLD = {
@@ -186,11 +184,9 @@ def test_shapes_of_the_world_have_the_sizes_that_are_written(load, line, expecte
     assert (placed.name, placed.link) == ("floor", 0)
     assert type(placed.shape) is type(expected)
     for key, value in vars(expected).items():
-        np.testing.assert_allclose(getattr(placed.shape, key), value, rtol=ROUNDING)
-    np.testing.assert_allclose(placed.t, [1, 2, 3], rtol=EXACT)
-    np.testing.assert_allclose(
-        placed.R, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], rtol=EXACT, atol=ROUNDING
-    )
+        assert_relative(getattr(placed.shape, key), value, ROUNDING)
+    np.testing.assert_array_equal(placed.t, [1, 2, 3])
+    assert_within(placed.R, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], ROUNDING)
 
 
 def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):

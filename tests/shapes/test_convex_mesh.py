@@ -3,25 +3,26 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError, convex_hull
 from quasistatic_ref.shapes import convex_mesh
-from quasistatic_ref.shapes.convex_mesh import convex_hull, hull_of_mesh
+from quasistatic_ref.shapes.convex_mesh import hull_of_mesh
+from tests.closeness import assert_relative
 from tests.tolerances import CLOSED_FORM
 
 CORNERS = np.array([[x, y, z] for x in (5, 8) for y in (-2, -1) for z in (7, 9)], dtype=float)
 """Of a box of 3 m, 1 m and 2 m, away from the origin."""
 
 
-def test_triangles_of_a_hull_are_counter_clockwise_from_outside() -> None:
+def test_triangles_of_a_hull_are_counter_clockwise_from_outside():
     # (b - a) x (c - a) is twice the area times the outward normal; all areas are the box's.
     hull = convex_hull(CORNERS)
     a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
     areas = np.cross(b - a, c - a) / 2
-    np.testing.assert_allclose(np.sum(areas * hull.normals), 2 * (3 + 6 + 2), rtol=CLOSED_FORM)
-    np.testing.assert_allclose(np.sum(a * areas) / 3, 3 * 1 * 2, rtol=CLOSED_FORM)
+    assert_relative(np.sum(areas * hull.normals), 2 * (3 + 6 + 2), CLOSED_FORM)
+    assert_relative(np.sum(a * areas) / 3, 3 * 1 * 2, CLOSED_FORM)
 
 
-def test_the_hull_of_a_mesh_has_its_corners() -> None:
+def test_the_hull_of_a_mesh_has_its_corners():
     box = convex_hull(CORNERS)
     spare = np.vstack([box.vertices, [[100, 100, 100]]])  # of no triangle
     hull = hull_of_mesh(spare, box.triangles)
@@ -30,25 +31,23 @@ def test_the_hull_of_a_mesh_has_its_corners() -> None:
 
 
 @pytest.mark.parametrize("block", [convex_mesh.BLOCK, 24])
-def test_a_fin_inside_a_mesh_counts_by_its_depth(
-    block: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_fin_inside_a_mesh_counts_by_its_depth(block, monkeypatch):
     # A fin holds no volume: its tip is 0.25 below the nearest face, of a box of 3 m at most.
     monkeypatch.setattr(convex_mesh, "BLOCK", block)
     box = convex_hull(CORNERS)
     vertices = np.vstack([box.vertices, [[6.5, -1.25, 8.0]]])
     hull = hull_of_mesh(vertices, np.vstack([box.triangles, [[0, 1, 8], [0, 8, 1]]]))
-    np.testing.assert_allclose(hull.excess, 0.25 / 3, rtol=CLOSED_FORM)
+    assert_relative(hull.excess, 0.25 / 3, CLOSED_FORM)
     assert not hull.is_convex
 
 
-def test_an_open_mesh_encloses_what_its_triangles_and_its_centre_do() -> None:
+def test_an_open_mesh_encloses_what_its_triangles_and_its_centre_do():
     # Of a tetrahedron's four faces three are there, each with a quarter of the volume.
     corners = np.array([3.0, -1.0, 2.0]) + np.vstack([np.zeros(3), np.eye(3)])
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
-    np.testing.assert_allclose(hull_of_mesh(corners, faces).excess, 1 / 4, rtol=CLOSED_FORM)
+    assert_relative(hull_of_mesh(corners, faces).excess, 1 / 4, CLOSED_FORM)
 
 
-def test_a_flat_mesh_is_refused() -> None:
+def test_a_flat_mesh_is_refused():
     with pytest.raises(ModelError, match="vertices: must not lie in one plane"):
         convex_hull([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])

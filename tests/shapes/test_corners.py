@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
     Box,
     Capsule,
     Cone,
@@ -12,9 +11,11 @@ from quasistatic_ref.shapes.placed_shape import (
     Ellipsoid,
     HalfSpace,
     PointCloud,
-    Shape,
+    convex_hull,
 )
-from tests.tolerances import CLOSED_FORM, EXACT, ROUNDING
+from quasistatic_ref.shapes.placed_shape import Shape
+from tests.closeness import assert_relative, assert_within
+from tests.tolerances import CLOSED_FORM, ROUNDING
 
 BOX = Box(np.array([0.1, 0.2, 0.3]))
 MESH = convex_hull(np.array([[1.0, 1, 1], [2, 1, 1], [1, 1.5, 1], [1, 1, 1.25]]))
@@ -35,17 +36,17 @@ CORNERS = {
 
 @pytest.mark.parametrize(("shape", "points", "radius"), CORNERS.values(), ids=CORNERS)
 @pytest.mark.parametrize("towards", [TOWARDS, TILTED], ids=["level", "tilted"])
-def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius, towards) -> None:
+def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius, towards):
     found, ball = shape.corners(towards)
     assert shape.corner_count == len(points)
-    np.testing.assert_allclose(found, np.reshape(points, (-1, 3)), rtol=EXACT, atol=CLOSED_FORM)
+    assert_within(found, np.reshape(points, (-1, 3)), CLOSED_FORM)
     assert ball == radius
 
 
-def test_an_upright_rim_begins_on_the_x_axis() -> None:
+def test_an_upright_rim_begins_on_the_x_axis():
     found, _ = Cone(0.5, 0.7).corners(np.array([0.0, 0.0, -1.0]))
     around = [(0.5, 0, -0.7), (0, 0.5, -0.7), (-0.5, 0, -0.7), (0, -0.5, -0.7)]
-    np.testing.assert_allclose(found[1:], around, rtol=EXACT, atol=CLOSED_FORM)
+    assert_within(found[1:], around, CLOSED_FORM)
 
 
 EXTENTS: dict[str, tuple[Shape, float]] = {
@@ -61,5 +62,5 @@ EXTENTS: dict[str, tuple[Shape, float]] = {
 
 
 @pytest.mark.parametrize(("shape", "longest"), EXTENTS.values(), ids=EXTENTS)
-def test_the_extent_is_the_longest_edge_of_the_box_about_a_shape(shape, longest) -> None:
-    np.testing.assert_allclose(shape.extent, longest, rtol=ROUNDING)
+def test_the_extent_is_the_longest_edge_of_the_box_about_a_shape(shape, longest):
+    assert_relative(shape.extent, longest, ROUNDING)

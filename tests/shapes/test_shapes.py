@@ -7,19 +7,20 @@ import coal
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
     Box,
     Capsule,
     Cone,
     Cylinder,
     HalfSpace,
+    ModelError,
     PlacedShape,
     PointCloud,
     Sphere,
+    convex_hull,
 )
 from quasistatic_ref.tolerances import ORTHONORMAL, SHORT
+from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
 TEXT: Any = "big"
@@ -72,18 +73,18 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
 
 
 @pytest.mark.parametrize(("make", "words"), [r[1:] for r in REFUSED], ids=[r[0] for r in REFUSED])
-def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> None:
+def test_an_impossible_shape_is_refused(make, words):
     with pytest.raises(ModelError, match=words):
         make()
 
 
-def test_lengths_are_halves_or_wholes_of_at_least_a_proton_s() -> None:
+def test_lengths_are_halves_or_wholes_of_at_least_a_proton_s():
     assert Cylinder(0.1, length=0.4) == Cylinder(0.1, 0.2)
     assert Box(size=np.array([0.2, 0.4, 0.6])) == Box(np.array([0.1, 0.2, 0.3]))
     assert Sphere(SHORT).radius == SHORT
 
 
-def test_coal_sees_the_sizes_as_written() -> None:
+def test_coal_sees_the_sizes_as_written():
     assert Sphere(0.2).coal == coal.Sphere(0.2)
     assert Box(np.array([0.1, 0.2, 0.3])).coal == coal.Box(0.2, 0.4, 0.6)
     assert Cylinder(0.1, 0.4).coal == coal.Cylinder(0.1, 0.8)
@@ -91,7 +92,7 @@ def test_coal_sees_the_sizes_as_written() -> None:
     assert Capsule(0.1, 0.4).coal != coal.Capsule(0.1, 0.4)
 
 
-def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
+def test_the_normal_of_a_half_space_points_out_of_the_solid():
     floor = HalfSpace(np.array([0.0, 0.0, 2.0]), 0.6)
     result = coal.DistanceResult()
     centre = coal.Transform3s(np.eye(3), np.array([0.0, 0.0, 1.0]))
@@ -104,7 +105,7 @@ def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
 
 
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 3.0, 1e200])
-def test_a_half_space_is_the_same_solid_at_any_length_of_its_normal(scale: float) -> None:
+def test_a_half_space_is_the_same_solid_at_any_length_of_its_normal(scale):
     shape = HalfSpace(scale * np.array([3.0, 0.0, 4.0]), scale * 10.0)
     assert shape.normal == pytest.approx([0.6, 0.0, 0.8], abs=ROUNDING)
     assert shape.offset == pytest.approx(2.0, abs=ROUNDING)
@@ -115,20 +116,20 @@ WITH_FACES = [Box([0.3, 0.4, 0.5]), Cylinder(0.4, 0.5), Cone(0.4, 0.5), convex_h
 
 
 @pytest.mark.parametrize("shape", WITH_FACES, ids=lambda shape: type(shape).__name__)
-def test_inside_the_highest_face_has_the_signed_distance_and_the_normal(shape: Any) -> None:
+def test_inside_the_highest_face_has_the_signed_distance_and_the_normal(shape):
     anywhere = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 3))
     points = anywhere[shape.signed_distance(anywhere)[0] < 0]
     phi, n = shape.signed_distance(points)
     heights, normals = shape.faces(points)
     highest = heights.argmax(axis=1)
     assert len(set(highest)) == heights.shape[1]  # each face is the nearest of some point
-    np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, rtol=ROUNDING)
-    np.testing.assert_allclose(heights.max(axis=1), phi, rtol=ROUNDING)
+    assert_relative(np.linalg.norm(n, axis=1), 1.0, ROUNDING)
+    assert_relative(heights.max(axis=1), phi, ROUNDING)
     normal = normals[np.arange(len(points)), highest]
-    np.testing.assert_allclose(normal, n, rtol=0, atol=ROUNDING)
+    assert_within(normal, n, ROUNDING)
 
 
-def test_arrays_are_copied_and_read_only() -> None:
+def test_arrays_are_copied_and_read_only():
     points = np.zeros((2, 3))
     cloud = PointCloud(points)
     points[0, 0] = 1.0
@@ -137,14 +138,14 @@ def test_arrays_are_copied_and_read_only() -> None:
         cloud.points[0, 0] = 2.0
 
 
-def test_a_repeated_point_of_a_cloud_counts_once() -> None:
+def test_a_repeated_point_of_a_cloud_counts_once():
     corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (1, -0.0)])
     thrice = np.concatenate([corners, corners[::-1] + 0.0, corners])
     assert PointCloud(thrice).points.tolist() == corners.tolist()
     assert PointCloud(corners).points.tolist() == corners.tolist()
 
 
-def test_words_say_the_box_about_points_and_no_zero_is_negative() -> None:
+def test_words_say_the_box_about_points_and_no_zero_is_negative():
     points = np.array([[0.5, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 4]])
     assert convex_hull(points).words().endswith("within 2 x 3 x 4 m")
     assert PointCloud(points).words().endswith("within 2 x 3 x 4 m")

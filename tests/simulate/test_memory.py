@@ -7,8 +7,8 @@ import tracemalloc
 
 import numpy as np
 
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.recorder import PACKED, Recorder
+from quasistatic_ref import Recorder, load_scenario
+from quasistatic_ref.simulate.recorder import PACKED
 
 GROWTH = """
 import gc, tracemalloc

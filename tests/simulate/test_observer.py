@@ -5,11 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, RunFailed
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref import InputError, Recorder, RunFailed, load_scenario, rollout
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import PACKED, Recorder
-from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.recorder import PACKED
 
 STEPS = 3
 

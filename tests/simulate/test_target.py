@@ -5,9 +5,9 @@ import pytest
 from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref import ScenarioError, load_scenario
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
+from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
@@ -25,18 +25,14 @@ BETWEEN = {
 
 @pytest.mark.parametrize(("t", "expected"), BETWEEN.values(), ids=BETWEEN)
 def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
-    np.testing.assert_allclose(
-        piecewise_linear(TIMES, VALUES, t), expected, rtol=ROUNDING, atol=ROUNDING
-    )
+    assert_close(piecewise_linear(TIMES, VALUES, t), expected, ROUNDING)
 
 
 def test_a_continuous_joint_may_turn_beyond_pi(scene):
     angles = np.array([[0.0], [7.0]])
     track = JointTrack(scene, scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
     for t, angle in ((0.0, 0.0), (0.5, 3.5), (0.9, 6.3), (1.0, 7.0), (2.0, 7.0)):
-        np.testing.assert_allclose(
-            track.at(t), [np.cos(angle), np.sin(angle)], rtol=ROUNDING, atol=ROUNDING
-        )
+        assert_close(track.at(t), [np.cos(angle), np.sin(angle)], ROUNDING)
 
 
 def transform(value):
@@ -58,9 +54,7 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         end = transform(values[i + 1])
         xi = np.real(logm(np.linalg.inv(start) @ end))
         expected = start @ expm(s * xi)
-        np.testing.assert_allclose(
-            transform(track.at(t)), expected, rtol=DIFFERENCE, atol=DIFFERENCE
-        )
+        assert_close(transform(track.at(t)), expected, DIFFERENCE)
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])

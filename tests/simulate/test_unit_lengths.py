@@ -28,7 +28,7 @@ def box_above_floor() -> tuple[qr.System, tuple[qr.ContactPair, ...], Array]:
 
 
 @pytest.mark.parametrize("fast", [False, True])
-def test_a_step_from_a_quaternion_of_length_two_is_refused(fast: bool) -> None:
+def test_a_step_from_a_quaternion_of_length_two_is_refused(fast):
     system, pairs, q = box_above_floor()
     simulator = qr.Simulator(system, pairs, h=0.01, K_q=np.zeros((0, 0)), fast=fast)
     # The lowest edge lies side (sin a + cos a) / 2 below the centre.
@@ -53,7 +53,7 @@ USES: dict[str, Callable[[qr.System, tuple[qr.ContactPair, ...], Array], object]
 
 
 @pytest.mark.parametrize("use", USES)
-def test_what_is_computed_from_it_is_refused(use: str) -> None:
+def test_what_is_computed_from_it_is_refused(use):
     system, pairs, q = box_above_floor()
     q[3:7] *= 2
     with pytest.raises(ModelError, match=WORDS):
@@ -61,7 +61,7 @@ def test_what_is_computed_from_it_is_refused(use: str) -> None:
 
 
 @pytest.mark.parametrize("fast", [False, True])
-def test_a_target_of_an_actuated_base_is_refused(fast: bool) -> None:
+def test_a_target_of_an_actuated_base_is_refused(fast):
     hand = qr.Body.of_shape("hand", qr.Sphere(0.05), mass=1.0, actuated="all")
     system = qr.System([hand])
     simulator = qr.Simulator(system, (), h=0.01, K_q=np.eye(6), fast=fast)

@@ -4,9 +4,8 @@ import random
 
 import pytest
 
-from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref import InputError, QuasistaticError, solve_step
 from quasistatic_ref.solve.backends import NONE, installed, installed_backends
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from tests.oracles.attacked_steps import hostile_step
 

@@ -5,14 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from quasistatic_ref import Extra, StepDataError, StepNotSolved, solve_step
 from quasistatic_ref.certify.solution import step_solution
-from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.solve import FACTOR_LIMIT, _far_from_largest, solve_step
+from quasistatic_ref.solve.solve import FACTOR_LIMIT, _far_from_largest
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits
-from quasistatic_ref.step.data import Extra
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING
 

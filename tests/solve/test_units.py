@@ -5,10 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref import Extra, StepDataError, solve_step, standard_form
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     SMALLEST,
     STANDSTILL,
@@ -22,9 +21,8 @@ from quasistatic_ref.solve.units import (
     phi_within_reach,
     units_from,
 )
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import FAR
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import (
     hessian,
     pinch,
@@ -32,7 +30,7 @@ from tests.helpers import (
     sphere_on_floor,
     unconstrained,
 )
-from tests.tolerances import EXACT, NATURAL_HIGH, NATURAL_LOW, ROUNDING
+from tests.tolerances import NATURAL_HIGH, NATURAL_LOW, ROUNDING
 
 STEPS = {
     "random": random_step(np.random.default_rng(1), 7, 6, (6,) * 10 + (4,) * 5),
@@ -66,7 +64,7 @@ def test_there_and_back_gives_the_same_bits(step):
 def test_all_units_are_powers_of_two(step):
     units = natural_units(step)
     mantissas, _ = np.frexp([*units.coordinate, units.length, units.size])
-    np.testing.assert_allclose(mantissas, 0.5, rtol=EXACT, atol=EXACT)
+    np.testing.assert_array_equal(mantissas, 0.5)
 
 
 @every_step
@@ -100,10 +98,10 @@ def test_natural_units_keep_the_form_of_13_and_4(step):
     ell = units.length
     rho = units.size
     natural = standard_form(natural_step(step, units))
-    np.testing.assert_allclose(natural.H, given.H * np.outer(S, S), rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(natural.b, given.b / (rho * ell), rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(natural.A, given.A * S / ell, rtol=ROUNDING, atol=EXACT)
-    np.testing.assert_allclose(natural.g, given.g * S / rho, rtol=ROUNDING, atol=EXACT)
+    np.testing.assert_array_equal(natural.H, given.H * np.outer(S, S))
+    np.testing.assert_array_equal(natural.b, given.b / (rho * ell))
+    assert_relative(natural.A, given.A * S / ell, ROUNDING)
+    assert_relative(natural.g, given.g * S / rho, ROUNDING)
 
 
 @pytest.mark.parametrize("power", [2.0, 2.0**-900])
@@ -126,7 +124,7 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
         tau_a=np.zeros(3), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(3)
     )
     assert natural_units(still).size == STANDSTILL
-    np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
+    assert_within(solve_step(still).delta_q, 0.0, ROUNDING)
 
 
 def with_own_rows(rows, b, load=0.0):
@@ -173,7 +171,7 @@ def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     assert (phi_within_reach(natural) == natural.contacts.phi).all()
     far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
     reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
-    np.testing.assert_allclose(phi_within_reach(far), [reach], rtol=ROUNDING, atol=0.0)
+    assert_relative(phi_within_reach(far), [reach], ROUNDING)
 
 
 @every_step

@@ -5,28 +5,31 @@ import copy
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import (
+from quasistatic_ref import (
+    Box,
+    Extra,
+    HalfSpace,
     InputError,
     LimitExceeded,
     NoCoulombSolution,
     NoFixedPoint,
     NotDifferentiable,
+    PointCloud,
     RunFailed,
+    Sphere,
     StepDataError,
     StepInfeasible,
     StepNotSolved,
+    coulomb_solutions,
+    coulomb_step,
+    derivatives,
+    load_scenario,
+    rollout,
+    smoothed,
+    solve_step,
 )
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
-from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.reason import Reason
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
-from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.extras import missing
 from tests.helpers import always_in_blocks, random_step

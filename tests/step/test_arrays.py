@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref import StepDataError
 from quasistatic_ref.step.arrays import checked_numbers
 
 

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import StepDataError, solve_step, standard_form
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone, cone_matrix, direction
 from quasistatic_ref.step.friction import contact_wrenches, friction_rows
-from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_rational import in_si
+from tests.closeness import assert_close, assert_within
 from tests.helpers import changed, random_step
 from tests.tolerances import EXACT, ROUNDING
 
@@ -56,9 +55,7 @@ def test_opposite_directions_and_quarter_turns_are_exact(K):
 def test_four_facets_are_the_pyramid_bit_for_bit(rng):
     contacts = random_step(rng, rows=(6, 6)).contacts
     for found in (friction_rows, lambda _, name: cone_matrix(name)):
-        np.testing.assert_allclose(
-            found(contacts, "facets-4"), found(contacts, "pyramid"), rtol=EXACT, atol=EXACT
-        )
+        np.testing.assert_array_equal(found(contacts, "facets-4"), found(contacts, "pyramid"))
 
 
 def coefficients(name):
@@ -82,14 +79,12 @@ def test_a_cone_function_combines_the_gap_and_the_motions(name):
     assert len(matrix) == len(cone(name).row_names)
     # np.cos rounds its argument, the cone's own cosines are right to an ulp.
     tolerance = 1e-15 if name.startswith("facets-") else EXACT
-    np.testing.assert_allclose(matrix, expected, rtol=0.0, atol=tolerance)
+    assert_within(matrix, expected, tolerance)
     # The leading rows do without torsion: its coefficient is then zero.
     short = np.array([(1.0, t_1, t_2) for t_1, t_2, _ in coefficients(name)])[
         : cone(name).without_torsion
     ]
-    np.testing.assert_allclose(
-        matrix[: cone(name).without_torsion, :3], short, rtol=0.0, atol=tolerance
-    )
+    assert_within(matrix[: cone(name).without_torsion, :3], short, tolerance)
     assert name == "product" or not matrix[: cone(name).without_torsion, 3].any()
 
 
@@ -131,7 +126,7 @@ def test_the_wrenches_do_the_same_generalised_work_as_the_rows(name, rng):
         force = f_1 * contacts.d1[j] + f_2 * contacts.d2[j] + f_n * contacts.n[j]
         work += contacts.J[j].T @ np.array([*force, tau]) * 0.01
     expected = standard_form(step).A.T @ lam
-    np.testing.assert_allclose(work, expected, rtol=ROUNDING, atol=ROUNDING)
+    assert_close(work, expected, ROUNDING)
 
 
 @pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
@@ -139,8 +134,8 @@ def test_rows_are_formed_without_rounding(name, rng):
     step = random_step(rng, rows=(6, 4)).replace(cone=name)
     _, _, A, b = in_si(exact_form(step))
     form = standard_form(step)
-    np.testing.assert_allclose(np.array(A, float), form.A, rtol=ROUNDING, atol=ROUNDING)
-    np.testing.assert_allclose(np.array(b, float), form.b, rtol=EXACT, atol=EXACT)
+    assert_close(np.array(A, float), form.A, ROUNDING)
+    np.testing.assert_array_equal(np.array(b, float), form.b)
 
 
 @pytest.mark.parametrize("name", ["pyramid", "product", "facets-8"])

@@ -3,17 +3,14 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref import Extra, StepData, StepIllPosed, StepInfeasible, contact_forces, verify
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.groups import group_steps, groups
 from quasistatic_ref.tolerances import ILL_POSED
 from tests.helpers import always_in_blocks, changed

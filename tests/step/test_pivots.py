@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import float_inverse
 from quasistatic_ref.step import pivots
-from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.pivots import exact_factor, positive_pivots
 from quasistatic_ref.tolerances import DEFINITE
 from tests.oracles.attacked_steps import singular

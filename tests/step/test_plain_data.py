@@ -8,11 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from quasistatic_ref import Box, Extra, Simulator, Sphere, load_scenario
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box, Sphere
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Extra
 from tests.scenes import written_scenario
 from tests.step.public_data import squeezed
 

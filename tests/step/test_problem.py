@@ -5,12 +5,10 @@ import numpy as np
 import pytest
 from cvxpy.utilities import scopes
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref import Extra, StepDataError, StepProblem, solve_step
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.problem import StepProblem
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import (
     JUDGE,
     changed,
@@ -66,7 +64,7 @@ def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
     for step in others:
         answer = solve_step(step, kept, certify="off").delta_q
         truth = solve_step(step, "none").delta_q
-        np.testing.assert_allclose(error(step, answer, truth), 0.0, rtol=0.0, atol=OPTIMUM)
+        assert_within(error(step, answer, truth), 0.0, OPTIMUM)
         assert kept.problem.problem._cache.param_prog is compiled
 
 
@@ -76,7 +74,7 @@ def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
 def test_empty_blocks_are_left_out(n_a, n_u, rows, rng):
     step, delta_q, lam = planted_step(rng, n_a, n_u, rows)
     answer = solve_step(step, JUDGE, certify="off")
-    np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)
+    assert_within(error(step, answer.delta_q, delta_q), 0.0, OPTIMUM)
     assert answer.lam.shape == lam.shape
 
 
@@ -91,14 +89,14 @@ def test_a_row_of_the_user_s_own_holds_a_coordinate_back(rng):
     )
     answer = solve_step(step, JUDGE, certify="off")
     push = step.h * (2.0 - 100.0 * 0.005)
-    np.testing.assert_allclose(answer.delta_q[0], 0.005, rtol=OPTIMUM, atol=0.0)
-    np.testing.assert_allclose(answer.lam_extra, [push], rtol=MULTIPLIERS, atol=0.0)
+    assert_relative(answer.delta_q[0], 0.005, OPTIMUM)
+    assert_relative(answer.lam_extra, [push], MULTIPLIERS)
 
 
 def test_multipliers_are_contact_major_though_cvxpy_s_are_not(rng):
     step, _, lam = planted_step(rng, 3, 4, rows=(4, 6, 4, 6))
     answer = solve_step(step, JUDGE)
-    np.testing.assert_allclose(answer.lam, lam, rtol=0.0, atol=MULTIPLIERS * lam.max())
+    assert_within(answer.lam, lam, MULTIPLIERS * lam.max())
 
 
 def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
@@ -108,7 +106,7 @@ def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
     problem = filled(step.replace(extra=Extra(("far",), np.ones((1, 7)), [-far])))
     problem.problem.solve(solver=cp.DAQP)
     expected = [*lam, 0.0]
-    np.testing.assert_allclose(problem.dual(), expected, rtol=0.0, atol=MULTIPLIERS * lam.max())
+    assert_within(problem.dual(), expected, MULTIPLIERS * lam.max())
 
 
 def test_mu_omega_does_not_matter_where_it_is_not_used(rng):

@@ -6,16 +6,9 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref import Extra, InputError, StepDataError, step_read, step_written
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.files import (
-    step_from_record,
-    step_read,
-    step_sha256,
-    step_text,
-    step_written,
-)
+from quasistatic_ref.step.files import step_from_record, step_sha256, step_text
 from tests.errors.scene import changed
 from tests.helpers import point_on_floor, random_step
 

@@ -27,14 +27,19 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from quasistatic_ref import (
+    InputError,
+    QuasistaticError,
+    StepData,
+    StepInfeasible,
+    solve_step,
+    step_read,
+)
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
-from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_read, step_text
+from quasistatic_ref.step.files import step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
 from tests.oracles.random_steps import any_step
 from tests.oracles.rational_kkt import exact, proved

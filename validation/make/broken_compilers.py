@@ -13,10 +13,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from quasistatic_ref import load_scenario, standard_form
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.library import why_not
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.step.standard_form import standard_form
 from validation.tools.scripts import ROOT
 
 STEPS = 10

@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
+from quasistatic_ref import StepData
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
@@ -28,7 +29,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.certificate import Prover
 from quasistatic_ref.optional.fast.compiled.library import why_not
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
-from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.data import Indices
 from quasistatic_ref.step.groups import Group
 from tests.oracles.random_steps import mixed_step
 from validation.tools.scripts import asked, shown

@@ -18,18 +18,17 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.errors import NoCoulombSolution, StepInfeasible
+from quasistatic_ref import (
+    NoCoulombSolution,
+    StepData,
+    StepInfeasible,
+    coulomb_solutions,
+    coulomb_step,
+    solve_step,
+)
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log, Record, results, workers
-from quasistatic_ref.optional.coulomb.fixed_point import (
-    MOST,
-    coulomb_step,
-    longest_slips,
-    slip_norms,
-)
-from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.optional.coulomb.fixed_point import MOST, longest_slips, slip_norms
 from quasistatic_ref.tolerances import COULOMB_RESIDUAL
 from tests.oracles.planar_coulomb import planar_solutions
 from tests.oracles.planar_steps import KINDS, planar_step

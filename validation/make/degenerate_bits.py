@@ -19,13 +19,13 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref import StepData
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, Z, contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.contacts import repeated as some_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.step.data import StepData
 from validation.make.confirmed_bits import CONES, differing, proof
 from validation.tools.scripts import asked, shown
 

@@ -14,12 +14,11 @@ from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 
+from quasistatic_ref import StepData, StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.rechecked import DETERMINED
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
-from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ACCURACY
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rational_kkt import exact, proved

@@ -18,16 +18,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref import (
+    QuasistaticError,
+    Simulator,
+    StepData,
+    StepInfeasible,
+    load_scenario,
+    solve_step,
+    verify,
+)
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.errors import QuasistaticError, StepInfeasible
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.step.data import StepData
 from tests.oracles.random_steps import mixed_step
 from validation.make.broken_compilers import compiler_lines
 from validation.tools.scripts import asked, shown

@@ -31,20 +31,23 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import (
+    QuasistaticError,
+    StepData,
+    StepSolution,
+    contact_forces,
+    load_scenario,
+    solve_step,
+)
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.loads import loaded
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.optional.forces.forces import WRENCH, contact_forces, defined_optimum
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import SURE
 from tests.oracles.compliant_forces import forces as independent_forces

@@ -25,24 +25,25 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from tqdm import tqdm
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
+    Body,
     Box,
     Capsule,
     Cone,
+    ContactPair,
     Cylinder,
     Ellipsoid,
     PlacedShape,
     PointCloud,
-    Shape,
+    QuasistaticError,
+    Simulator,
     Sphere,
+    StepResult,
+    System,
+    convex_hull,
 )
-from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.tools.scripts import asked, shown
 

@@ -25,7 +25,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref import QuasistaticError
 from quasistatic_ref.lab import processes
 from tests.errors.readers import FAMILIES, Reader
 from tests.oracles.bombs import BOMBS, PLACES, outside

@@ -21,16 +21,14 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import Extra, StepData, StepInfeasible, contact_forces
 from quasistatic_ref.certify.exact import group_optimum, joined_optimum
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
-from quasistatic_ref.optional.forces.forces import contact_forces
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_record
 from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step

@@ -14,7 +14,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref import StepNotSolved
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.measuring.environment import machine

@@ -23,8 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, RunFailed
-from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref import InputError, RunFailed, load_scenario
 from quasistatic_ref.simulate.finding import Finding
 
 HERE = Path(__file__).parent / "mistakes"

@@ -18,12 +18,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref import Body, ContactError, ContactPair, ModelError, System
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.data import Array

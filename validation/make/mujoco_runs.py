@@ -25,17 +25,23 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import QuasistaticError, RunFailed
+from quasistatic_ref import (
+    Body,
+    ContactPair,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    QuasistaticError,
+    Recorder,
+    RunFailed,
+    Simulator,
+    Sphere,
+    System,
+    Trajectory,
+)
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.guests.scene import MujocoScenario, mujoco_scenario
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud, Sphere
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import Recorder
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from validation.make.guests import PACKAGES, install
 from validation.tools.scripts import asked, shown

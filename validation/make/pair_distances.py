@@ -17,9 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref import ContactError
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest

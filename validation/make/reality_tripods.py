@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
 from quasistatic_ref.lab.reality.outline import Outline, rotation

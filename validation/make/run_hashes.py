@@ -27,9 +27,9 @@ from typing import NamedTuple
 import numpy as np
 from tqdm import tqdm
 
+from quasistatic_ref import load_scenario
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
-from quasistatic_ref.scenario.scenario import load_scenario
 from validation.tools.scripts import ROOT, asked, environment, shown
 
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")

@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref import load_scenario
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.scenario.scenario import load_scenario
 from validation.tools.scripts import RESULTS, asked, record_written
 
 RESULT = RESULTS / "same_bits.json"

@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.errors import RunFailed
+from quasistatic_ref import RunFailed, load_scenario, scanned_body
 from quasistatic_ref.lab.clouds.samplings import random_points
 from quasistatic_ref.lab.clouds.study import bunny_mesh
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.optional.scans.body import ScannedBody, scanned_body
+from quasistatic_ref.optional.scans.body import ScannedBody
 from quasistatic_ref.optional.scans.cloud import spacing, thinned
 from quasistatic_ref.optional.scans.solid import solid_of_mesh
-from quasistatic_ref.scenario.scenario import load_scenario, scenario_path
+from quasistatic_ref.scenario.scenario import scenario_path
 from quasistatic_ref.step.arrays import Array
 from tests.oracles.scanned import SCANS, SOLIDS, Exact
 from validation.tools.scripts import asked, shown

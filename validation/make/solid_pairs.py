@@ -20,15 +20,13 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import ContactError, ContactPair, PlacedShape, convex_hull
 from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.fast.compiled.solids import measured
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
+from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
 from tests.oracles.posed_pairs import PosedPairs
 from validation.tools.scripts import asked, shown

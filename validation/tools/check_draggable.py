@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
-from quasistatic_ref.solve.solve import solve_step
 from validation.tools.browser import Browser, check
 from validation.tools.scripts import ROOT
 

@@ -13,13 +13,12 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from PIL import Image
 
+from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main as command
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames, middle
 from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, LONGEST
 from quasistatic_ref.optional.show.figures.visuals import visuals
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
 from validation.tools.browser import Browser, check
 
 SCENES = {

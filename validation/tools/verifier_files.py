@@ -12,15 +12,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref import (
+    Extra,
+    InputError,
+    StepData,
+    StepIllPosed,
+    StepInfeasible,
+    StepNotSolved,
+    load_scenario,
+    solve_step,
+    step_read,
+)
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
-from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.vectors.files import inputs_read
 from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.files import step_read, step_text
+from quasistatic_ref.step.files import step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import at_random, forgeries, good_file, refutation
 from tests.oracles.random_steps import mixed_step

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box, Capsule, Cone, ContactError, Cylinder, Ellipsoid, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
+from quasistatic_ref.shapes.placed_shape import Shape
+from tests.closeness import assert_within
 from tests.oracles import closest
-from tests.tolerances import CURVED_PAIR, EXACT, ROUNDING, WAY_OUT
+from tests.tolerances import CURVED_PAIR, ROUNDING, WAY_OUT
 
 SOLIDS = closest.solids()
 PAIRS = [
@@ -78,17 +78,17 @@ def put(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]
 
 @pytest.mark.parametrize("other", OTHERS, ids=["ellipsoid", "cone"])
 @pytest.mark.parametrize("feature", FEATURES)
-def test_closest_points_are_found_at_every_feature(feature, other) -> None:
+def test_closest_points_are_found_at_every_feature(feature, other):
     for distance in (0.02, 1e-6):
         here, there, expected = put(feature, other, distance)
         for found in (solid_pair("p", here, there), solid_pair("p", there, here).swapped()):
-            np.testing.assert_allclose(found.phi, distance, rtol=EXACT, atol=ROUNDING)
+            assert_within(found.phi, distance, ROUNDING)
             for one, two in zip(found[1:], expected[1:], strict=True):
-                np.testing.assert_allclose(one, two, rtol=EXACT, atol=WAY_OUT)
+                assert_within(one, two, WAY_OUT)
 
 
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
-def test_a_pair_that_is_made_smaller_has_the_same_normal_and_a_smaller_distance(names) -> None:
+def test_a_pair_that_is_made_smaller_has_the_same_normal_and_a_smaller_distance(names):
     a, b = (SOLIDS[name] for name in names)
     answered = 0
     for R, t in closest.poses(4, 23):
@@ -100,14 +100,14 @@ def test_a_pair_that_is_made_smaller_has_the_same_normal_and_a_smaller_distance(
         A, B = (enlarged(closest.TABLES[name], SMALLER) for name in names)
         there = ShapeInWorld(own_shape(B), R, SMALLER * t)
         other = solid_pair("p", ShapeInWorld(own_shape(A), *HERE), there)
-        np.testing.assert_allclose(other.phi / SMALLER, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+        assert_within(other.phi / SMALLER, one.phi, CURVED_PAIR)
         # Of several normals that are as good, which one is taken may be rounding.
         gap = closest.gap(A, B, R, SMALLER * t, other.n[None])[0]
-        np.testing.assert_allclose(gap / SMALLER, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+        assert_within(gap / SMALLER, one.phi, CURVED_PAIR)
     assert answered >= 3
 
 
-def test_a_hair_of_penetration_is_not_nothing() -> None:
+def test_a_hair_of_penetration_is_not_nothing():
     # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
     a = Ellipsoid(np.array([0.1, 0.05, 0.04]))
     b = Ellipsoid(np.array([0.2, 0.03, 0.06]))
@@ -116,5 +116,5 @@ def test_a_hair_of_penetration_is_not_nothing() -> None:
         "p", ShapeInWorld(a, *HERE), ShapeInWorld(b, np.eye(3), np.array([0.3 + phi, 0, 0]))
     )
     # Two coordinates of 0.3 m are rounded: that of b, and that of its tip.
-    np.testing.assert_allclose(found.phi, 0.3 + phi - 0.3, rtol=EXACT, atol=2 * np.spacing(0.3))
-    np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(found.phi, 0.3 + phi - 0.3, 2 * np.spacing(0.3))
+    assert_within(found.n, [1, 0, 0], CURVED_PAIR)

@@ -12,7 +12,7 @@ def by_coal(names: tuple[str, str]) -> bool:
 
 
 @pytest.mark.parametrize("names", closest.pairs(), ids="-".join)
-def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, str]) -> None:
+def test_a_pair_is_as_far_apart_as_another_computation_says(names):
     atol = CURVED_PAIR if by_coal(names) else CLOSED_FORM
     worst, _, refused = pair_errors(names, 8)
     assert refused <= by_coal(names)  # where one is deep inside the other

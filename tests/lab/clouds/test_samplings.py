@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import convex_hull
 from quasistatic_ref.lab.clouds.samplings import (
     GRAZING,
     NOISE,
@@ -16,7 +17,6 @@ from quasistatic_ref.lab.clouds.samplings import (
     scan,
     some_vertices,
 )
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])

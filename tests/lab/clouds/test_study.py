@@ -1,10 +1,10 @@
 """The committed study of clouds: every cell of its grid, and rows that are made again alike."""
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.lab.clouds.rows import chosen, margin, rows
 from quasistatic_ref.lab.clouds.study import NONE, Cell, cells, row
+from tests.closeness import assert_relative
 
 NAMES = list(Cell.__dataclass_fields__)
 
@@ -21,8 +21,8 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
             continue
         weight = 0.2 * (9.81 + 0.04 / 2.2 / 0.01)
         needed = one["lever"] / (2 * one["squeeze"] / weight - 1 / 0.6)
-        np.testing.assert_allclose(one["needed"], needed, rtol=1e-4)
-        np.testing.assert_allclose(margin(one) * needed, one["mu_omega"] + one["spread"], rtol=1e-4)
+        assert_relative(one["needed"], needed, 1e-4)
+        assert_relative(margin(one) * needed, one["mu_omega"] + one["spread"], 1e-4)
 
 
 @pytest.mark.parametrize("change", [NONE, "squeeze"])

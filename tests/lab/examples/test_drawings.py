@@ -6,6 +6,7 @@ from matplotlib import pyplot as plt
 
 from docs.drawings import contact_geometry, corner_loads, free_body, sliding_block, the_program
 from quasistatic_ref.optional.show.figures import figure_style
+from tests.closeness import assert_close, assert_relative
 from tests.legible import faults
 from tests.tolerances import ROUNDING
 
@@ -16,15 +17,13 @@ def test_a_push_moves_the_load_to_the_corner_ahead():
         half = 9.81 / 2
         shift = push * 0.04 / (2 * 0.05)
         expected = [-push, half - shift, half + shift]
-        np.testing.assert_allclose([friction, left, right], expected, rtol=ROUNDING, atol=ROUNDING)
+        assert_close([friction, left, right], expected, ROUNDING)
 
 
 def test_the_point_is_held_at_3_N_and_slides_along_its_row_at_8_N():
     # (R8), one row: dx = h^2 (F - mu m g) / (m (1 + mu^2)), dz = mu dx.
     dx = 0.01**2 * (8.0 - 0.5 * 9.81) / (1 + 0.5**2)
-    np.testing.assert_allclose(
-        the_program.main(), [[0.0, 0.0], [dx, 0.5 * dx]], rtol=ROUNDING, atol=0.0
-    )
+    assert_relative(the_program.main(), [[0.0, 0.0], [dx, 0.5 * dx]], ROUNDING)
 
 
 def test_the_table_balances_3_N_and_bears_6_N_on_the_edge_of_its_cone():
@@ -32,7 +31,7 @@ def test_the_table_balances_3_N_and_bears_6_N_on_the_edge_of_its_cone():
     # dz = mu dx give f_n = (m g + mu F) / (1 + mu^2), and the friction is mu f_n.
     f_n = (9.81 + 0.5 * 6.0) / (1 + 0.5**2)
     expected = [[-3.0, 9.81], [-0.5 * f_n, f_n]]
-    np.testing.assert_allclose(free_body.main(), expected, rtol=ROUNDING, atol=ROUNDING)
+    assert_close(free_body.main(), expected, ROUNDING)
 
 
 def test_the_gap_of_the_sliding_block_is_that_of_r8_and_closes():
@@ -48,7 +47,7 @@ def test_the_gap_of_the_sliding_block_is_that_of_r8_and_closes():
 @pytest.mark.parametrize("phi", [10.0, -10.0])
 def test_beta_is_phi_along_n_from_alpha_and_the_ball_touches_at_alpha(phi):
     alpha, beta = contact_geometry.points(phi)
-    np.testing.assert_allclose(beta - alpha, phi * contact_geometry.N, rtol=ROUNDING, atol=ROUNDING)
+    assert_close(beta - alpha, phi * contact_geometry.N, ROUNDING)
     assert np.hypot(*alpha) == pytest.approx(contact_geometry.RADIUS, rel=ROUNDING)
     assert pytest.approx(0.0, abs=ROUNDING) == contact_geometry.N @ contact_geometry.D1
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.outline import Outline
 from tests.tolerances import ROUNDING

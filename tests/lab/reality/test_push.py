@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError, solve_step
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted, touching
 from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
-from quasistatic_ref.solve.solve import solve_step
 from tests.tolerances import QUASI_STATIC
 
 RATIO = 0.03

@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality import loads, pairs, pushes
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors

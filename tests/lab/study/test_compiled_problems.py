@@ -10,6 +10,7 @@ from quasistatic_ref.lab.study.calling.compiled_problems import CompiledProblems
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.step.standard_form import StandardForm
+from tests.closeness import assert_within
 from tests.tolerances import OPTIMUM
 
 X, LAM = [1.0, 1.5], [4.5, 0.0]
@@ -28,8 +29,8 @@ def test_a_quadratic_program_through_cvxpy_has_its_closed_form(name):
     begin = perf_counter()
     reply = CompiledProblems(name).reply(form(), BACKENDS[name].first(1e-10))
     assert reply.solved
-    np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
-    np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
+    assert_within(reply.x, X, OPTIMUM)
+    assert_within(reply.lam, LAM, OPTIMUM)
     assert 0 < reply.call_seconds < perf_counter() - begin
 
 
@@ -44,8 +45,8 @@ def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
 def test_a_quadratic_program_through_qpsolvers_has_its_closed_form():
     begin = perf_counter()
     reply = qpsolvers_reply(form(), "clarabel", BACKENDS["clarabel"].first(1e-10))
-    np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
-    np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
+    assert_within(reply.x, X, OPTIMUM)
+    assert_within(reply.lam, LAM, OPTIMUM)
     assert 0 < reply.seconds <= reply.call_seconds < perf_counter() - begin
 
 

@@ -6,7 +6,7 @@ from operator import attrgetter
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.calling.calls import call_of, reply_or_failure
 from quasistatic_ref.lab.study.calling.claims import (
     HIDDEN,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.calling import guests
 from quasistatic_ref.lab.study.calling.calls import call_of
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE, claim

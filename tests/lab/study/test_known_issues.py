@@ -9,13 +9,12 @@ import runpy
 import numpy as np
 import pytest
 
+from quasistatic_ref import StepProblem, standard_form
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.through_cvxpy import CANON
-from quasistatic_ref.step.problem import StepProblem
-from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
 from validation.programs.engines.judge import RESULTS
 from validation.programs.engines.reproduce import FOLDER

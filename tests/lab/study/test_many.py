@@ -7,12 +7,10 @@ import sqlite3
 import numpy as np
 import pytest
 
+from quasistatic_ref import InputError, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
 from quasistatic_ref.lab.study.store.store import STORE
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
 
 SLOPE = ["block_incline", "--set", "steps=2", "--sweep", "contacts.rough.mu_v=0:0.9:2", "--quiet"]
 

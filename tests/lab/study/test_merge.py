@@ -5,8 +5,8 @@ import os
 
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.merge import merged, part_read

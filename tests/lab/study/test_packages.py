@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.calling.packages import announced, announced_function
 from quasistatic_ref.lab.study.store.store import contents
 

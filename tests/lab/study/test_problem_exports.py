@@ -14,12 +14,13 @@ from pyarrow.parquet import read_table
 from scipy.io import loadmat
 from scipy.sparse import csc_matrix, csr_matrix
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
 from quasistatic_ref.lab.study.problems.names import FORMATS
 from quasistatic_ref.lab.study.problems.problem import Problem
+from tests.closeness import assert_within
 
 
 @pytest.fixture
@@ -96,7 +97,7 @@ def test_files_in_qps_are_read_by_highs_and_by_the_lines_of_the_readme(few, tmp_
         for found, again, wanted in zip(names["read_qps"](path), by_highs(path), one.form,
                                         strict=True):  # fmt: skip
             np.testing.assert_array_equal(found, wanted)
-            np.testing.assert_allclose(again, wanted, rtol=0, atol=1e-12)
+            assert_within(again, wanted, 1e-12)
 
 
 def of_rows(name, H, g, A, b):

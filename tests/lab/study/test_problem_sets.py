@@ -11,8 +11,8 @@ from hashlib import sha256
 import numpy as np
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.editions import FROZEN, edition_problem

@@ -5,10 +5,11 @@ from os.path import relpath
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, problems_record, study_problems
+from tests.closeness import assert_relative
 from tests.oracles.rational_kkt import refutation
 
 PROBLEMS = '[problems]\nscenarios = ["block_incline", "{own}"]\nfamilies.scenarios = 5\n'
@@ -32,7 +33,7 @@ def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmeti
         assert refutation(one.form.H, one.g, one.form.A, one.b, *x) is None
         least, *_, largest = np.linalg.eigvalsh(one.form.H)
         found = one.facts["measures"]["condition"]
-        np.testing.assert_allclose(found, largest / least, rtol=1e-3)  # the table has four digits
+        assert_relative(found, largest / least, 1e-3)  # the table has four digits
     read = set_read(tmp_path / FOLDER)
     assert problems_record(read) == problems_record(made)
     assert [dict(one.facts) for one in read] == [dict(one.facts) for one in made]

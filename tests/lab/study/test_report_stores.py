@@ -3,8 +3,8 @@
 import pytest
 from matplotlib import pyplot as plt
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.figures.study_images import drawn
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report.report import study_report

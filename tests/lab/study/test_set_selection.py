@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
+from tests.closeness import assert_relative
 
 STUDY = """
 [problems]
@@ -29,7 +30,7 @@ def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
     assert max(dials) == 0.1
     assert 1e-3 <= min(dials) < 1.2e-3
     ratios = np.array(sorted(dials)[1:]) / sorted(dials)[:-1]
-    np.testing.assert_allclose(ratios, 100 ** (1 / 4), rtol=0.2)
+    assert_relative(ratios, 100 ** (1 / 4), 0.2)
 
 
 def test_sequences_are_taken_whole_and_in_order(members):

@@ -2,8 +2,8 @@
 
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.options import has_accuracy, options_at
 from quasistatic_ref.lab.study.measuring.plan import plan

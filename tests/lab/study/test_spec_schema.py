@@ -7,8 +7,8 @@ import pytest
 from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.file.fields import TABLES, study_schema
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_names

@@ -6,7 +6,7 @@ from contextlib import closing
 
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.store import store as stores
 from quasistatic_ref.lab.study.store.pack import packed
 from quasistatic_ref.lab.study.store.rows import flat, key_of, nested

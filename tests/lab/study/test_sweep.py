@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, sweep_run
 
 MU = Axis("mu", ("contacts.smooth.mu_v",), (0.0, 0.3))

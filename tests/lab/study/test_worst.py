@@ -7,8 +7,8 @@ import shlex
 
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.measuring.ask import question
 from quasistatic_ref.lab.study.report.report import study_report

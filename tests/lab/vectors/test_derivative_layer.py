@@ -10,6 +10,7 @@ from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.layers import layer
+from tests.closeness import assert_within
 from tests.lab.vectors.material import cases, expected, report_on
 
 CHECKED = ("ball/pyramid", "forces/turned", "arm/passive_elbow", "planar/push",
@@ -41,7 +42,7 @@ def kinks():
 def test_differences_in_float64_are_the_same(name):
     wanted = np.array(output_of(name)["dq_dq"])
     found = derivative(case_of(name).input)["dq_dq"]
-    np.testing.assert_allclose(found, wanted, rtol=0, atol=FLOAT64 * np.abs(wanted).max())
+    assert_within(found, wanted, FLOAT64 * np.abs(wanted).max())
 
 
 def test_there_are_three_hundred_cases_and_kinks_of_every_kind():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.program.rotation import turn
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
@@ -15,6 +15,7 @@ from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
 from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, at
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
+from tests.closeness import assert_within
 from tests.lab.vectors.material import cases, expected
 
 CUBE = {"kind": "box", "size": [1.0, 1.0, 1.0]}
@@ -87,8 +88,8 @@ def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near():
     y = 0.1 / 0.75
     x = np.sqrt((1 - 4 * y * y) / 16)
     assert not unique
-    np.testing.assert_allclose(np.abs(found["alpha"]), [x, y, 0], rtol=0, atol=1e-15)
-    np.testing.assert_allclose(found["phi"], -np.hypot(x, y - 0.1), rtol=0, atol=1e-15)
+    assert_within(np.abs(found["alpha"]), [x, y, 0], 1e-15)
+    assert_within(found["phi"], -np.hypot(x, y - 0.1), 1e-15)
 
 
 @pytest.mark.parametrize("id_", list(CASES)[::7])

@@ -5,7 +5,7 @@ It crashes, hangs, prints garbage, answers twice, late or out of order, floods i
 
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.vectors.challenge.diagnosis import GIVEN_UP
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge

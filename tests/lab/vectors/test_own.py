@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.own.system import own_system
 from quasistatic_ref.lab.vectors.tables import follower, free_body, link
+from tests.closeness import assert_within
 from tests.lab.vectors.material import cases, report_on
 
 
@@ -26,7 +27,7 @@ def test_the_package_undoes_its_own_step_to_the_last_digits():
         q = np.array([*random.normal(size=2), np.cos(0.3), np.sin(0.3), np.cos(2), np.sin(2)])
         step = np.array([*random.normal(size=2), angle, -angle])
         back = system.difference(q, system.integrate(q, step))
-        np.testing.assert_allclose(back, step, rtol=0, atol=1e-14)
+        assert_within(back, step, 1e-14)
 
 
 @pytest.mark.parametrize(

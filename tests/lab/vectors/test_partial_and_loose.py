@@ -5,8 +5,8 @@ import json
 
 import pytest
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS

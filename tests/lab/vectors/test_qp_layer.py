@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds, floors
 from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.precision import short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.layers import qp
+from tests.closeness import assert_relative
 from tests.tolerances import ROUNDING
 
 EPS = Fraction(1, 2**53)
@@ -85,9 +86,9 @@ def test_a_body_held_fast_is_right_to_eight_roundings_of_its_free_step():
     }
     error = 8 * float(EPS) * np.hypot(0.03, 0.1) / 10
     x, net, slack = floors(qp.form_of(case))
-    np.testing.assert_allclose(float(x), error / 10, rtol=ROUNDING)
-    np.testing.assert_allclose(float(net), error * 10, rtol=ROUNDING)
-    np.testing.assert_allclose(float(slack), error / 10 * np.sqrt(1.25), rtol=ROUNDING)
+    assert_relative(float(x), error / 10, ROUNDING)
+    assert_relative(float(net), error * 10, ROUNDING)
+    assert_relative(float(slack), error / 10 * np.sqrt(1.25), ROUNDING)
     answer = qp.expected(case)
     assert answer.output["delta_q"] == [0.0, 0.0]
     assert float(x) <= answer.tolerance["delta_q"].absolute <= 2 * float(x)

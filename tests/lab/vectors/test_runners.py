@@ -17,6 +17,7 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
+from tests.closeness import assert_within
 from tests.lab.vectors.material import NUMPY, VECTORS
 from tests.tolerances import CLOSED_FORM
 from validation.make.challenges import PLAIN
@@ -66,7 +67,7 @@ def test_boxes_that_touch_with_their_faces_are_not_apart():
     turned = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     there = turned, np.array([-0.08, -0.03, 0.01])
     phi, *_ = closest_points(box, (np.eye(3), np.zeros(3)), box, there)
-    np.testing.assert_allclose(phi, 0, rtol=0, atol=CLOSED_FORM)
+    assert_within(phi, 0, CLOSED_FORM)
 
 
 def test_the_plain_program_shares_no_code_with_the_package():

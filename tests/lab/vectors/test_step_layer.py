@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError, contact_forces, load_scenario
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
-from quasistatic_ref.optional.forces.forces import contact_forces
-from quasistatic_ref.scenario.scenario import load_scenario
+from tests.closeness import assert_within
 from tests.lab.vectors.material import cases, expected, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
@@ -53,16 +52,14 @@ def test_a_step_of_a_scenario_is_that_of_the_simulator():
     result = scenario.simulator().step(q, scenario.targets(scenario.h))
     output = expected("step")["step/bunny_grasp/0"]["output"]
     size = np.abs(result.solution.delta_q).max()
-    np.testing.assert_allclose(
-        output["delta_q"], result.solution.delta_q, rtol=0, atol=ROUNDING * size
-    )
-    np.testing.assert_allclose(output["q_next"], result.q, rtol=0, atol=ROUNDING)
+    assert_within(output["delta_q"], result.solution.delta_q, ROUNDING * size)
+    assert_within(output["q_next"], result.q, ROUNDING)
 
 
 def test_consecutive_steps_of_a_run_follow_each_other():
     by_id = {case.id: case.input for case in cases("step")}
     after = expected("step")["step/stack/15"]["output"]["q_next"]
-    np.testing.assert_allclose(after, by_id["step/stack/16"]["q"], rtol=0, atol=ROUNDING)
+    assert_within(after, by_id["step/stack/16"]["q"], ROUNDING)
 
 
 def case_of(name):
@@ -83,7 +80,7 @@ def test_forces_are_those_that_fractions_prove_on_the_step_of_the_package():
     found = independent_forces(posed_case(case).step, case["pairs"][0]["compliance"])
     allowed = record["tolerance"]["forces"]["absolute"]
     assert np.abs(found).max() > 1e4 * allowed
-    np.testing.assert_allclose(answer["forces"], found, rtol=0, atol=allowed)
+    assert_within(answer["forces"], found, allowed)
 
 
 @pytest.mark.parametrize("name", ["mimic/revolute_actuated", "panda_push/0", "stack/0"])

@@ -6,15 +6,19 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.errors import ModelError, ScenarioError
-from quasistatic_ref.model.body import Body
+from quasistatic_ref import (
+    Body,
+    Box,
+    ModelError,
+    ScenarioError,
+    System,
+    derivatives,
+    load_scenario,
+    trajectory_read,
+    verify,
+)
 from quasistatic_ref.model.joints.ball import Ball
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.oracles.differences import after, rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
@@ -43,9 +47,9 @@ def test_a_ball_turns_by_its_rotation_vector_in_its_own_frame(angle, rng):
     after = BALL.moved(q.as_quat().tolist(), w.tolist())
     expected = (q * Rotation.from_rotvec(w)).as_matrix()
     found = Rotation.from_quat(after).as_matrix()
-    np.testing.assert_allclose(found, expected, rtol=0, atol=4 * ROUNDING)
+    assert_within(found, expected, 4 * ROUNDING)
     back = BALL.change(q.as_quat().tolist(), after)
-    np.testing.assert_allclose(back, w, rtol=0, atol=8 * ROUNDING)
+    assert_within(back, w, 8 * ROUNDING)
 
 
 def hanging(base):
@@ -64,14 +68,14 @@ def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
     R, t = system.pose(q, "arm/bob")
     start = Rotation.from_euler("xyz", [0.4, 0.5, 0.6])
     expected = (start * Rotation.from_rotvec(w)).as_matrix()
-    np.testing.assert_allclose(R, expected, rtol=0, atol=8 * ROUNDING)
-    np.testing.assert_allclose(t, [0.1, 0.2, 0.3], rtol=0, atol=ROUNDING)
+    assert_within(R, expected, 8 * ROUNDING)
+    assert_within(t, [0.1, 0.2, 0.3], ROUNDING)
     inertia = np.diag(MOMENTS) + 2 * (CENTRE @ CENTRE * np.eye(3) - np.outer(CENTRE, CENTRE))
-    np.testing.assert_allclose(system.M_u(q), inertia, rtol=0, atol=4 * ROUNDING)
+    assert_within(system.M_u(q), inertia, 4 * ROUNDING)
     gravity = np.array([1.0, -2.0, -9.0])
     torque = np.cross(CENTRE, 2 * R.T @ gravity)
     found = system.gravity_force(q, gravity)
-    np.testing.assert_allclose(found, torque, rtol=0, atol=32 * ROUNDING)
+    assert_within(found, torque, 32 * ROUNDING)
     names = [c.name.rpartition(".")[2] for c in system.coordinates]
     entries = [name.rpartition(".")[2] for j in system.joints for name in j.positions]
     assert names == ["rx", "ry", "rz"]
@@ -121,7 +125,7 @@ def test_runs_are_exact_and_have_the_same_bits_at_both_speeds(base, tmp_path):
     assert motion.of.name == ("arm/base" if base else "arm/ball")
     ends = Rotation.from_quat(kept["q"][[0, -1]])
     turned = (ends[0].inv() * ends[1]).magnitude()
-    np.testing.assert_allclose(motion.turned[-1], turned, rtol=0, atol=8 * ROUNDING)
+    assert_within(motion.turned[-1], turned, 8 * ROUNDING)
 
 
 @pytest.mark.parametrize("base", [True, False])
@@ -136,7 +140,7 @@ def test_its_derivatives_are_those_of_differences(base):
                 simulator, found.result.q, simulator.system.integrate(q, t * e), np.zeros(0)
             )
         )
-        np.testing.assert_allclose(found.dq_dq[:, k], expected, rtol=0, atol=DIFFERENCE_OF_STEPS)
+        assert_within(found.dq_dq[:, k], expected, DIFFERENCE_OF_STEPS)
 
 
 @pytest.mark.parametrize(("base", "name"), [(True, "base"), (False, "ball")])
@@ -147,10 +151,10 @@ def test_a_target_turns_it_the_shorter_way(base, name):
     held = scene(base, actuated=[name], K_q={name: [40, 50, 60]}, targets=targets)
     q_bar = held.targets(1.0)
     expected = Rotation.from_euler("xyz", goal).as_quat()
-    np.testing.assert_allclose(q_bar, expected, rtol=0, atol=4 * ROUNDING)
+    assert_within(q_bar, expected, 4 * ROUNDING)
     start = Rotation.from_quat(held.targets(0.0))
     half = start * Rotation.from_rotvec((start.inv() * Rotation.from_quat(q_bar)).as_rotvec() / 2)
-    np.testing.assert_allclose(held.targets(0.05), half.as_quat(), rtol=0, atol=8 * ROUNDING)
+    assert_within(held.targets(0.05), half.as_quat(), 8 * ROUNDING)
 
 
 def test_what_a_ball_cannot_is_refused():

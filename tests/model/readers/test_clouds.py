@@ -2,12 +2,11 @@
 
 import io
 import struct
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.model.readers.clouds import point_cloud
 from tests.tolerances import FILE_FLOAT32
 
@@ -109,15 +108,13 @@ GOOD: dict[str, tuple[str, bytes]] = {
 
 
 @pytest.mark.parametrize(("suffix", "content"), GOOD.values(), ids=GOOD)
-def test_every_format_gives_the_points_bit_for_bit(
-    tmp_path: Path, suffix: str, content: bytes
-) -> None:
+def test_every_format_gives_the_points_bit_for_bit(tmp_path, suffix, content):
     path = tmp_path / f"cloud{suffix}"
     path.write_bytes(content)
     assert np.array_equal(point_cloud(path).points, POINTS)
 
 
-def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path: Path) -> None:
+def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
     path = tmp_path / "cloud.ply"
     path.write_bytes(binary_ply("float", "f"))
     points = point_cloud(path).points
@@ -244,9 +241,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
 
 
 @pytest.mark.parametrize(("suffix", "content", "words"), BAD.values(), ids=BAD)
-def test_a_defect_is_one_sentence_that_names_the_file(
-    tmp_path: Path, suffix: str, content: bytes, words: str
-) -> None:
+def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, suffix, content, words):
     path = tmp_path / f"cloud{suffix}"
     path.write_bytes(content)
     with pytest.raises(ModelError, match=words) as caught:
@@ -280,9 +275,7 @@ def npy_of_bytes() -> bytes:
         ("c.npy", npy_of_bytes(), "holds more than 1000000 points"),
     ],
 )
-def test_more_points_or_text_than_a_cloud_may_have_are_refused(
-    tmp_path: Path, name: str, content: bytes, says: str
-) -> None:
+def test_more_points_or_text_than_a_cloud_may_have_are_refused(tmp_path, name, content, says):
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(ModelError, match=f"{name}: {says}"):

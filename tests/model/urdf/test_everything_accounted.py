@@ -11,8 +11,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from quasistatic_ref import ModelError
 from quasistatic_ref.cli.ignored import ALWAYS
-from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written
 
@@ -157,7 +157,7 @@ def facts(folder: Path, text: str) -> tuple[list[object], tuple[str, ...]] | str
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path: Path, name: str) -> None:
+def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path, name):
     for file, size in {"a.obj": 1.0, "b.obj": 2.0}.items():
         written(tmp_path, OBJ.format(size), file)
     old, new, expected = CHANGES[name]
@@ -175,7 +175,7 @@ def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path: Path, name: str
         assert any(said.startswith(re.sub(r"\[[^\]]*\]", "", entry) + ".") for entry in found[1])
 
 
-def test_the_name_of_a_robot_is_said_to_be_ignored(tmp_path: Path) -> None:
+def test_the_name_of_a_robot_is_said_to_be_ignored(tmp_path):
     for file in ("a.obj", "b.obj"):
         written(tmp_path, OBJ.format(1.0), file)
     assert facts(tmp_path, ROBOT) == facts(tmp_path, ROBOT.replace(*NAME))
@@ -186,7 +186,7 @@ LIBC = {"asin", "deregister_tm_clones", "frame_dummy", "memcmp", "memcpy", "sinc
         "strtol"}  # fmt: skip
 
 
-def test_no_word_of_the_parser_is_missing() -> None:
+def test_no_word_of_the_parser_is_missing():
     folders = Path(pin.__file__).parents[3]
     library = min(folders.glob("liburdfdom_model.*"))
     words = re.findall(rb"(?<=\0)([a-z][a-z_]{2,})(?=\0)", library.read_bytes())

@@ -1,19 +1,13 @@
 """URDF files: what is loaded is what was written, and anything else is refused in words."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
+from quasistatic_ref import Body, Box, Capsule, Cylinder, ModelError, Sphere, System
 from quasistatic_ref.model.urdf import urdf as urdf_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
 from tests.model.urdf.urdf_texts import (
     BOX,
     CHAIN,
@@ -28,7 +22,7 @@ from tests.model.urdf.urdf_texts import (
 from tests.tolerances import ROUNDING
 
 
-def test_a_chain_is_loaded_as_written(tmp_path: Path) -> None:
+def test_a_chain_is_loaded_as_written(tmp_path):
     urdf = loaded_urdf(written(tmp_path, CHAIN), base="floating")
     assert urdf.links == ("base_link", "upper", "lower", "slider", "follower", "tool")
     assert [shape.name for shape in urdf.shapes] == ["base_link#0", "upper#0", "tool#0"]
@@ -42,7 +36,7 @@ def test_a_chain_is_loaded_as_written(tmp_path: Path) -> None:
     assert urdf.shapes[2].t == pytest.approx([0, 0, 0], abs=ROUNDING)
 
 
-def test_every_primitive_keeps_its_sizes(tmp_path: Path) -> None:
+def test_every_primitive_keeps_its_sizes(tmp_path):
     shapes = (
         '<box size="0.1 0.2 0.3"/>',
         '<sphere radius="1.5"/>',
@@ -56,12 +50,12 @@ def test_every_primitive_keeps_its_sizes(tmp_path: Path) -> None:
     assert others == [Sphere(1.5), Cylinder(0.2, 1.5), Capsule(0.2, 1.5)]
 
 
-def test_a_path_with_any_letters_is_read(tmp_path: Path) -> None:
+def test_a_path_with_any_letters_is_read(tmp_path):
     text = BOX.replace('name="r"', 'name="Кубик"').replace("<robot", "\ufeff<robot", 1)
     assert loaded_urdf(written(tmp_path, text, "ящик €.urdf")).links == ("box",)
 
 
-def test_a_fixed_base_needs_no_mass(tmp_path: Path) -> None:
+def test_a_fixed_base_needs_no_mass(tmp_path):
     text = robot(link("stand", inertial=""))
     assert loaded_urdf(written(tmp_path, text)).links == ("stand",)
     with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
@@ -74,7 +68,7 @@ NO_WEIGHT = (
 )
 
 
-def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
+def test_an_inertia_that_moves_nothing_is_noted(tmp_path):
     text = robot(
         link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
     )
@@ -87,7 +81,7 @@ def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
         loaded_urdf(path, base="floating", actuated=("j",))
 
 
-def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path: Path) -> None:
+def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path):
     """Its joints turn about one axis: where neither is actuated, M_u is singular."""
     chain = joint("j", "a", "b") + joint("i", "b", "c")
     path = written(tmp_path, robot(link("a"), link("b", inertial=""), link("c"), chain))
@@ -98,7 +92,7 @@ def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path: Path) -> None:
         System([Body("r", path, base="floating")])
 
 
-def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:
+def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path):
     needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
     welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
     (note,) = loaded_urdf(written(tmp_path, welded)).notes
@@ -113,19 +107,19 @@ def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("base", ["floating", "planar"])
-def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path: Path, base: str) -> None:
+def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path, base):
     path = written(tmp_path, robot(link("a", inertial="")))
     with pytest.raises(ModelError, match=f"is missing, but the {base} base moves this link"):
         loaded_urdf(path, base=base)
 
 
-def test_an_axis_that_is_not_written_is_x() -> None:
+def test_an_axis_that_is_not_written_is_x():
     hinge = joint("j", "a", "b").replace('<axis xyz="0 0 1"/>', "")
     urdf = loaded_urdf(robot(link("a"), link("b"), hinge))
     assert urdf.file.joints[0].axis.tolist() == [1.0, 0.0, 0.0]
 
 
-def test_a_mimic_may_be_met_before_its_leader() -> None:
+def test_a_mimic_may_be_met_before_its_leader():
     """Among joints of one link, and where both are moved by other joints of that link.
 
     At z = 0.3 the follower is at 2 (0.3) + 0.1 about the axis z.
@@ -196,10 +190,10 @@ TAMPERED = {
 
 @pytest.mark.parametrize("tamper", TAMPERED, ids=lambda tamper: tamper.__name__)
 def test_a_loader_that_misreads_is_noticed(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    tamper: Callable[[pin.Model, pin.GeometryModel], None],
-) -> None:
+    tmp_path,
+    monkeypatch,
+    tamper,
+):
     honest = urdf_module._loaded
 
     def dishonest(*arguments: object) -> tuple[pin.Model, pin.GeometryModel]:

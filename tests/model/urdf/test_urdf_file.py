@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf import urdf_file as urdf_file_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
@@ -14,14 +14,14 @@ from quasistatic_ref.tolerances import LOADED
 from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 
 
-def test_elements_are_nested_up_to_the_deepest() -> None:
+def test_elements_are_nested_up_to_the_deepest():
     root = xml_root("<a>" * DEEPEST + "</a>" * DEEPEST)
     assert len(list(root.iter())) == DEEPEST
     with pytest.raises(ModelError, match="line 1: is nested deeper than 100 elements"):
         xml_root("<a>" * (DEEPEST + 1) + "</a>" * (DEEPEST + 1))
 
 
-def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
     monkeypatch.setattr(urdf_file_module, "MOST_LINKS", 2)
     arms = joint("j", "a", "b"), joint("k", "b", "c")
     assert len(urdf_file(robot(link("a"), link("b"), arms[0])).links) == 2
@@ -29,7 +29,7 @@ def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch: pytest.MonkeyPat
         urdf_file(robot(link("a"), link("b"), link("c"), *arms))
 
 
-def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes() -> None:
+def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
     ixx, iyy, izz, ixy, ixz, iyz = written = [1.0, 2.0, -3.0, 0.1, 0.2, 0.3]
     defect = inertia_defect(np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]))
     assert defect is not None
@@ -51,14 +51,14 @@ def three_points(second: str) -> str:
     )
 
 
-def test_point_masses_are_a_body_unless_they_are_in_a_line() -> None:
+def test_point_masses_are_a_body_unless_they_are_in_a_line():
     # I = sum of m (d'd - d d') about the common centre: in a line, none about that line.
     assert loaded_urdf(three_points("0 0 0"), base="floating").links == ("a", "b", "c")
     with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: must be positive definite"):
         loaded_urdf(three_points("0 -1 0"), base="floating")
 
 
-def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body() -> None:
+def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body():
     for rest in (0.01, 0.3):
         assert inertia_defect(np.diag([0.3, rest, 0.3 + rest])) is None
         defect = inertia_defect(np.diag([0.3, rest, 0.31 + rest]))
@@ -67,9 +67,7 @@ def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body() -> No
 
 
 @pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
-def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(
-    excess: float, impossible: bool
-) -> None:
+def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(excess, impossible):
     # Two links of 1 kg, 0.2 m apart along z: about their common centre each adds 1 kg (0.1 m)^2 to
     # the moments about x and y. So each link's moment about z may exceed the sum of its others by
     # up to 2 (0.1^2) kg m^2 = 0.02 kg m^2.
@@ -86,7 +84,7 @@ def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(
         assert len(loaded_urdf(two, base="floating").notes) == 2
 
 
-def test_a_link_that_carries_only_links_without_mass_needs_one() -> None:
+def test_a_link_that_carries_only_links_without_mass_needs_one():
     empty = robot(
         link("a"), link("b", inertial=""), link("c", inertial=""),
         joint("turn", "a", "b"), joint("weld", "b", "c"),
@@ -95,14 +93,14 @@ def test_a_link_that_carries_only_links_without_mass_needs_one() -> None:
         loaded_urdf(empty, base="fixed")
 
 
-def test_a_fixed_joint_that_mimics_is_ignored() -> None:
+def test_a_fixed_joint_that_mimics_is_ignored():
     arms = joint("turn", "a", "b"), joint("weld", "b", "c", "fixed", more=mimic("turn"))
     file = urdf_file(robot(link("a"), link("b"), link("c"), *arms))
     assert file.joints[1].mimic is None
     assert [field for field in file.ignored if "mimic" in field] == ["joint[weld].mimic"]
 
 
-def test_a_joint_needs_its_effort_and_its_velocity_but_no_range() -> None:
+def test_a_joint_needs_its_effort_and_its_velocity_but_no_range():
     range_given = 'lower="-1" upper="1" '
     turn = joint("turn", "a", "b")
     assert range_given in turn
@@ -114,7 +112,7 @@ def test_a_joint_needs_its_effort_and_its_velocity_but_no_range() -> None:
 
 
 @pytest.mark.parametrize(("off", "same"), [(5.0, True), (11.0, False)])
-def test_places_are_compared_in_proportion_to_their_distance(off: float, same: bool) -> None:
+def test_places_are_compared_in_proportion_to_their_distance(off, same):
     # At 9 m, ten times what is allowed at the origin.
     t = np.array([9.0, 0.0, 0.0])
     loaded = pin.SE3(np.eye(3), t + off * LOADED * np.eye(3)[0])

@@ -1,10 +1,8 @@
 """URDF files that cannot be used: each defect is one sentence with file, element, value."""
 
-from pathlib import Path
-
 import pytest
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.model.urdf.urdf_texts import (
     BOX,
@@ -126,9 +124,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
 
 
 @pytest.mark.parametrize(("text", "old", "new", "words"), REFUSED.values(), ids=REFUSED)
-def test_a_defect_is_one_sentence_that_names_the_file(
-    tmp_path: Path, text: str, old: str, new: str, words: str
-) -> None:
+def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, text, old, new, words):
     assert old in text
     count = -1 if old in ("robot", "collision") else 1
     path = written(tmp_path, text.replace(old, new, count))
@@ -138,11 +134,11 @@ def test_a_defect_is_one_sentence_that_names_the_file(
 
 
 @pytest.mark.parametrize("text", [TWO, THREE, CHAIN, BOX])
-def test_the_texts_are_good_before_they_are_spoilt(tmp_path: Path, text: str) -> None:
+def test_the_texts_are_good_before_they_are_spoilt(tmp_path, text):
     assert loaded_urdf(written(tmp_path, text)).links
 
 
-def test_a_joint_named_base_cannot_float(tmp_path: Path) -> None:
+def test_a_joint_named_base_cannot_float(tmp_path):
     path = written(tmp_path, TWO.replace('name="j"', 'name="base"'))
     assert loaded_urdf(path).links == ("a", "b")
     with pytest.raises(ModelError, match=r"joint\[base\]: this name is taken by the floating base"):

@@ -6,13 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.account.spans import Span, spans
 from quasistatic_ref.optional.account.words import events, lines, tables
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.tolerances import BRIEF, CARRIES, NEAR, SLID, SLIDES, TOUCHES
+from tests.closeness import assert_relative
 from tests.tolerances import ROUNDING
 
 RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
@@ -103,7 +102,7 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
         else:
             value = run["q"][:, names.index(f"{name} [rad]")]
             angle = np.degrees(np.abs(value - value[0]).max())
-            np.testing.assert_allclose(numbers["largest_rotation_deg"], angle, rtol=ROUNDING)
+            assert_relative(numbers["largest_rotation_deg"], angle, ROUNDING)
     stiffness = run.header["scene"]["stiffness"]
     for name, numbers in said["joints"].items():
         if not name.endswith("/base"):
@@ -111,7 +110,7 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
             error = np.abs(run["q"][1:, i] - run["q_bar_a"][:, i])
             assert numbers["ends_from_target_m"] == error[-1]
             K_q = stiffness[run.header["coordinates"].index(name)]
-            np.testing.assert_allclose(numbers["largest_spring"], K_q * error.max(), rtol=ROUNDING)
+            assert_relative(numbers["largest_spring"], K_q * error.max(), ROUNDING)
     assert said["findings"] == [str(finding) for finding in run.findings]
 
 

@@ -13,16 +13,10 @@ has I: r = m mu_omega^2 / (I + m mu_omega^2).
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.errors import InputError, NoFixedPoint
+from quasistatic_ref import InputError, NoFixedPoint, coulomb_step, solve_step, verify
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.optional.coulomb.fixed_point import (
-    coulomb_step,
-    simulated_solution,
-    slip_norms,
-)
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution, slip_norms
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY

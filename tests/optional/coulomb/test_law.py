@@ -7,22 +7,27 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref import (
+    Body,
+    Box,
+    ContactPair,
+    Extension,
+    InputError,
+    PlacedShape,
+    RunFailed,
+    Simulator,
+    System,
+    coulomb_solutions,
+    derivatives,
+    load_scenario,
+    rollout,
+    trajectory_read,
+    verify,
+)
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, RunFailed
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.coulomb import fixed_point
-from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.doctor.table import scene_findings
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box, PlacedShape
-from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.step.extension import Extension
+from tests.closeness import assert_relative
 from tests.optional.extensions.test_rises import PUSHED, G, H, scene
 from tests.scenes import written_scenario
 from tests.tolerances import ROUNDING
@@ -49,7 +54,7 @@ def test_a_run_under_coulombs_law_lifts_nothing_off_and_has_one_result(runs):
     s = plain["s"].max()
     assert plain.header["largest_boundary_layer"] < RISE * s
     rising = load_scenario("block_push", steps=40, fast=True).run(progress=False)
-    np.testing.assert_allclose(rising.header["largest_boundary_layer"], s, rtol=0.2)
+    assert_relative(rising.header["largest_boundary_layer"], s, 0.2)
     assert "law" not in rising.header
     assert "s" not in rising.arrays
 
@@ -123,7 +128,7 @@ def test_a_guide_is_named_as_undetermined_and_stays_locked():
     loose = slot(X / 20)
     assert scene_findings(loose, loose.system.q_start) == []
     result = loose.step(loose.system.q_start, [], push)
-    np.testing.assert_allclose(result.solution.delta_q[0], X, rtol=ROUNDING)
+    assert_relative(result.solution.delta_q[0], X, ROUNDING)
     assert 10 <= result.solution.s_iterations <= 30
 
 
@@ -132,7 +137,7 @@ def test_a_narrow_guide_slides_freely_though_no_iterate_leads_there():
     push = np.array([20.0, 0, 0, 0, 0, 0])
     narrow = slot(1e-6)
     result = narrow.step(narrow.system.q_start, [], push)
-    np.testing.assert_allclose(result.solution.delta_q[0], H**2 * 20.0, rtol=ROUNDING)
+    assert_relative(result.solution.delta_q[0], H**2 * 20.0, ROUNDING)
 
 
 def test_where_no_solution_is_found_a_run_ends_and_claims_nothing(monkeypatch):

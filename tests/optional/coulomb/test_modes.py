@@ -13,14 +13,18 @@ h and p_t = -(X + c Z) m / h: again X >= w Z. So there are three solutions, or, 
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import NoCoulombSolution, StepInfeasible
+from quasistatic_ref import (
+    Extra,
+    NoCoulombSolution,
+    StepInfeasible,
+    coulomb_solutions,
+    coulomb_step,
+    solve_step,
+)
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
-from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.closeness import assert_within
 from tests.helpers import in_blocks, random_step, sphere_on_floor
 from tests.optional.coulomb.test_fixed_point import guide
 from tests.oracles.planar_steps import planar_contacts, planar_step
@@ -138,7 +142,7 @@ def test_every_polyhedral_cone_has_its_modes(cone):
     found = coulomb_solutions(step)
     ((mode,),) = found.modes
     assert found.count == "one"
-    np.testing.assert_allclose(mode.delta_q, coulomb_step(step).delta_q, rtol=0, atol=1e-15)
+    assert_within(mode.delta_q, coulomb_step(step).delta_q, 1e-15)
     assert coulomb_solutions(in_blocks(step)) == found
 
 

@@ -5,14 +5,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box, Cone, ContactError, Ellipsoid, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.by_coal import Judged, coal_witness, judged
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Cone, Ellipsoid
+from tests.closeness import assert_relative, assert_within
 from tests.contact.still import found_for, placed, standing
-from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
+from tests.tolerances import COAL, CURVED_PAIR, ROUNDING
 
 PLANTED = {
     "normal turned round": lambda r: setattr(r, "normal", -np.array(r.normal)),
@@ -53,8 +52,8 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
         return
     assert spoil not in REFUSED
     # The lower cone's tip is at z = 0.2, the upper one's base at 0.2 + gap.
-    np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(found.n, [[0, 0, 1]], rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(found.phi, [gap], CURVED_PAIR)
+    assert_within(found.n, [[0, 0, 1]], CURVED_PAIR)
 
 
 X = np.eye(3)[0]
@@ -86,15 +85,15 @@ def without_normals(monkeypatch, answers, phi=None):
     monkeypatch.setattr(coal, "distance", spoilt)
 
 
-def test_ellipsoids_are_as_far_apart_as_their_tips_however_far() -> None:
+def test_ellipsoids_are_as_far_apart_as_their_tips_however_far():
     for gap in (0.1, 10.0, 1e3):
         found = coal_witness("p", *tips(gap))
-        np.testing.assert_allclose(found.phi, gap, rtol=ROUNDING)
-        np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)
+        assert_relative(found.phi, gap, ROUNDING)
+        assert_within(found.n, X, CURVED_PAIR)
 
 
 @pytest.mark.parametrize("t", [(0.375, 0.25, 0.125), (0.25, 0.0625, 0.03125)])
-def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t) -> None:
+def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t):
     # Apart, and in penetration; all of these numbers are exact.
     found = []
     for origin in (0.0, 2.0**20):
@@ -105,49 +104,49 @@ def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t) -> None:
 
 
 @pytest.mark.parametrize("gap", [10.0, -0.01])
-def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, gap) -> None:
+def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, gap):
     without_normals(monkeypatch, 1000)
     with pytest.raises(ContactError, match="the contact normal is not reliable") as refused:
         coal_witness("p", *tips(gap))
-    np.testing.assert_allclose(refused.value.value["phi"], gap, rtol=EXACT, atol=10 * COAL)
+    assert_within(refused.value.value["phi"], gap, 10 * COAL)
 
 
 @pytest.mark.parametrize("settle", [True, False])
 @pytest.mark.parametrize("gap", [0.0, -1e-4, -0.01])
-def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap, settle) -> None:
+def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap, settle):
     # At no accuracy; the direction that is tried then is x.
     without_normals(monkeypatch, len(by_coal.ACCURACIES), phi=gap)
     if not settle:
         monkeypatch.setattr(by_coal, "settled", lambda *_: iter(()))
     found = coal_witness("p", *tips(gap))
-    np.testing.assert_allclose(found.phi, gap, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(found.phi, gap, CURVED_PAIR)
+    assert_within(found.n, X, CURVED_PAIR)
 
 
-def test_what_touches_is_not_searched_for_ways_out(monkeypatch) -> None:
+def test_what_touches_is_not_searched_for_ways_out(monkeypatch):
     monkeypatch.setattr(by_coal, "_shallowest", None)
     assert -by_coal.ENOUGH < coal_witness("p", *tips(-1e-15)).phi < 0
 
 
-def test_the_best_of_coal_s_answers_is_taken(monkeypatch) -> None:
+def test_the_best_of_coal_s_answers_is_taken(monkeypatch):
     without_normals(monkeypatch, 1)
     found = by_coal._by_coal(*tips(0.1))
-    np.testing.assert_allclose(found.phi, 0.1, rtol=EXACT, atol=COAL)
-    np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=COAL)
+    assert_within(found.phi, 0.1, COAL)
+    assert_within(found.n, X, COAL)
 
 
 @pytest.mark.parametrize("spoilt", range(4))
-def test_an_answer_with_a_number_that_is_not_finite_is_infinitely_wrong(spoilt) -> None:
+def test_an_answer_with_a_number_that_is_not_finite_is_infinitely_wrong(spoilt):
     answer = [0.1, 0.125 * X, 0.225 * X, X]
     assert judged(*tips(0.1), *answer).defect < ROUNDING
     answer[spoilt] = np.nan * answer[spoilt]
     assert judged(*tips(0.1), *answer).defect == np.inf
 
 
-def test_a_mesh_that_is_enlarged_has_a_larger_volume() -> None:
+def test_a_mesh_that_is_enlarged_has_a_larger_volume():
     vertices = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.3, 0], [0, 0, 0.4]])
     found = by_coal._resized(convex_hull(vertices), 4.0)
-    np.testing.assert_allclose(found.volume, 0.8 * 1.2 * 1.6 / 6, rtol=ROUNDING)
+    assert_relative(found.volume, 0.8 * 1.2 * 1.6 / 6, ROUNDING)
 
 
 BOX = Box(np.array([0.1, 0.12, 0.14]))
@@ -155,15 +154,15 @@ GRAIN = Ellipsoid(np.array([0.02, 0.021, 0.022]))
 
 
 @pytest.mark.parametrize(("y", "ways"), [(0.1, [1]), (-0.1, [-1]), (0.0, [-1, 1])])
-def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y, ways) -> None:
+def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y, ways):
     """A face of the box is 0.12 - |y| away, and the grain reaches 0.021 behind; or 0.1 and 0.02."""
     without_normals(monkeypatch, len(by_coal.ACCURACIES))  # the direction that is tried then is x
     way = 1 if y else 0
     phi = abs(y) - 0.12 - 0.021 if y else -0.1 - 0.02
     here = ShapeInWorld(BOX, np.eye(3), np.zeros(3))
     found = coal_witness("p", here, ShapeInWorld(GRAIN, np.eye(3), np.array([0.0, y, 0.0])))
-    np.testing.assert_allclose(found.phi, phi, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(abs(found.n), np.eye(3)[way], rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(found.phi, phi, CURVED_PAIR)
+    assert_within(abs(found.n), np.eye(3)[way], CURVED_PAIR)
     assert np.sign(found.n[way]) in ways
 
 
@@ -180,21 +179,19 @@ def test_ways_out_are_looked_for_from_the_proved_one_as_far_as_the_solids_are_wi
     ball = ShapeInWorld(Ellipsoid(np.full(3, 0.03)), np.eye(3), -0.12 * axis)
     coal_witness("p", ShapeInWorld(Cone(0.3, 0.1), turn, np.zeros(3)), ball)
     ((first, phi, size),) = asked
-    np.testing.assert_allclose(first, -axis, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(phi, -0.01, rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(first, -axis, CURVED_PAIR)
+    assert_within(phi, -0.01, CURVED_PAIR)
     reach = [
         max(0.1 * c, 0.3 * np.sqrt(1 - c * c) - 0.1 * c) for c in (X @ axis, -X @ axis)
     ]  # along the direction that is tried first, and against it
-    np.testing.assert_allclose(size, sum(reach) + 0.06, rtol=ROUNDING)
+    assert_relative(size, sum(reach) + 0.06, ROUNDING)
 
 
 @pytest.mark.parametrize(
     ("short", "turn", "refused"),
     [(0.05, 1.0, False), (0.2, 1.0, True), (0.2, 0.0, False)],
 )
-def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(
-    monkeypatch, short, turn, refused
-) -> None:
+def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(monkeypatch, short, turn, refused):
     """The shortest is 0.1 long; another, 0.2 less what is missing: it may be 0.15 long, or none."""
     a, b = (ShapeInWorld(BOX, np.eye(3), t) for t in (np.zeros(3), 0.1 * X))
     other = np.array([np.cos(turn), np.sin(turn), 0.0])
@@ -205,7 +202,7 @@ def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(
     assert (found.defect == np.inf) == refused
 
 
-def test_a_deep_way_out_that_settles_slowly_is_found() -> None:
+def test_a_deep_way_out_that_settles_slowly_is_found():
     """An ellipsoid E reaches |E S' n| behind the nearest face of a box of its own size."""
     half = np.array([0.03, 0.05, 0.08])
     t = np.array([0.01, 0.02, 0.03])
@@ -213,4 +210,4 @@ def test_a_deep_way_out_that_settles_slowly_is_found() -> None:
     here = ShapeInWorld(Box(half), np.eye(3), np.zeros(3))
     found = coal_witness("p", here, ShapeInWorld(Ellipsoid(half), S, t))
     expected = (t - half - np.linalg.norm(S * half, axis=1)).max()
-    np.testing.assert_allclose(found.phi, expected, rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(found.phi, expected, CURVED_PAIR)

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box, Cone, Cylinder
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
-from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
+from tests.closeness import assert_relative, assert_within
 from tests.oracles import closest
-from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
+from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 
 SOLIDS = closest.solids()
 HERE = np.eye(3), np.zeros(3)
@@ -20,7 +21,7 @@ def directions(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
-def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
+def test_the_curvature_is_the_derivative_of_the_farthest_point(name):
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
     h = DIFFERENCE_STEP
@@ -30,16 +31,16 @@ def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
             ahead, behind = (solid.farthest((n + s * h * way) / np.hypot(1, h)) for s in (1, -1))
             difference = (ahead - behind) / (2 * h)
             expected = curvature(solid, n) @ way
-            np.testing.assert_allclose(difference, expected, rtol=EXACT, atol=DIFFERENCE)
+            assert_within(difference, expected, DIFFERENCE)
         # The farthest point is the same for every length of n.
-        np.testing.assert_allclose(curvature(solid, n) @ n, 0, rtol=EXACT, atol=CURVED_PAIR)
+        assert_within(curvature(solid, n) @ n, 0, CURVED_PAIR)
 
 
-def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors() -> None:
+def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors():
     """Four of its twelve edges lie along each axis: the sum of e e' is 4 I for unit vectors e."""
     of = kinks(Box(np.array([0.3, 0.02, 0.1])))
     assert not of.levels.any()
-    np.testing.assert_allclose(of.axes.T @ of.axes, 4 * np.eye(3), rtol=0, atol=EXACT)
+    np.testing.assert_array_equal(of.axes.T @ of.axes, 4 * np.eye(3))
 
 
 def flat_normals(name: str) -> list[np.ndarray]:
@@ -52,7 +53,7 @@ def flat_normals(name: str) -> list[np.ndarray]:
 
 
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
-def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
+def test_every_point_of_a_face_is_as_far_as_the_farthest(name):
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
     wide = 0
@@ -60,12 +61,12 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
         n = R @ own
         found = face(solid, n)
         height = float(solid.reach(n[None])[0])
-        np.testing.assert_allclose(found.corners @ n, height, rtol=EXACT, atol=CURVED_PAIR)
+        assert_within(found.corners @ n, height, CURVED_PAIR)
         wide += len(found.corners) > 1 or found.radius > 0
         for x in 0.3 * np.random.default_rng(5).normal(size=(20, 3)):
             on = found.nearest(x)
             depth = SOLIDS[name].signed_distance((R.T @ (on - solid.t))[None])[0]
-            np.testing.assert_allclose(depth, 0, rtol=EXACT, atol=CURVED_PAIR)
+            assert_within(depth, 0, CURVED_PAIR)
             # Nearest: no corner lies further towards x.
             across = x - on - ((x - on) @ n) * n
             assert ((found.corners - on) @ across).max() <= CURVED_PAIR + (
@@ -75,40 +76,40 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
 
 
 @pytest.mark.parametrize("end", [1.0, -1.0])
-def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
+def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end):
     way = np.array([0.0, 0.0, end])
     cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), way)
     assert cap.radius == 0.1
-    np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+    np.testing.assert_array_equal(cap.corners, [0.25 * way])
     base = face(ShapeInWorld(Cone(0.1, 0.25), *HERE), way)
     assert base.radius == (0.1 if end < 0 else 0.0)
-    np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+    np.testing.assert_array_equal(base.corners, [0.25 * way])
 
 
-def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
+def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face():
     n = np.array([np.sin(1e-6), 0, np.cos(1e-6)])
     cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), n)
     assert cap.radius == 0
-    np.testing.assert_allclose(cap.corners, [[0.1, 0, 0.25]], rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(cap.corners, [[0.1, 0, 0.25]], CURVED_PAIR)
     for size in (1e-3, 1.0, 1e3):  # an edge along y, twice as long as the box is wide
         edge = face(ShapeInWorld(Box(size * np.array([1, 2, 3])), *HERE), n).corners
         expected = size * np.array([[1, -2, 3], [1, 2, 3]])
-        np.testing.assert_allclose(edge[edge[:, 1].argsort()], expected, rtol=ROUNDING)
+        assert_relative(edge[edge[:, 1].argsort()], expected, ROUNDING)
 
 
-def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
+def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding():
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     x, _, axis = R.T
     at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
     side = face(at, x + 0.9e-11 * axis).corners
-    np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(side @ R[:, 1], [0, 0], rtol=EXACT, atol=CURVED_PAIR)
+    assert_within(side @ axis, [-0.5, 0.5], CURVED_PAIR)
+    assert_within(side @ x, [1, 1], CURVED_PAIR)
+    assert_within(side @ R[:, 1], [0, 0], CURVED_PAIR)
 
 
-def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
+def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it():
     segment = Face(np.array([[0.0, 0, 0], [1, 0, 0]]), 0.0, np.array([0.0, 0.0, 1.0]))
     for x in (-0.5, 0.25, 2.0):
         expected = [np.clip(x, 0, 1), 0, 0]
         found = segment.nearest(np.array([x, 0.0, 0.5]))
-        np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)
+        np.testing.assert_array_equal(found, expected)

@@ -3,22 +3,22 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import Box, ContactError, Cylinder
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.faces import Face
 from quasistatic_ref.optional.curved.settle import CROSSING, _common, settled
-from quasistatic_ref.shapes.placed_shape import Box, Cylinder
+from tests.closeness import assert_within
 from tests.contact.solids.test_curved_pair import HERE, PAIRS, SOLIDS
 from tests.oracles import closest
-from tests.tolerances import CURVED_PAIR, EXACT
+from tests.tolerances import CURVED_PAIR
 
 UP = np.array([0.0, 0.0, 1.0])
 
 
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
-def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> None:
+def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names):
     a, b = (SOLIDS[name] for name in names)
     random = np.random.default_rng(4)
     settles = 0
@@ -38,7 +38,7 @@ def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> Non
     assert settles >= 5
 
 
-def test_points_of_faces_that_lie_flat_on_each_other_are_those_of_the_start() -> None:
+def test_points_of_faces_that_lie_flat_on_each_other_are_those_of_the_start():
     """A cylinder on a box: any point of the disc will do, so that the one asked for is taken."""
     low = ShapeInWorld(Box(np.array([0.2, 0.2, 0.1])), *HERE)
     top = ShapeInWorld(Cylinder(0.1, 0.05), np.eye(3), np.array([0.15, 0.0, 0.16]))
@@ -46,11 +46,11 @@ def test_points_of_faces_that_lie_flat_on_each_other_are_those_of_the_start() ->
     for found in settled(low, top, start):
         expected = 0.01, [0.14, 0.03, 0.1], [0.14, 0.03, 0.11], UP
         for one, two in zip(found, expected, strict=True):
-            np.testing.assert_allclose(one, two, rtol=0.0, atol=CURVED_PAIR)
+            assert_within(one, two, CURVED_PAIR)
 
 
 @pytest.mark.parametrize("sine", [0.6, 1e-5])
-def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine) -> None:
+def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine):
     """Cylinders one over the other, at a gap: the normal is z, and both lines cross at (x, 0)."""
     x = 0.05
     cosine = np.sqrt(1 - sine**2)
@@ -64,15 +64,15 @@ def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine) -> None:
     ways = [by_coal.judged(low, top, *way) for way in settled(low, top, start)]
     best = min(ways, key=lambda way: way.defect)
     assert best.defect <= CURVED_PAIR
-    np.testing.assert_allclose(best.n, UP, rtol=0.0, atol=CURVED_PAIR)
-    np.testing.assert_allclose(best.alpha, [x, 0, 0.1], rtol=0.0, atol=1e-10)
+    assert_within(best.n, UP, CURVED_PAIR)
+    assert_within(best.alpha, [x, 0, 0.1], 1e-10)
 
 
 def segment(middle, way):
     return Face(np.array([np.subtract(middle, way), np.add(middle, way)]), 0.0, UP)
 
 
-def test_segments_cross_unless_the_sine_of_their_angle_is_below_a_billionth() -> None:
+def test_segments_cross_unless_the_sine_of_their_angle_is_below_a_billionth():
     """The first is along x; the other crosses it at (0.1, 0), a third of the way from its end."""
     x = np.array([0.25, 0.0, 0.0])
     for sine, crosses in ((0.6, True), (2 * CROSSING, True), (CROSSING / 2, False)):
@@ -82,12 +82,12 @@ def test_segments_cross_unless_the_sine_of_their_angle_is_below_a_billionth() ->
             other = segment([0.1, 0.0, 0.2] + way / 3, way)
             found = _common(one, other, x)
             assert (abs(found[0] - 0.1) < 1e-6) == crosses
-            np.testing.assert_allclose(found[1:], 0.0, rtol=0.0, atol=EXACT)
+            np.testing.assert_array_equal(found[1:], 0.0)
 
 
-def test_discs_that_touch_at_their_rims_are_met_from_their_middles() -> None:
+def test_discs_that_touch_at_their_rims_are_met_from_their_middles():
     """Projections to and fro between two circles end where they started, but for their middles."""
     one = Face(np.zeros((1, 3)), 0.1, UP)
     other = Face(np.array([[0.3, 0.0, 0.2]]), 0.2, UP)
     found = _common(one, other, np.array([0.1, 0.1, 0.0]))
-    np.testing.assert_allclose(found, [0.1, 0, 0], rtol=0.0, atol=CURVED_PAIR)
+    assert_within(found, [0.1, 0, 0], CURVED_PAIR)

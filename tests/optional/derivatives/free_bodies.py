@@ -2,19 +2,19 @@
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
+    Body,
     Box,
     Capsule,
+    ContactPair,
     Cylinder,
     HalfSpace,
+    Simulator,
     Sphere,
+    System,
+    derivatives,
 )
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.lab.vectors.own.step import posed_case
 from tests.contact.still import placed
 from tests.lab.vectors.material import cases
 

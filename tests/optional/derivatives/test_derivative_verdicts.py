@@ -3,17 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref import Body, Box, Cylinder, PointCloud, Simulator, Sphere, System, derivatives
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Cylinder,
-    PointCloud,
-    Sphere,
-)
-from quasistatic_ref.simulate.simulator import Simulator
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, H, free, verdict
 

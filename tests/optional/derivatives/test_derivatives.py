@@ -7,10 +7,8 @@ nothing with the package's formulas.
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import Extension, InputError, derivatives
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.step.extension import Extension
 from tests.lab.vectors.material import cases, report_on
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.tolerances import DIFFERENCE_OF_STEPS

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref import InputError, Sphere, derivatives
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref import PointCloud, derivatives, smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
-from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import BEARING, NEARLY
+from tests.closeness import assert_relative
 from tests.lab.vectors.material import cases
 from tests.optional.derivatives.free_bodies import (
     BOX,
@@ -34,9 +33,9 @@ def test_a_point_that_sticks_slides_where_its_load_leaves_the_pyramid():
     simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
     found, _ = verdict(simulator, q, W * np.array([0.2, -0.1, 0, 0, 0, 0]))
     for way, share in ((X, 0.2), (-X, 0.6), (Z, 0.4), (-Z, np.inf)):
-        np.testing.assert_allclose(found.reach_along(tau=way).distance, share * W, rtol=ROUNDING)
+        assert_relative(found.reach_along(tau=way).distance, share * W, ROUNDING)
     by_x, _, by_z = found.reaches["dq_dtau"][:3]
-    np.testing.assert_allclose([by_x.distance, by_z.distance], [0.2 * W, 0.4 * W], rtol=ROUNDING)
+    assert_relative([by_x.distance, by_z.distance], [0.2 * W, 0.4 * W], ROUNDING)
     assert by_x.where == ", ".join(f"row {row} of c0/0" for row in ("+d1", "-d2", "+spin", "-spin"))
     units = natural_units(found.result.step)
     force = units.size / (H * units.coordinate[0])
@@ -49,7 +48,7 @@ def test_a_block_on_four_corners_slides_only_when_all_of_its_load_does():
     found, _ = verdict(simulator, q, 0.1 * W * X)
     at_the_floor = X + np.array([0, 0, 0, 0, -0.05, 0])
     ahead = found.reach_along(tau=at_the_floor)
-    np.testing.assert_allclose(ahead.distance, 0.3 * W, rtol=1e-9)
+    assert_relative(ahead.distance, 0.3 * W, 1e-9)
     assert ahead.where.count("row ") == 4 * 5
     assert "-d1" not in ahead.where
 
@@ -68,7 +67,7 @@ def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap)
         np.testing.assert_allclose(one.dq_dq[2, 2], slope, atol=ROUNDING)
     # Places are rounded to 7e-18 m.
     ahead = found.reach_along(q=-np.sign(gap) * Z)
-    np.testing.assert_allclose(ahead.distance, abs(gap), rtol=1e-3)
+    assert_relative(ahead.distance, abs(gap), 1e-3)
     assert ahead.where.count("row ") == 6
     exact = derivatives(simulator, q, NONE, nearly=0.0)
     assert exact.differentiable

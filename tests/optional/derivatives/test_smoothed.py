@@ -3,12 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref import InputError, Sphere, StepNotSolved, derivatives, smoothed
 from quasistatic_ref.lab.scenes.nudge import RADIUS, resting
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
-from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import rate, unit

@@ -5,14 +5,12 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, NotDifferentiable
+from quasistatic_ref import InputError, NotDifferentiable, Sphere, derivatives, smoothed
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, points, resting
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
-from quasistatic_ref.shapes.placed_shape import Sphere
+from tests.closeness import assert_relative
 from tests.extras import reason as needs
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
@@ -143,7 +141,7 @@ def test_smoothed_gradients_at_kinks_leave_the_step_exact():
     height, by_q = jax.value_and_grad(lambda q: step(q, NONE)[0][2])(q)
     assert float(height) == simulator.step(q, NONE).q[2]
     # At the kink s^2 m / h = 6 kappa, and ds / dphi = s m / h / (2 s m / h): one half.
-    np.testing.assert_allclose(by_q[2], 0.5, rtol=1e-9)
+    assert_relative(by_q[2], 0.5, 1e-9)
 
 
 def test_a_wrong_question_is_refused_in_a_sentence():

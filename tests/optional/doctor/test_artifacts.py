@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from quasistatic_ref import solve_step, trajectory_read
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
@@ -16,9 +17,8 @@ from quasistatic_ref.optional.doctor.artifacts import (
     largest_share,
     quasi_dynamic_number,
 )
-from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import SLOW
+from tests.closeness import assert_relative
 from tests.helpers import changed, point_on_floor, sphere_on_floor
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
@@ -39,7 +39,7 @@ def test_pi_is_the_speed_of_the_free_base_over_mu_g_h(system):
     delta_q = np.zeros(system.n_v)
     delta_q[box.v] = [3e-4, 0, 4e-4, 7.0, 8.0, 9.0]  # 0.05 m/s; turning does not count
     Pi = quasi_dynamic_number(system, step, delta_q, G)
-    np.testing.assert_allclose(Pi, 0.05 / (0.5 * G * H), rtol=ROUNDING, atol=0.0)
+    assert_relative(Pi, 0.05 / (0.5 * G * H), ROUNDING)
     moved_arm = np.ones(system.n_v)
     moved_arm[box.v] = 0.0
     assert quasi_dynamic_number(system, step, moved_arm, G) == 0.0
@@ -80,18 +80,18 @@ def test_the_share_of_drag_under_weight_is_the_quasi_dynamic_number(share):
     solution = solve_step(step)
     body = free_body(0.3)
     Pi = (x / H) / (0.5 * G * H)
-    np.testing.assert_allclose(Pi, share - 1, rtol=ROUNDING, atol=0.0)
+    assert_relative(Pi, share - 1, ROUNDING)
     found = [
         drag_share(body, solution, G),
         quasi_dynamic_number(body, step, solution.delta_q, G),
     ]
-    np.testing.assert_allclose(found, Pi, rtol=ROUNDING, atol=0.0)
+    assert_relative(found, Pi, ROUNDING)
 
 
 def test_the_drag_of_a_falling_body_is_its_weight():
     step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
     found = drag_share(free_body(0.3), solve_step(step), G)
-    np.testing.assert_allclose(found, 1.0, rtol=ROUNDING, atol=0.0)
+    assert_relative(found, 1.0, ROUNDING)
 
 
 def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
@@ -116,7 +116,7 @@ def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
     found = boundary_layer(
         gap_after(solution.step.contacts.phi, solution, solution.step.n_v), solution
     )
-    np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
+    assert_relative(found, expected, ROUNDING)
 
 
 def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):
@@ -131,6 +131,6 @@ def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):
     assert main(arguments) == 0
     header = trajectory_read(tmp_path / "sphere_spin.npz").header
     expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5
-    np.testing.assert_allclose(header["largest_boundary_layer"], expected, rtol=3e-3, atol=0.0)
+    assert_relative(header["largest_boundary_layer"], expected, 3e-3)
     assert 0 < header["quasi_dynamic_number"] < SLOW
     assert 0 < header["largest_drag_share"] < SLOW

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 

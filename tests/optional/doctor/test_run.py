@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import Trajectory, load_scenario, trajectory_read
 from quasistatic_ref.optional.doctor.sunk import sunk
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.tolerances import SUNK
 from tests.scenes import written_scenario
 

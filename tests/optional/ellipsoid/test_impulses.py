@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from flint import fmpq
 
+from quasistatic_ref import Extra
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.impulses import inside, outside_of_cones, raised
-from quasistatic_ref.step.data import Extra
 
 ONE = fmpq(1)
 

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.ellipsoid.newton import (
     contact_states,
     newton_pair,
 )
+from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
 
@@ -70,15 +71,15 @@ def test_both_methods_project_on_cones(states):
         for pair, tolerance in ((cold, 2.0**-25), (newton, 2.0**-52)):
             assert_pair(problem, pair, (b + s, s, y), tolerance)
     assert found == states
-    np.testing.assert_allclose(inwards, abs(y).max(), rtol=ROUNDING)
+    assert_relative(inwards, abs(y).max(), ROUNDING)
 
 
 def assert_pair(problem, pair, expected, tolerance):
     """A pair is that of the numbers x, s and y, s being the slacks of x."""
     x, s, y = expected
-    np.testing.assert_allclose(floats(pair.x), x, rtol=0, atol=tolerance)
-    np.testing.assert_allclose(floats(problem.slacks(*pair)), s, rtol=0, atol=tolerance)
-    np.testing.assert_allclose(floats(pair.y), y, rtol=0, atol=4 * tolerance)
+    assert_within(floats(pair.x), x, tolerance)
+    assert_within(floats(problem.slacks(*pair)), s, tolerance)
+    assert_within(floats(pair.y), y, 4 * tolerance)
 
 
 def test_a_cone_that_gives_way_is_pressed_by_twice_what_moves_out_of_it():
@@ -94,8 +95,8 @@ def test_a_cone_that_gives_way_is_pressed_by_twice_what_moves_out_of_it():
     with ctx.workprec(640):
         moved = _inwards(problem, Pair(column([0]), column(y)), [STICKS, SLIDES])
         lifts = floats(moved.y - column(y))
-    np.testing.assert_allclose(floats(moved.x), d, rtol=ROUNDING)
-    np.testing.assert_allclose(lifts, [d * y.max(), d * (y.max() + 2 / c), 0, 0], rtol=ROUNDING)
+    assert_relative(floats(moved.x), d, ROUNDING)
+    assert_relative(lifts, [d * y.max(), d * (y.max() + 2 / c), 0, 0], ROUNDING)
 
 
 def test_the_nearest_point_of_a_cone_leaves_a_difference_in_the_cone_across_it():
@@ -105,7 +106,7 @@ def test_the_nearest_point_of_a_cone_leaves_a_difference_in_the_cone_across_it()
         p = _projected(z)
         for v in (p, p - z):
             assert v[0] >= np.linalg.norm(v[1:]) - ROUNDING
-        np.testing.assert_allclose(p @ (p - z), 0.0, rtol=0, atol=ROUNDING)
+        assert_within(p @ (p - z), 0.0, ROUNDING)
 
 
 def test_one_displacement_opens_contacts_whose_normals_are_far_apart():

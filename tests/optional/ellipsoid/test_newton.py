@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import Certificate, verify
+from quasistatic_ref import Certificate, solve_step, verify
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
-from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import changed, pinch
 from tests.tolerances import ROUNDING
 

@@ -5,17 +5,23 @@ import numpy as np
 import pytest
 
 from docs.examples.joint_limits import joint_limits
-from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref import (
+    Extension,
+    InputError,
+    Scenario,
+    StepData,
+    StepDataError,
+    load_scenario,
+    solve_step,
+    trajectory_read,
+)
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
-from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.extension import Extension, Rises
+from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import random_step
 from tests.model.urdf.urdf_texts import (
     collision,
@@ -96,7 +102,7 @@ def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
     answers = [step(scene(tmp_path, DRAWN, fast=fast), force) for fast in (False, True)]
     assert [answer.certificate.kind for answer in answers] == ["exact", "exact"]
     assert answers[0].delta_q.tolist() == answers[1].delta_q.tolist()
-    np.testing.assert_allclose(answers[0].delta_q[0], expected, rtol=ROUNDING, atol=0.0)
+    assert_relative(answers[0].delta_q[0], expected, ROUNDING)
 
 
 def test_the_files_own_friction_is_taken_when_asked_for(tmp_path):
@@ -124,7 +130,7 @@ def test_a_joint_that_follows_adds_its_friction_by_its_multiplier(tmp_path, forc
     assert asked.of_bodies.rises.loads.tolist() == [5.0]
     M = 2.0 + 2.0**2 * 2.0
     expected = np.sign(force) * H**2 * max(abs(force) - 5.0, 0.0) / (M + 1e-6 * M)
-    np.testing.assert_allclose(step(asked, force).delta_q[0], expected, rtol=ROUNDING, atol=0.0)
+    assert_relative(step(asked, force).delta_q[0], expected, ROUNDING)
 
 
 def test_terms_of_an_extension_see_no_rise():
@@ -141,7 +147,7 @@ def test_terms_of_an_extension_see_no_rise():
     assert answer.delta_q.tolist() == [0.002, 0.002]  # of the joint, and of its rise
     cost = Extension(lambda s: [0.5 * cp.sum_squares(s.delta_q)], rises=rises)
     answer = solve_step(one, extension=cost)
-    np.testing.assert_allclose(answer.delta_q, [0.0025, 0.0025], rtol=1e-5, atol=0.0)
+    assert_relative(answer.delta_q, [0.0025, 0.0025], 1e-5)
 
 
 def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
@@ -162,7 +168,7 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     assert run.header["contacts"][0][-1] == "support of l/0"
     # It bears m g + m_r r / h^2, never more than m_r F / m above m g, on a plane that it is on.
     assert (run["phi"][:, -1] == 0.0).all()
-    np.testing.assert_allclose(run["wrench"][:, -1, 2], m * G, rtol=1e-6, atol=0.0)
+    assert_relative(run["wrench"][:, -1, 2], m * G, 1e-6)
     # Nothing of the rise is in the records but the programs, which can be solved again.
     assert run["delta_q"].shape == (4, 3)
     read = trajectory_read(run.save(tmp_path / "run.npz"))
@@ -182,7 +188,7 @@ def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     assert not step(free, 0.0, 0.0, 0.999 * mu_omega * m * G).delta_q.any()
     angle = H**2 * (0.2 - mu_omega * m * G) / (inertia + 1e-6 * m * mu_omega**2)
     found = step(free, 0.0, 0.0, 0.2).delta_q
-    np.testing.assert_allclose(found[:3], angle * turn, rtol=ROUNDING, atol=0.0)
+    assert_relative(found[:3], angle * turn, ROUNDING)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -203,11 +209,10 @@ def test_r40_random_loads_slide_what_is_not_held(seed):
         answer = exact(with_rises(step, Rises([f, f], [m_r, m_r], [0, 1])))
         beyond = np.sign(F) * max(abs(F) - f, 0.0)
         expected = h**2 * beyond / (np.array([h**2 * K, m]) + m_r)
-        np.testing.assert_allclose(
+        assert_within(
             answer.delta_q,
             [*expected, *abs(expected)],
-            rtol=0,
-            atol=CLOSED_FORM * h**2 * f / (min(m, h**2 * K) + m_r),
+            CLOSED_FORM * h**2 * f / (min(m, h**2 * K) + m_r),
         )
         assert share > 1 or not answer.delta_q.any()
     weight = m * G
@@ -226,9 +231,9 @@ def test_r40_random_loads_slide_what_is_not_held(seed):
             expected = np.zeros(4)
             expected[[i, 3]] = slid, coefficient * abs(slid)
             near = CLOSED_FORM * h**2 * coefficient * weight / (own + m_r * coefficient**2)
-            np.testing.assert_allclose(answer.delta_q, expected, rtol=0, atol=near)
+            assert_within(answer.delta_q, expected, near)
             N = weight + m_r * expected[3] / h**2
-            np.testing.assert_allclose(answer.wrench[0, 2], N, rtol=CLOSED_FORM, atol=0.0)
+            assert_relative(answer.wrench[0, 2], N, CLOSED_FORM)
 
 
 def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):

@@ -8,6 +8,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.account.words import lines
 from quasistatic_ref.optional.extensions.stops import urdf_limits
 from quasistatic_ref.step.extension import Extension
+from tests.closeness import assert_relative, assert_within
 from tests.model.urdf.urdf_texts import joint, link, mimic, robot
 from tests.tolerances import ROUNDING
 
@@ -53,9 +54,7 @@ def test_a_drawer_that_is_pushed_stops_at_its_limits(force, fast):
         np.testing.assert_allclose(run["q"][k + 1], [end], rtol=ROUNDING, atol=1e-18)
         stop = force - M * (end - q) / H**2
         expected = [max(-stop, 0.0), max(stop, 0.0)]
-        np.testing.assert_allclose(
-            run["lam_extra"][k] / H, expected, rtol=0, atol=ROUNDING * abs(force)
-        )
+        assert_within(run["lam_extra"][k] / H, expected, ROUNDING * abs(force))
         q = end
     assert q == (upper if force > 0 else lower)  # all of these forces reach it
 
@@ -68,7 +67,7 @@ def test_the_account_of_a_run_has_the_force_of_a_stop():
     run = pushed_drawer(qr.load_scenario(scene(drawer())), 20.0, 10)
     (stop,) = run.account().stops
     assert stop.name == "c/slide at its upper limit"
-    np.testing.assert_allclose(stop.force[2:], 20.0, rtol=ROUNDING, atol=0)
+    assert_relative(stop.force[2:], 20.0, ROUNDING)
     said = [*lines(run.account())]
     assert "c/slide at its upper limit 0.03 to 0.10 s, with at most 20 N" in said
     assert "0.03 s c/slide at its upper limit" in said
@@ -79,8 +78,8 @@ def test_an_actuated_joint_presses_against_its_stop():
     target = [{"t": 0, "slide": 0.0}, {"t": 0.01, "slide": 0.005}]
     fields = {"actuated": ["slide"], "K_q": {"slide": 100.0}, "targets": target}
     run = qr.load_scenario(scene(drawer(), **fields)).run(progress=False)
-    np.testing.assert_allclose(run["q"][1:, 0], 0.002, rtol=ROUNDING, atol=0)
-    np.testing.assert_allclose(run["lam_extra"][:, 1] / H, 0.3, rtol=ROUNDING, atol=0)
+    assert_relative(run["q"][1:, 0], 0.002, ROUNDING)
+    assert_relative(run["lam_extra"][:, 1] / H, 0.3, ROUNDING)
     assert not [one for one in run.findings if "limit" in one.name]
 
 
@@ -125,7 +124,7 @@ def test_a_joint_that_follows_limits_its_leader(multiplier, offset):
     ends = sorted((end - offset) / multiplier for end in (-0.001, 0.002))
     assert found.names == ("c/slide",)
     expected = max(ends[0], -0.001), min(ends[1], 0.002)
-    np.testing.assert_allclose((found.lower[0], found.upper[0]), expected, rtol=ROUNDING, atol=0)
+    assert_relative((found.lower[0], found.upper[0]), expected, ROUNDING)
 
 
 def test_limits_that_leave_no_position_are_refused():
@@ -166,14 +165,14 @@ def test_a_users_extension_stands_beside_the_stops():
         return Extension(lambda s: [s.delta_q[0] <= 0.0015 - q[0]])
 
     run = pushed_drawer(scenario, 50.0, 2, plane)
-    np.testing.assert_allclose(run["q"][1:, 0], 0.0015, rtol=ROUNDING, atol=0)
+    assert_relative(run["q"][1:, 0], 0.0015, ROUNDING)
 
     def pull(q):
         return Extension(lambda s: [-H * 50.0 * s.delta_q[0]])  # 50 N as a cost
 
     run = pushed_drawer(scenario, 0.0, 2, pull)
     assert set(run["certificate"].tolist()) == {"residual"}
-    np.testing.assert_allclose(run["q"][1:, 0], 0.002, rtol=1e-6, atol=0)
+    assert_relative(run["q"][1:, 0], 0.002, 1e-6)
 
 
 def test_a_written_scenario_keeps_its_stops(tmp_path):

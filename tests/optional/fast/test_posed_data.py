@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref import Simulator, StepDataError
 from quasistatic_ref.optional.fast.posed import BlockStep, constants, posed
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.simulate.simulator import Simulator
 from tests.helpers import changed_blocks, random_stiffness
 from tests.scenes import chain_scene
 

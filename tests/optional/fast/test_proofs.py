@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from quasistatic_ref import Extra, StepIllPosed, StepInfeasible, StepNotSolved, solve_step
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
@@ -19,9 +19,7 @@ from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.oracles.random_steps import designed_step, equal_groups, mixed_step

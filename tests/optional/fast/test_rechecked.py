@@ -7,16 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from quasistatic_ref import (
+    Extra,
+    RunFailed,
+    StepIllPosed,
+    StepInfeasible,
+    load_scenario,
+    solve_step,
+)
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.errors import RunFailed, StepIllPosed, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs, rechecked
 from quasistatic_ref.optional.fast.compiled import certificate
 from quasistatic_ref.optional.fast.rechecked import WrongProof, check, is_due
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.random_steps import mixed_step

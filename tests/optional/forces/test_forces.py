@@ -5,24 +5,29 @@ import pytest
 from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import (
+    Extra,
+    InputError,
+    StepData,
+    StepInfeasible,
+    contact_forces,
+    load_scenario,
+    solve_step,
+)
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import dyadic
-from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
 from quasistatic_ref.lab.scenes.loads import loaded
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces, of_group
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
 from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
-from quasistatic_ref.optional.forces.forces import contact_forces
 from quasistatic_ref.optional.forces.of_group import group_compliance
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
@@ -54,10 +59,10 @@ def test_a_symmetric_block_bears_equal_forces_without_friction(cone):
     f_n = M * G / (4 + M * c / H**2)
     assert len(np.unique(solution.forces, axis=0)) == 1
     np.testing.assert_array_equal(solution.forces[0, [0, 1, 3]], 0.0)
-    np.testing.assert_allclose(solution.forces[0, 2], f_n, rtol=4e-16)
+    assert_relative(solution.forces[0, 2], f_n, 4e-16)
     # The rigid block stays where it is, this one sinks by c f_n: of M G its contacts do not bear
     # M c f_n / h^2, of which they bear 4 f_n.
-    np.testing.assert_allclose(solution.imbalance, M * c / H**2 / 4, rtol=1e-9)
+    assert_relative(solution.imbalance, M * c / H**2 / 4, 1e-9)
 
 
 def test_forces_converge_in_proportion_to_the_compliance():
@@ -66,7 +71,7 @@ def test_forces_converge_in_proportion_to_the_compliance():
     limit = M * G / 4
     for c in (1e-6, 1e-9, 1e-12):
         off = np.abs(contact_forces(step, c).wrench[:, 2].mean() - limit)
-        np.testing.assert_allclose(off, limit * M * c / H**2 / 4, rtol=3e-3)
+        assert_relative(off, limit * M * c / H**2 / 4, 3e-3)
 
 
 def test_forces_of_a_sliding_block_are_in_balance():
@@ -119,7 +124,7 @@ def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
         found = face(cone, len(C), nearest_face(cone, len(C), dyadic(z)))
         assert min(found.integers[:-4] @ z) >= 0
         s = (found.integers[-4:] @ z / found.denominator).astype(float)
-        np.testing.assert_allclose(s, C.T @ nnls(C.T, -z)[0], rtol=0, atol=ROUNDING)
+        assert_within(s, C.T @ nnls(C.T, -z)[0], ROUNDING)
 
 
 def test_faces_are_guessed_in_floats(monkeypatch):
@@ -148,7 +153,7 @@ def test_nearest_points_in_floats_are_those_of_scipy(cone, scale):
         lam = np.linalg.lstsq(C[rows].T, -z)[0]
         assert lam.min(initial=0.0) >= 0
         near = C.T @ nnls(C.T, -z)[0]
-        np.testing.assert_allclose(C[rows].T @ lam, near, rtol=0, atol=1e-12 * np.abs(z).max())
+        assert_within(C[rows].T @ lam, near, 1e-12 * np.abs(z).max())
 
 
 def test_faces_of_a_pile_are_guessed_that_is_heavy_above():
@@ -201,7 +206,7 @@ def test_walls_that_overlap_have_forces_only_where_a_solution_is_claimed():
     with pytest.raises(StepInfeasible):
         contact_forces(step)
     found = contact_forces(step, near=(np.zeros(3), np.zeros((2, 4))))
-    np.testing.assert_allclose(found.wrench[:, 2], 1e-3 / found.compliance, rtol=ROUNDING)
+    assert_relative(found.wrench[:, 2], 1e-3 / found.compliance, ROUNDING)
 
 
 LOADS = {
@@ -221,7 +226,7 @@ def test_forces_bear_the_load_of_each_level_in_every_unit(args):
         scene = loaded(**args, unit=unit)
         found = contact_forces(scene.step)
         f_n = found.wrench[:, 2].reshape(-1, 4)
-        np.testing.assert_allclose(f_n.sum(axis=1), scene.borne, rtol=checks.LOST)
+        assert_relative(f_n.sum(axis=1), scene.borne, checks.LOST)
         assert 0 < found.imbalance < checks.LOST
         if unit == 1.0:
             assert (f_n == f_n[:, :1]).all()
@@ -286,7 +291,7 @@ def test_noise_of_phi_changes_forces_by_no_more_than_its_length_over_the_complia
     phi = 1e-15 * np.array([1.0, -1.0, -1.0, 1.0])
     noisy = contact_forces(step.replace(contacts=changed(step.contacts, phi=phi)))
     change = noisy.wrench[:, 2] - clean.wrench[:, 2]
-    np.testing.assert_allclose(change, -phi / c, rtol=1e-3)
+    assert_relative(change, -phi / c, 1e-3)
     assert np.abs(change).max() <= 1e-15 * clean.sensitivity * clean.wrench[:, 2].sum()
 
 
@@ -412,7 +417,7 @@ def test_a_doubled_contact_shares_its_load():
     # f = a + b x + c y with sums N, 0 and 0 over f, f x and f y: the corner twice, its neighbours,
     # the opposite one.
     expected = M * G * np.array([1 / 7, 1 / 7, 3 / 14, 3 / 14, 2 / 7])
-    np.testing.assert_allclose(f_n, expected, rtol=1e-5)
+    assert_relative(f_n, expected, 1e-5)
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -433,7 +438,7 @@ def test_r44_parallel_contacts_share_as_a_bed_of_springs(seed):
         bears = f > 0
         bed = np.column_stack([np.ones(n), places])
         fit = np.linalg.lstsq(bed[bears], f[bears], rcond=None)[0]
-        np.testing.assert_allclose(f, np.maximum(0.0, bed @ fit), rtol=0, atol=1e-9 * M * G)
+        assert_within(f, np.maximum(0.0, bed @ fit), 1e-9 * M * G)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -450,13 +455,13 @@ def test_r44_contacts_that_a_symmetry_exchanges_bear_equal_forces(seed):
     step = rigid_step(M, (1e-2, 1e-2, 3e-2), wrench, points, frames, mu_v=MU_V, h=H)
     for cone in ("pyramid", "ellipsoid"):
         forces = contact_forces(step.replace(cone=cone), 1e-9).wrench  # turns are rounded
-        np.testing.assert_allclose(forces, forces[[0] * n], rtol=0, atol=1e-9 * M * G)
+        assert_within(forces, forces[[0] * n], 1e-9 * M * G)
     n = np.sin(tilt) * np.array([[1.0], [-1.0]]) * X + np.cos(tilt) * Z
     frames = np.stack([[Y, Y], np.cross(n, Y), n], axis=1)
     step = rigid_step(M, 0.01, [0, 0, -M * G, 0, 0, 0], [-points[0], points[0]] * X, frames,
                       mu_v=0.1, h=H)  # fmt: skip
     one, other = contact_forces(step).wrench
-    np.testing.assert_allclose(one * [1, -1, 1, 1], other, rtol=0, atol=1e-9 * M * G)
+    assert_within(one * [1, -1, 1, 1], other, 1e-9 * M * G)
     assert abs(one[1]) > 1e-3
 
 

@@ -144,7 +144,7 @@ def step_changes(name: str) -> bool:
     return bool(answer(model, data) != unchanged(overrides))
 
 
-def test_each_field_of_mujocos_model_has_one_fate() -> None:
+def test_each_field_of_mujocos_model_has_one_fate():
     listed = [*fates.USED.split(), *fates.WITHOUT_EFFECT.split(), *fates.REFUSED, *fates.PLUGINS,
               *fates.KINDS]  # fmt: skip
     assert len(listed) == len(set(listed))
@@ -163,7 +163,7 @@ def test_each_field_of_mujocos_model_has_one_fate() -> None:
     assert set(listed) <= set(dir(model)) | {f"opt.{name}" for name in dir(model.opt)}
 
 
-def test_each_kind_and_each_part_of_the_state_has_one_fate() -> None:
+def test_each_kind_and_each_part_of_the_state_has_one_fate():
     for enumeration, *kinds in fates.KINDS.values():
         members = {name.split("_", 1)[1] for name in getattr(mujoco, enumeration).__members__}
         listed = [kind for words in kinds for kind in words.split()]
@@ -175,17 +175,17 @@ def test_each_kind_and_each_part_of_the_state_has_one_fate() -> None:
 
 
 @pytest.mark.parametrize("name", EACH)
-def test_a_field_that_is_used_changes_the_step(name: str) -> None:
+def test_a_field_that_is_used_changes_the_step(name):
     assert step_changes(name)
 
 
 @pytest.mark.parametrize("name", WITHOUT)
-def test_a_field_without_effect_changes_no_bit(name: str) -> None:
+def test_a_field_without_effect_changes_no_bit(name):
     assert not step_changes(name)
 
 
 @pytest.mark.parametrize("part", " ".join(fates.STATE[:3]).split())
-def test_a_part_of_the_state_changes_the_step_if_it_is_used(part: str) -> None:
+def test_a_part_of_the_state_changes_the_step_if_it_is_used(part):
     model, data = scene()
     spec = int(getattr(mujoco.mjtState, f"mjSTATE_{part}"))
     state = np.zeros(mujoco.mj_stateSize(model, spec))
@@ -199,7 +199,7 @@ def test_a_part_of_the_state_changes_the_step_if_it_is_used(part: str) -> None:
     )
 
 
-def test_nothing_else_of_the_data_matters() -> None:
+def test_nothing_else_of_the_data_matters():
     """A state after some steps, and the same in new data."""
     model, data = scene()
     for _ in range(20):
@@ -215,7 +215,7 @@ def test_nothing_else_of_the_data_matters() -> None:
 
 
 @pytest.mark.parametrize("name", [*fates.REFUSED, *fates.PLUGINS])
-def test_a_field_that_must_be_zero_is_refused_by_name(name: str) -> None:
+def test_a_field_that_must_be_zero_is_refused_by_name(name):
     model, data = scene()
     getattr(model, name)[:] = 1.0
     with pytest.raises(ModelError, match=name.partition("_")[2]):
@@ -226,7 +226,7 @@ def test_a_field_that_must_be_zero_is_refused_by_name(name: str) -> None:
     ("field", "kind"),
     [(field, kind) for field, words in fates.KINDS.items() for kind in words[3].split()],
 )
-def test_a_kind_that_no_step_has_is_refused_by_name(field: str, kind: str) -> None:
+def test_a_kind_that_no_step_has_is_refused_by_name(field, kind):
     model, data = scene()
     members = getattr(mujoco, fates.KINDS[field][0]).__members__
     (number,) = (int(m) for name, m in members.items() if name.split("_", 1)[1] == kind)
@@ -235,7 +235,7 @@ def test_a_kind_that_no_step_has_is_refused_by_name(field: str, kind: str) -> No
         answer(model, data)
 
 
-def test_what_is_left_out_is_said() -> None:
+def test_what_is_left_out_is_said():
     model, data = scene()
     data.qvel[0] = 0.5
     _, coordinates = answer(model, data)
@@ -282,11 +282,11 @@ CLOTH = '<flexcomp type="grid" count="3 3 1" spacing=".1 .1 .1" name="cloth" pos
         (SCENE.replace("1M", "20K"), "size.memory: .*out of memory"),
     ],
 )  # fmt: skip
-def test_what_no_step_can_say_is_refused_by_name(text: str, match: str) -> None:
+def test_what_no_step_can_say_is_refused_by_name(text, match):
     with pytest.raises(ModelError, match=match):
         answer(*scene(text))
 
 
-def test_a_depth_of_another_word_is_refused() -> None:
+def test_a_depth_of_another_word_is_refused():
     with pytest.raises(InputError, match="depth"):
         mujoco_step(*scene(), 0.01, depth="deep")

@@ -88,7 +88,7 @@ def walker(seed: int, above: float, folder: Path) -> tuple[Any, Any]:
 
 
 @pytest.mark.parametrize(("seed", "above"), [(0, 0.0), (1, 0.0), (2, 2e-4)])
-def test_a_guest_steps_as_the_model_that_is_read(seed: int, above: float, tmp_path: Path) -> None:
+def test_a_guest_steps_as_the_model_that_is_read(seed, above, tmp_path):
     model, data = walker(seed, above, tmp_path)
     scenario = load_scenario(tmp_path / "scene.toml")
     step, coordinates = mujoco_step(model, data, 0.01)
@@ -104,7 +104,7 @@ def test_a_guest_steps_as_the_model_that_is_read(seed: int, above: float, tmp_pa
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_mujocos_point_between_the_surfaces_makes_other_slips(seed: int, tmp_path: Path) -> None:
+def test_mujocos_point_between_the_surfaces_makes_other_slips(seed, tmp_path):
     """The points at p -+ n phi / 2 add phi / 2 (n x t) . (omega_1 + omega_2) to those at p.
 
     Since v(p + r) = v(p) + omega x r, and t . (omega x n) = (n x t) . omega.

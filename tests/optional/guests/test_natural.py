@@ -45,7 +45,7 @@ FALL = H**2 * 2 * GRAVITY * 0.2 / I_YY
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("joint", ['axis="0 1 0"', 'type="ball"'])
-def test_a_contact_at_the_pivot_bears_nothing(seed: int, joint: str) -> None:
+def test_a_contact_at_the_pivot_bears_nothing(seed, joint):
     """Both capsules have an end at the pivot: the contact's point is there, its lever rounding."""
     step, coordinates = mujoco_step(*turned(seed, PENDULUM.format(joint)), H)
     answer = solve_step(step)
@@ -57,7 +57,7 @@ def test_a_contact_at_the_pivot_bears_nothing(seed: int, joint: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_limit_that_no_joint_moves_bears_nothing(seed: int) -> None:
+def test_a_limit_that_no_joint_moves_bears_nothing(seed):
     """Both ends of the tendon are on the axis; it is 0.15 m long, and may have 0.1 m."""
     more = (
         '<tendon><spatial name="cord" range="0 .1"><site site="above"/><site site="on_axis"/>'
@@ -79,7 +79,7 @@ FOUR_BAR = LINK.format("left", 0, COUPLER) + LINK.format("right", 0.3, "")
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("cone", ["pyramidal", "elliptic"])
-def test_a_planar_four_bar_falls_in_a_turned_base(seed: int, cone: str) -> None:
+def test_a_planar_four_bar_falls_in_a_turned_base(seed, cone):
     """Of the three rows of ``connect``, the one across the plane is rounding.
 
     The coupler does not turn, so that I = (1 + 1 + 3) l^2 + 2 * 1e-3, and the moment about the
@@ -98,7 +98,7 @@ def test_a_planar_four_bar_falls_in_a_turned_base(seed: int, cone: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed: int) -> None:
+def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed):
     """A ball that is connected to the world where it touches a floor turns about that point.
 
     It is pushed by its weight and a torque; about the point, I = 2/5 m r^2 + m r^2.
@@ -123,7 +123,7 @@ def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed: int) -> None
 
 
 @pytest.mark.parametrize(("share", "bears"), [(0.5, False), (2.0, True)])
-def test_a_lever_counts_from_1e_9_of_its_terms(share: float, bears: bool) -> None:
+def test_a_lever_counts_from_1e_9_of_its_terms(share, bears):
     """The wheel of radius r touches below the pivot, but for e; the centre of mass is at c.
 
     A turn moves the centre of mass by c, and everything else by c + r about it at most: the terms
@@ -143,7 +143,7 @@ def test_a_lever_counts_from_1e_9_of_its_terms(share: float, bears: bool) -> Non
 
 @pytest.mark.parametrize("held", ["<limit/>", '<equality><tendon tendon1="t"/></equality>'])
 @pytest.mark.parametrize(("share", "holds"), [(0.5, False), (2.0, True)])
-def test_a_difference_counts_from_1e_9_of_its_terms(held: str, share: float, holds: bool) -> None:
+def test_a_difference_counts_from_1e_9_of_its_terms(held, share, holds):
     """With x = (1 + e) y, the length x - y of a tendon is e y, a difference of terms 1 + e and 1.
 
     A row that counts stops the push F on y; else y moves by h^2 F / (m (1 + e)^2 + m).
@@ -169,8 +169,8 @@ def test_a_difference_counts_from_1e_9_of_its_terms(held: str, share: float, hol
 
 @pytest.mark.parametrize("apart", [0.0, 1e-7, 0.2])
 def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_them(
-    apart: float,
-) -> None:
+    apart,
+):
     """Two equalities hold one slide at x and at x - apart, over 1e-9 of reach: both cannot be."""
     x = 0.1
     ball = '<joint name="s" type="slide" axis="1 0 0"/><geom size=".1"/>'
@@ -201,7 +201,7 @@ def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_t
         ("hinge", "equality: leave no joint that can move"),
     ],
 )
-def test_a_model_in_which_nothing_can_move_is_refused(joint: str, words: str) -> None:
+def test_a_model_in_which_nothing_can_move_is_refused(joint, words):
     body = f'<body><joint name="j" type="{joint}"/><geom size=".1"/></body>' if joint else ""
     tie = '<equality><joint joint1="j"/></equality>' if joint else ""
     model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}</worldbody>{tie}</mujoco>")

@@ -48,14 +48,14 @@ def opinions() -> dict[str, Opinion]:
     return {name: asked(*given) for name, given in GUIDE.items()}
 
 
-def test_the_guide_shows_what_is_found(opinions: dict[str, Opinion]) -> None:
+def test_the_guide_shows_what_is_found(opinions):
     said = [f"- {one.sentence}" for opinion in opinions.values() for one in opinion.findings]
     assert [flat(block) for block in printed(PAGE)] == said
 
 
 def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(
-    opinions: dict[str, Opinion],
-) -> None:
+    opinions,
+):
     """Weights and slopes by hand; the pads of the capsule press with what MuJoCo says, too."""
     slope = np.radians(15)
     block = opinions["block"].bodies[0]
@@ -75,7 +75,7 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(
     assert weak.bears == pytest.approx(2 * 0.8 * 1000 * 0.0009, rel=0.01)
 
 
-def test_mujoco_creeps_as_its_documentation_says() -> None:
+def test_mujoco_creeps_as_its_documentation_says():
     """Slips are f R / b along each tangent of an elliptic contact, R with impratio in it."""
     model = mujoco.MjModel.from_xml_string(WALK_FILES["capsule.xml"])
     data = settled(model, 2, "grip")
@@ -90,7 +90,7 @@ def test_mujoco_creeps_as_its_documentation_says() -> None:
             assert data.efc_vel[row] == pytest.approx(yields, abs=1e-6)
 
 
-def test_options_that_are_named_end_the_creep(opinions: dict[str, Opinion]) -> None:
+def test_options_that_are_named_end_the_creep(opinions):
     assert [one.kind for one in opinions["capsule"].findings] == ["creeps"]
     slower = WALK_FILES["capsule.xml"].replace('impratio="1"', NOSLIP)
     assert asked(slower, 2, "grip").findings == ()
@@ -99,7 +99,7 @@ def test_options_that_are_named_end_the_creep(opinions: dict[str, Opinion]) -> N
 
 
 @pytest.mark.parametrize("normal", [0.5, 1.0, 1.2])
-def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal: float) -> None:
+def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal):
     """2 mu N of m g, N = kp (control - position)."""
     control = dict.fromkeys(WEAK, normal / 1000 + 0.0001)
     opinion = asked(held(WALK_FILES["mug.xml"]), 0, "grip", control)
@@ -137,7 +137,7 @@ PUSH = '<actuator><position name="x" joint="x" kp="100"/></actuator>'
 
 
 @pytest.mark.parametrize("name", HEALTHY)
-def test_a_healthy_scene_has_no_finding(name: str) -> None:
+def test_a_healthy_scene_has_no_finding(name):
     world = f'<geom name="floor" type="plane" size="5 5 1"/>{HEALTHY[name]}'
     pushed = "pushed" in name
     options = f'<option cone="elliptic" impratio="100"/>{PUSH if pushed else ""}'
@@ -150,7 +150,7 @@ def test_a_healthy_scene_has_no_finding(name: str) -> None:
 DEEP = free("box", BOX, "0 0 .035")
 
 
-def test_bodies_in_each_other_are_found_with_their_depth_and_forces() -> None:
+def test_bodies_in_each_other_are_found_with_their_depth_and_forces():
     """A box of 1 kg/dm^3 that begins 5 mm deep, its weight by hand."""
     world = f'<geom name="floor" type="plane" size="5 5 1"/>{DEEP}'
     opinion = asked(f"<mujoco><worldbody>{world}</worldbody></mujoco>", 0)
@@ -161,7 +161,7 @@ def test_bodies_in_each_other_are_found_with_their_depth_and_forces() -> None:
     assert "contact/exclude" in found.remedy
 
 
-def test_what_rests_by_rolling_friction_alone_is_found() -> None:
+def test_what_rests_by_rolling_friction_alone_is_found():
     """A ball on a slope of 3 degrees; the exact step has no row for rolling."""
     g = f"{GRAVITY * np.sin(0.05)} 0 {-GRAVITY * np.cos(0.05)}"
     rolls = 'condim="6" friction="1 .1 .1"'
@@ -175,9 +175,7 @@ def test_what_rests_by_rolling_friction_alone_is_found() -> None:
     assert "rolling friction" in found.remedy
 
 
-def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(
-    tmp_path: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, capsys):
     scene = tmp_path / "block.xml"
     scene.write_text(WALK_FILES["block.xml"])
     command = ["opinion", str(scene), "--settle", "0.5", "--json", "--out", str(tmp_path / "out")]
@@ -204,9 +202,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("named", REFUSED)
-def test_what_cannot_be_asked_ends_with_2_and_is_named(
-    named: str, tmp_path: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, capsys):
     field = 'stiffness="1" springyield="1"' if "yield" in named else ""
     scene = tmp_path / "scene.xml"
     body = f'<body><joint name="x" {field}/><geom size=".1"/></body>'
@@ -215,13 +211,13 @@ def test_what_cannot_be_asked_ends_with_2_and_is_named(
     assert f"{named}:" in one_sentence(capsys.readouterr().err)
 
 
-def test_a_simulation_that_is_unstable_is_refused() -> None:
+def test_a_simulation_that_is_unstable_is_refused():
     text = WALK_FILES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
         asked(text, 20, "grip")
 
 
-def test_a_body_that_slips_because_it_turns_is_asked_for_a_force() -> None:
+def test_a_body_that_slips_because_it_turns_is_asked_for_a_force():
     """A capsule on its end, held by a soft weld: its one contact has no torque to bear."""
     text = """<mujoco><worldbody>
     <geom type="plane" size="1 1 .1"/>

@@ -345,7 +345,7 @@ EACH = [(name, "pyramidal") for name in CASES] + [(name, "elliptic") for name in
 
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("name", "cone"), EACH)
-def test_what_rests_in_mujoco_rests(name: str, cone: str, seed: int) -> None:
+def test_what_rests_in_mujoco_rests(name, cone, seed):
     case = CASES[name]
     model, data = random_model(case, cone, FINE, seed)
     settle(model, data)
@@ -361,7 +361,7 @@ def test_what_rests_in_mujoco_rests(name: str, cone: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize(("name", "cone"), EACH)
-def test_what_moves_in_mujoco_keeps_the_bound(name: str, cone: str) -> None:
+def test_what_moves_in_mujoco_keeps_the_bound(name, cone):
     model, data = random_model(CASES[name], cone, FINE, seed=0)
     for _ in range(10):
         mujoco.mj_step(model, data)
@@ -387,7 +387,7 @@ SOFT = [each for each in EACH if any(word in each[0] for word in VIOLATED)]
 
 @pytest.mark.parametrize("seed", SEEDS[:2])
 @pytest.mark.parametrize(("name", "cone"), SOFT)
-def test_violations_vanish_with_time_step_and_softness(name: str, cone: str, seed: int) -> None:
+def test_violations_vanish_with_time_step_and_softness(name, cone, seed):
     """What one step closes is in proportion to the depth, so that nothing is left at zero."""
     closed = []
     for soft in (COARSE, FINE):
@@ -399,7 +399,7 @@ def test_violations_vanish_with_time_step_and_softness(name: str, cone: str, see
     assert coarse == pytest.approx(RATIO * fine, rel=0.1)
 
 
-def test_each_kind_that_is_used_has_a_state() -> None:
+def test_each_kind_that_is_used_has_a_state():
     seen = {field: set() for field in fates.KINDS}
     for case in CASES.values():
         model, _ = random_model(case, "pyramidal", FINE, 0)

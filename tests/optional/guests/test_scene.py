@@ -2,7 +2,6 @@
 
 import copy
 import sys
-from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -62,7 +61,7 @@ def lifted() -> tuple[MujocoScenario, Any]:
     return scene, scene.run(progress=False)
 
 
-def test_a_gripper_lifts_what_it_holds(lifted: tuple[MujocoScenario, Any]) -> None:
+def test_a_gripper_lifts_what_it_holds(lifted):
     """At the end its servo carries (hand + ball) g, and gives way by that over kp.
 
     Before it had let go of the post, that was hand g: the ball rises by 0.01 less the difference.
@@ -76,7 +75,7 @@ def test_a_gripper_lifts_what_it_holds(lifted: tuple[MujocoScenario, Any]) -> No
     assert abs(2 * abs(normal) - RANGE) <= RUB * (1 + 1e-6)
 
 
-def test_the_step_is_that_of_the_state() -> None:
+def test_the_step_is_that_of_the_state():
     """`mujoco_step` of the same state, whose gaps it takes as they are, has the same numbers."""
     text = SCENE.replace('<equality><joint joint1="r" joint2="l"/></equality>', "").replace(
         "</actuator>", '<position joint="r" kp="300"/></actuator>'
@@ -107,7 +106,7 @@ def test_the_step_is_that_of_the_state() -> None:
         assert a.rows[mine] == b.rows[theirs]
 
 
-def test_the_docstring_names_all_that_a_step_asks_for(lifted: tuple[MujocoScenario, Any]) -> None:
+def test_the_docstring_names_all_that_a_step_asks_for(lifted):
     """What files of others ask a system for while a step is taken."""
     asked: set[str] = set()
 
@@ -127,7 +126,7 @@ def test_the_docstring_names_all_that_a_step_asks_for(lifted: tuple[MujocoScenar
     assert asked == set(said.replace("\n", " ").replace(" ", "").split(","))
 
 
-def test_gaps_change_as_their_jacobians_say(lifted: tuple[MujocoScenario, Any]) -> None:
+def test_gaps_change_as_their_jacobians_say(lifted):
     """phi(q (+) e) - phi(q - e) = 2 n'J e up to e^3, by central differences."""
     scene, run = lifted
     system = scene.of_mujoco
@@ -154,9 +153,7 @@ class Stop(Observer):
             raise KeyboardInterrupt
 
 
-def test_a_run_that_is_interrupted_is_resumed_to_the_same_bits(
-    lifted: tuple[MujocoScenario, Any], tmp_path: Path
-) -> None:
+def test_a_run_that_is_interrupted_is_resumed_to_the_same_bits(lifted, tmp_path):
     """All arrays of the whole run."""
     run = lifted[1]
     short = mujoco_scenario(model(), targets=grasp, steps=8)
@@ -171,7 +168,7 @@ def test_a_run_that_is_interrupted_is_resumed_to_the_same_bits(
         np.testing.assert_array_equal(array, run[name][: len(array)])
 
 
-def test_a_body_that_crosses_the_margin_in_one_step_is_found() -> None:
+def test_a_body_that_crosses_the_margin_in_one_step_is_found():
     """A ball 8 mm above the floor, pulled down by a motor with h^2 f / m = 20 mm a step."""
     text = """<mujoco><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
     <body pos="0 0 .108"><joint name="z" type="slide" axis="0 0 1"/><geom size=".1" mass="1"/>
@@ -182,7 +179,7 @@ def test_a_body_that_crosses_the_margin_in_one_step_is_found() -> None:
     assert finding.numbers["depth_mm"] == pytest.approx(12.0)
 
 
-def test_a_contact_that_no_joint_opens_bears_nothing() -> None:
+def test_a_contact_that_no_joint_opens_bears_nothing():
     """A slider along a wall that it is 1 mm deep in: the step has a solution, and moves it."""
     text = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 .099">
     <joint name="x" type="slide" axis="1 0 0"/><geom size=".1" mass="1"/></body></worldbody>
@@ -212,7 +209,7 @@ BALL = '<body name="b"><joint name="j" type="hinge"/><geom size=".1"/>{}</body>'
          'geom2="f" friction="1 .5"/></contact>', "friction"),
     ],
 )  # fmt: skip
-def test_what_no_run_has_is_refused_before_the_first_step(body: str, rest: str, field: str) -> None:
+def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
     """By element and field."""
     text = BALL.format(body).replace("<geom", '<geom name="g"', 1)
     world = f'<worldbody><geom name="f" size=".1"/><site name="f"/>{text}</worldbody>'
@@ -231,7 +228,7 @@ def test_what_no_run_has_is_refused_before_the_first_step(body: str, rest: str, 
         ("t,up\n0,x\n", "row 2"),
     ],
 )
-def test_a_table_that_is_none_is_refused(table: str, says: str, tmp_path: Path) -> None:
+def test_a_table_that_is_none_is_refused(table, says, tmp_path):
     """With the file's name."""
     path = tmp_path / "targets.csv"
     path.write_text(table)
@@ -239,7 +236,7 @@ def test_a_table_that_is_none_is_refused(table: str, says: str, tmp_path: Path) 
         mujoco_scenario(model(), targets=path)
 
 
-def test_joints_without_servos_have_springs_and_fields_their_names() -> None:
+def test_joints_without_servos_have_springs_and_fields_their_names():
     """A joint gives way by load / k; one with a servo takes no spring."""
     text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
     stiff = {"stiffness.lift": 1000.0, "stiffness.l": 1e6, "stiffness.r": 1e6}
@@ -253,7 +250,7 @@ def test_joints_without_servos_have_springs_and_fields_their_names() -> None:
 
 
 @pytest.mark.extra("view")
-def test_the_command_runs_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_runs_a_scene(tmp_path, capsys):
     """With keyframes, a table and a page."""
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)

@@ -35,9 +35,7 @@ SLIDE = '<joint name="z" type="slide" axis="0 0 1" damping="40"/>'
 
 @pytest.mark.parametrize("depth", [0.0, 1e-4, GRAVITY * H**2, 5e-3])
 @pytest.mark.parametrize("springs", [0.0, K])
-def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(
-    depth: float, springs: float
-) -> None:
+def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(depth, springs):
     """N = m g; to close it, a body moves by the depth: N = m g + m depth / h^2.
 
     A servo, whose target is where it is, gives way by the depth: N = m g + k depth.
@@ -64,7 +62,7 @@ SOFT = 'solref="-500 -40" solimp=".9 .9 .001"'
         ((FREE, 0.005, CONNECT, SOFT), "an equality or the load"),
     ],
 )  # fmt: skip
-def test_what_keeps_a_body_in_another_is_said(made: Any, reason: str) -> None:
+def test_what_keeps_a_body_in_another_is_said(made, reason):
     model, data = ball(*made)
     if SOFT in made:
         for _ in range(1000):
@@ -77,12 +75,12 @@ def test_what_keeps_a_body_in_another_is_said(made: Any, reason: str) -> None:
     assert said.partition("what keeps them there: ")[2].startswith(reason)
 
 
-def test_a_depth_of_less_than_a_millimetre_is_not_mentioned() -> None:
+def test_a_depth_of_less_than_a_millimetre_is_not_mentioned():
     assert mujoco_step(*ball(FREE, 0.99e-3), H)[1].left_out == ()
 
 
 @pytest.mark.parametrize("condim", [1, 3])
-def test_the_quasi_dynamic_number_is_the_drag_over_the_friction(condim: int) -> None:
+def test_the_quasi_dynamic_number_is_the_drag_over_the_friction(condim):
     """In a step from rest, a push F moves a body of mass m at v = h F / m: the drag m v / h."""
     model, data = ball(FREE, 0.0, how=f'condim="{condim}" friction=".3 0 0"')
     data.qvel[:2] = 0.03, 0.04

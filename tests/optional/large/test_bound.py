@@ -3,17 +3,16 @@
 import numpy as np
 from flint import fmpq
 
+from quasistatic_ref import Extra, StepNotSolved, standard_form
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.large.bound import error_bound, opening_direction
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.certify.test_farkas import EAST, point_between_walls
+from tests.closeness import assert_relative
 from tests.oracles.random_steps import any_step
 
 FUZZED = 80
@@ -35,7 +34,7 @@ def test_step_without_contacts_is_bounded_to_rounding():
     # (1 + s) delta_q is off by s times the length that errors are relative to.
     s = 2.0**-10
     found = error_bound(step, (1 + s) * exact.delta_q, exact.lam)
-    np.testing.assert_allclose(found, s, rtol=CLOSED_FORM)
+    assert_relative(found, s, CLOSED_FORM)
 
 
 def test_wedged_or_broken_answers_are_not_bounded():

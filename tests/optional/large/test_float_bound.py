@@ -7,8 +7,8 @@ import pytest
 from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
+from quasistatic_ref import Extra, StepNotSolved, load_scenario, solve_step
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
@@ -20,10 +20,8 @@ from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.outward import above, below, down, up
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
-from quasistatic_ref.step.data import Extra
+from tests.closeness import assert_relative
 from tests.helpers import always_in_blocks, changed, error, in_blocks, point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
 from tests.optional.large.test_sparse import step_after
@@ -102,7 +100,7 @@ def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(module, monk
     bound_of = BOTH[module is sparse]
     assert bound_of(step, exact.delta_q, exact.lam) < 1e-6
     A = csc_matrix(given[0]).toarray()
-    np.testing.assert_allclose(A, np.abs(DenseStepInBothUnits(step).natural_form.A), rtol=ROUNDING)
+    assert_relative(A, np.abs(DenseStepInBothUnits(step).natural_form.A), ROUNDING)
 
 
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from quasistatic_ref import solve_step
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.judged import bound_verdict
-from quasistatic_ref.solve.solve import solve_step
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import point_on_floor
 from tests.oracles.solution_truth import least_bound

@@ -3,21 +3,24 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import (
+    ModelError,
+    Simulator,
+    StepData,
+    StepDataError,
+    load_scenario,
+    rollout,
+    solve_step,
+)
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.errors import ModelError, StepDataError
 from quasistatic_ref.lab.scenes.piles import BOX, pile
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
 from quasistatic_ref.optional.fast import posed
 from quasistatic_ref.optional.fast.posed import constants
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.arrays import whole
-from quasistatic_ref.step.data import StepData
 from tests.helpers import always_in_blocks
 
 BOXES = (2, 1, 2)

@@ -29,6 +29,7 @@ from quasistatic_ref.optional.large.sparse import LargeSteps
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.friction import scaled_by
+from tests.closeness import assert_relative
 from tests.helpers import in_blocks, random_step
 
 CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]
@@ -156,10 +157,10 @@ def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone, blocks)
     cones = np.abs(np.stack(cone_function(cone)(*np.eye(4))))
     bar = np.einsum("ri,icv->crv", cones, scaled)[step.mask] * S / ell
     A = sizes.A.toarray() if blocks else sizes.A
-    np.testing.assert_allclose(A, bar, rtol=1e-14)
+    assert_relative(A, bar, 1e-14)
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a) + np.abs(step.tau_a)
     load = step.h * np.concatenate([spring, np.abs(step.tau_u)]) * S / rho
-    np.testing.assert_allclose(sizes.load, load, rtol=1e-14)
+    assert_relative(sizes.load, load, 1e-14)
     assert sizes.column_terms == step.mask.sum()
     assert sizes.row_terms == step.n_v
     assert sizes.usable

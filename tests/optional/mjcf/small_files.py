@@ -6,7 +6,7 @@ from pathlib import Path
 
 import mujoco
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written

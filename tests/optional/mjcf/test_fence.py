@@ -5,11 +5,10 @@ import time
 
 import pytest
 
+from quasistatic_ref import ModelError, ScenarioError, load_scenario
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.optional.mjcf import compiler
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
-from quasistatic_ref.scenario.scenario import load_scenario
 from tests.model.urdf.urdf_texts import written
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'

@@ -292,12 +292,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("name", ATTRIBUTES)
-def test_an_attribute_is_read_or_listed_or_refused(folder: Path, name: str) -> None:
+def test_an_attribute_is_read_or_listed_or_refused(folder, name):
     text, without, expected = ATTRIBUTES[name]
     assert effect(folder, text, without, name.rpartition(".")[2]) == expected
 
 
-def test_nothing_that_mujoco_reads_is_left_out() -> None:
+def test_nothing_that_mujoco_reads_is_left_out():
     """The name of a model, like that of a robot, is no part of it: `inspect` says so always."""
     assert any(line.startswith("names of robots") for line in ALWAYS)
     names = {".".join((*e, a)) for e, attributes in schema().items() for a in attributes}

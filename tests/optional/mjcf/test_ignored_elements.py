@@ -157,7 +157,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("name", WHOLE)
-def test_an_element_of_which_nothing_is_read_is_listed_or_refused(folder: Path, name: str) -> None:
+def test_an_element_of_which_nothing_is_read_is_listed_or_refused(folder, name):
     without = BASE.replace("@", "").replace("#", "")
     if name in OF_BALLS:
         without = without.replace("</worldbody>", BALL)

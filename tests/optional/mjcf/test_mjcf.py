@@ -6,14 +6,12 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from quasistatic_ref.errors import InputError, ModelError
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
+from quasistatic_ref import Body, InputError, ModelError, System, load_scenario
 from quasistatic_ref.optional.mjcf import compiler, mjcf
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.show.figures.visuals import visuals
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.scene import Scene
+from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import written
 from validation.make.mjcf import CURVED, SAME, WORDS, differences, random_models
 
@@ -115,7 +113,7 @@ def test_a_mesh_is_where_and_what_the_format_says(tmp_path, mesh, compiler, file
     system = System([Body("a", mjcf_urdf(path))])
     (placed,) = system.shapes
     found = placed.shape.support_value(placed.R) + placed.t  # along x, y and z of the body
-    np.testing.assert_allclose(found, reach, rtol=0, atol=WORDS)
+    assert_within(found, reach, WORDS)
 
 
 @pytest.mark.usefixtures("in_this_process")
@@ -300,6 +298,6 @@ def test_balls_have_the_mass_matrix_and_the_weight_that_mujoco_gives_them(tmp_pa
     M = np.zeros((6, 6))
     for e, column in zip(np.eye(6), M, strict=True):
         mujoco.mj_mulM(model, data, column, e)
-    np.testing.assert_allclose(system.M_u(q), M, rtol=0, atol=1e-14)
+    assert_within(system.M_u(q), M, 1e-14)
     weight = system.gravity_force(q, model.opt.gravity)
-    np.testing.assert_allclose(weight, -data.qfrc_bias, rtol=0, atol=1e-13)
+    assert_within(weight, -data.qfrc_bias, 1e-13)

@@ -10,6 +10,7 @@ from quasistatic_ref.optional.scans.cloud import stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import Solid
 from quasistatic_ref.scenario.scenario import scenario_path
+from tests.closeness import assert_relative, assert_within
 from tests.oracles.scanned import SCANS, SOLIDS, Exact, on_block
 from tests.tolerances import ROUNDING
 
@@ -66,8 +67,8 @@ def test_a_closed_mesh_is_exact(tmp_path):
     folder = scenario_path("bunny_grasp").parent
     made = qr.scanned_body(folder / "bunny.obj", mass=0.2)
     system = qr.System([qr.Body("bunny", folder / "bunny.urdf", base="floating")])
-    np.testing.assert_allclose(made.centre, system.centres[1], rtol=0, atol=1e-9)
-    np.testing.assert_allclose(made.inertia, system.inertias[1], rtol=0, atol=1e-11)
+    assert_within(made.centre, system.centres[1], 1e-9)
+    assert_within(made.inertia, system.inertias[1], 1e-11)
 
 
 def test_the_papers_cloud_of_992_points_is_enough():
@@ -85,9 +86,9 @@ def test_the_inertia_of_a_tetrahedron(tmp_path):
     """
     solid = Solid.of_tetrahedra(np.array([np.vstack([np.zeros(3), np.eye(3)])]))
     assert solid.volume == pytest.approx(1 / 6, rel=ROUNDING)
-    np.testing.assert_allclose(solid.centre, 0.25, rtol=ROUNDING, atol=0)
+    assert_relative(solid.centre, 0.25, ROUNDING)
     expected = np.full((3, 3), 1 / 80) + np.eye(3) * (6 / 80 - 1 / 80)
-    np.testing.assert_allclose(solid.gyration, expected, rtol=1e-12, atol=0)
+    assert_relative(solid.gyration, expected, 1e-12)
 
 
 def test_a_wide_gap_is_doubted(tmp_path):
@@ -161,7 +162,7 @@ def test_the_command_writes_a_scene_that_runs(tmp_path, capsys):
     assert set(run["certificate"].tolist()) == {"exact"}
     assert not [one for one in run.findings if one.grave]
     assert abs(run["q"][-1] - run["q"][0]).max() < 1e-3
-    np.testing.assert_allclose(run["wrench"][-1, :, 2].sum(), 0.35 * 9.81, rtol=1e-6, atol=0)
+    assert_relative(run["wrench"][-1, :, 2].sum(), 0.35 * 9.81, 1e-6)
     with pytest.raises(SystemExit):
         main(["body", str(scene)])  # neither mass nor density
     assert main(["body", str(tmp_path / "none.csv"), "--mass", "1"]) == 2

@@ -7,10 +7,8 @@ import numpy as np
 import pandas
 import pytest
 
+from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from tests.scenes import written_scenario
 
 PUSH, FLOOR = "push(rail/plate#0, ball/ball#0)/0", "floor(floor, ball/ball#0)/0"

@@ -6,11 +6,22 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import RunFailed
+from quasistatic_ref import (
+    Body,
+    Extra,
+    Recorder,
+    RunFailed,
+    Sphere,
+    StepProblem,
+    System,
+    Trajectory,
+    derivatives,
+    load_scenario,
+    solve_step,
+    standard_form,
+    trajectory_read,
+)
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import (
     MOST,
@@ -21,15 +32,7 @@ from quasistatic_ref.optional.show.show import (
     number,
     text_page,
 )
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Sphere
-from quasistatic_ref.simulate.recorder import Recorder
-from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.problem import StepProblem
-from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
     changed,
     point_on_floor,

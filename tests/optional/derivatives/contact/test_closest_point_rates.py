@@ -5,11 +5,10 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
+from quasistatic_ref import Body, Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere, System
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import closest_point_rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
     contact_rates,
@@ -18,14 +17,7 @@ from quasistatic_ref.optional.derivatives.contact.contact_rates import (
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
-from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    Sphere,
-)
+from tests.closeness import assert_within
 from tests.contact.still import pair, placed
 from tests.oracles.differences import rate, unit
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
@@ -54,14 +46,14 @@ def test_an_edge_on_a_face_may_turn_about_itself_and_about_nothing_else(features
     rates = found(features, (0 * X, 0 * X), turned)
     assert rates.unique[0]
     # The normal is the face's: dn = DIAGONAL x n.
-    np.testing.assert_allclose(rates.n[0, :, 0], np.cross(DIAGONAL, N), rtol=0, atol=ROUNDING)
+    assert_within(rates.n[0, :, 0], np.cross(DIAGONAL, N), ROUNDING)
     for way in (np.cross(DIAGONAL, N), N, X):
         other = [way if f is FACE else 0 * X for f in features]
         assert not found(features, (0 * X, 0 * X), other).unique[0]
         # Both bodies turn as one about the first point.
         as_one = found(features, (0 * X, PHI * np.cross(way, N)), (way, way))
         assert as_one.unique[0]
-        np.testing.assert_allclose(as_one.n[0, :, 0], np.cross(way, N), rtol=0, atol=ROUNDING)
+        assert_within(as_one.n[0, :, 0], np.cross(way, N), ROUNDING)
 
 
 def test_each_of_several_pairs_slides_along_its_own_line():
@@ -74,7 +66,7 @@ def test_each_of_several_pairs_slides_along_its_own_line():
         np.full(2, PHI), n, features, np.zeros((2, 2, 3, 1)), omega, np.ones(2)
     )
     assert rates.unique.all()
-    np.testing.assert_allclose(rates.n, 0.0, rtol=0, atol=ROUNDING)  # the faces do not turn
+    assert_within(rates.n, 0.0, ROUNDING)  # the faces do not turn
 
 
 SHAPES = (
@@ -109,7 +101,7 @@ def test_r29_random_pairs_change_as_differences_say(shapes, rng):
     found = np.concatenate([rates.phi[0, None], rates.n[0], rates.alpha[0], rates.beta[0]]) @ e
     expected = rate(moved)
     size = np.abs(expected).max()
-    np.testing.assert_allclose(found, expected, rtol=0, atol=DIFFERENCE_OF_STEPS * size)
+    assert_within(found, expected, DIFFERENCE_OF_STEPS * size)
 
 
 def test_r34_tangents_change_as_written(rng):
@@ -124,4 +116,4 @@ def test_r34_tangents_change_as_written(rng):
         return np.array(tangents(moved / np.linalg.norm(moved, axis=1)[:, None]))
 
     found = np.array(tangent_rates(contacts, d_n[:, :, None]))[..., 0]
-    np.testing.assert_allclose(found, rate(turned), rtol=0, atol=DIFFERENCE_OF_STEPS * 10)
+    assert_within(found, rate(turned), DIFFERENCE_OF_STEPS * 10)

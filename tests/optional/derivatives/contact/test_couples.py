@@ -3,10 +3,19 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import (
+    Body,
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    System,
+)
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
     contact_rates,
     nearly_level,
@@ -19,15 +28,6 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
 )
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
-from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    HalfSpace,
-    PointCloud,
-    Sphere,
-)
 from tests.contact.still import pair, placed
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING

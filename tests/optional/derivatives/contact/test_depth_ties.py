@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import pair_closest_points
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.derivatives.contact.couples import couples
-from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
     Box,
     Capsule,
     Cone,
+    ContactError,
     Cylinder,
     Ellipsoid,
     PointCloud,
     Sphere,
+    convex_hull,
 )
+from quasistatic_ref.contact.distance import pair_closest_points
+from quasistatic_ref.optional.derivatives.contact.couples import couples
+from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.tolerances import TIED
 from tests.contact.still import pair, placed
 
@@ -89,7 +89,7 @@ def inside(solid, p, body, pose):
 
 
 @pytest.mark.parametrize("name", TIES)
-def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name) -> None:
+def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name):
     solid, p, way = TIES[name]
     near = p + NEAR * solid.extent * np.array(way)
     assert inside(solid, near, POINT, (TURNED, AT))
@@ -102,7 +102,7 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name) -> None:
 
 
 @pytest.mark.parametrize("name", NO_TIES)
-def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name) -> None:
+def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name):
     solid, p = NO_TIES[name]
     assert not inside(solid, p, POINT, STILL)
 
@@ -122,7 +122,7 @@ PAIRS = {
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
+def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name):
     a, b, t = PAIRS[name]
     way = np.eye(3)[0]
     size = max(a.extent, b.extent)
@@ -143,7 +143,7 @@ ROOF = convex_hull(
 
 
 @pytest.mark.parametrize("side", [0, 1])
-def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side) -> None:
+def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side):
     """It is below a ridge, and by as much below either face; n is up from the roof, or down to it.
 
     If n were opposite, the one face would count that is level.
@@ -156,12 +156,12 @@ def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side) -> None:
     assert not depth_tie(found._replace(n=-n, centre=(side, corner)))
 
 
-def test_boxes_that_touch_at_their_edges_are_not_in_penetration() -> None:
+def test_boxes_that_touch_at_their_edges_are_not_in_penetration():
     edge = np.array([0.2 + 0.2, 0.0, 0.2 + 0.2])
     assert not tied(B, B, STILL, (np.eye(3), edge))
 
 
-def test_capsules_are_tied_where_their_axes_cross() -> None:
+def test_capsules_are_tied_where_their_axes_cross():
     # The capsules are apart where their axes are by more than 0.05 + 0.03. Equal is what differs by
     # at most TIED * extent; the extent is 0.5.
     a = Capsule(0.05, 0.2)
@@ -173,7 +173,7 @@ def test_capsules_are_tied_where_their_axes_cross() -> None:
         assert found == (off == near)
 
 
-def test_a_rim_that_touches_an_edge_has_two_normals() -> None:
+def test_a_rim_that_touches_an_edge_has_two_normals():
     rim = Cylinder(0.25, 0.25)
     half = Box(np.array([0.25, 0.25, 0.25]))
     found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))

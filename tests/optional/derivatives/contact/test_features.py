@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import Box, Capsule, Cone, Cylinder, HalfSpace, convex_hull
 from quasistatic_ref.optional.derivatives.contact.features import feature
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, HalfSpace
 from quasistatic_ref.tolerances import ON_RIM
-from tests.tolerances import EXACT, ROUNDING
+from tests.closeness import assert_within
+from tests.tolerances import ROUNDING
 
 X, Y, Z = np.eye(3)
 C, S = 0.6, 0.8  # a cosine and its sine
@@ -64,11 +64,11 @@ def span(vectors):
 
 
 def like(found, expected):
-    np.testing.assert_allclose(found, expected, rtol=EXACT, atol=ROUNDING)
+    assert_within(found, expected, ROUNDING)
 
 
 @pytest.mark.parametrize("name", FREE)
-def test_a_feature_bends_and_is_straight_as_its_shape_is(name) -> None:
+def test_a_feature_bends_and_is_straight_as_its_shape_is(name):
     shape, x, n, bend, free = FREE[name]
     found = feature(shape, x, n)
     like(found.bend, bend)
@@ -89,7 +89,7 @@ ENDS = {
 
 
 @pytest.mark.parametrize("name", ENDS)
-def test_a_feature_ends_where_another_begins(name) -> None:
+def test_a_feature_ends_where_another_begins(name):
     shape, x, n, free, ends = ENDS[name]
     found = feature(shape, x, n)
     like(span(found.free), span(free))
@@ -110,7 +110,7 @@ Of a capsule, a cylinder and a cone the size is radius + half_length, of a box i
 
 
 @pytest.mark.parametrize("name", RIMS)
-def test_near_a_rim_is_on_it_and_a_share_of_the_size_away_is_not(name) -> None:
+def test_near_a_rim_is_on_it_and_a_share_of_the_size_away_is_not(name):
     shape, x, n, way, size = RIMS[name]
     near, away = (feature(shape, x - share * ON_RIM * size * way, n) for share in (0.3, 3.0))
     assert len(near.ends) > 0

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box
 from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switching
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import TIED, UNIQUE
 from tests.optional.derivatives.contact.test_depth_ties import couple_of
 
@@ -17,7 +17,7 @@ ON_EDGE = Rotation.from_euler("x", np.pi / 4).as_matrix()
 CROSSED = Rotation.from_euler("z", np.pi / 2).as_matrix() @ ON_EDGE
 
 
-def test_edges_that_cross_have_no_normal_where_they_touch() -> None:
+def test_edges_that_cross_have_no_normal_where_they_touch():
     apart = np.array([0.0, 0.0, 0.1 / HALF])
     at = couple_of(CUBE, CUBE, (ON_EDGE, np.zeros(3)), (CROSSED, apart))
     at = at._replace(phi=0.0)
@@ -39,7 +39,7 @@ SWITCHES = {
 
 
 @pytest.mark.parametrize("name", SWITCHES)
-def test_tangents_switch_where_two_axes_are_as_far_from_the_normal(name) -> None:
+def test_tangents_switch_where_two_axes_are_as_far_from_the_normal(name):
     n, d_n, quarters, expected = SWITCHES[name]
     ways = np.array(d_n, dtype=float)[None, :, None]
     assert _switching(np.array(n)[None], ways, quarters) == [expected]

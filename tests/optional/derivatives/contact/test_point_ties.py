@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import HalfSpace, PointCloud, Sphere
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Sphere
 from quasistatic_ref.tolerances import TIED
 from tests.contact.still import pair, placed
 
@@ -50,7 +50,7 @@ def cloud(solid, heights):
 
 
 @pytest.mark.parametrize("solid", [FLOOR, BALL])
-def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid) -> None:
+def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid):
     kept, out = both(solid, cloud(solid, HEIGHTS), 3)
     assert sorted(kept + out) == [0, 3]
     assert len(kept) == 1
@@ -59,7 +59,7 @@ def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid) -> None:
 
 
 @pytest.mark.parametrize("solid", [FLOOR, BALL])
-def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
+def test_points_are_tied_within_a_share_of_the_size(solid):
     # Equal is what differs by at most TIED * size, and the size is between 0.01 and 1 m here.
     for off, expected in ((TIED, False), (-TIED, False), (TIED * 0.01, True), (-TIED * 0.01, True)):
         near = cloud(solid, HEIGHTS + np.array([off, 0.0, 0.0, 0.0, 0.0]))

@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import Box, Cylinder, Sphere, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact import spare_pairs
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import _face_corners, spare_pair
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Sphere
 from tests.optional.derivatives.contact.test_couples import body, kept, pair_of
 
 SLAB = Box(np.array([0.3, 0.3, 0.05]))

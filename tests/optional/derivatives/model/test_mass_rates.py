@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import Body, System
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import random_q, random_tree
 from quasistatic_ref.lab.vectors.own.system import own_system
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE
@@ -60,11 +60,11 @@ def check_rates(rng, system, q):
     for k, e in enumerate(np.eye(system.n_v)):
         expected = rate(lambda t, e=e: changing(t * e))
         size = np.abs(expected).max(initial=1.0)
-        np.testing.assert_allclose(found[:, k], expected, rtol=0, atol=DIFFERENCE * size)
+        assert_within(found[:, k], expected, DIFFERENCE * size)
     # By masses both forces are linear, the inertia about the centre staying as it is.
     turns = motion.J[:, 3:]
     R = kinematics.R
     kept = np.einsum("lai,lab,lbj->ij", turns, R @ system.inertias @ R.swapaxes(1, 2), turns)
     of_masses = [rates.by_masses(rates.moved @ x), rates.by_masses(GRAVITY)] @ system.masses
     expected = [(system.M_u(q) - kept) @ x, system.gravity_force(q, GRAVITY)]
-    np.testing.assert_allclose(of_masses, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    assert_within(of_masses, expected, 1e-12 * np.abs(expected).max())

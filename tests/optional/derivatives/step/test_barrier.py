@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref import StepNotSolved, standard_form
 from quasistatic_ref.optional.derivatives.step import barrier
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
-from quasistatic_ref.step.standard_form import standard_form
+from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed, point_on_floor, random_step
 from tests.oracles.differences import rate
 from tests.tolerances import ACTIVE_SET, CLOSED_FORM
@@ -32,8 +32,8 @@ def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
     kappa = 1e-4 * scale
     step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
     found = barrier_step(step, kappa)
-    np.testing.assert_allclose(found.x, z, rtol=CLOSED_FORM, atol=0.0)
-    np.testing.assert_allclose(found.lam, kappa / found.slack, rtol=CLOSED_FORM)
+    assert_relative(found.x, z, CLOSED_FORM)
+    assert_relative(found.lam, kappa / found.slack, CLOSED_FORM)
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-12])
@@ -48,7 +48,7 @@ def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeyp
         except StepNotSolved:
             assert not answers
             continue
-        np.testing.assert_allclose(found.x, z, rtol=ACTIVE_SET, atol=0.0)
+        assert_relative(found.x, z, ACTIVE_SET)
         answers += 1
     assert 0 < answers < 29
 
@@ -63,7 +63,7 @@ def test_rows_that_are_far_push_as_little_as_kappa_says(rng):
     # lam = kappa / slack, of 1e-30 or less: far below the rounding of the loads, and yet known.
     step = random_step(rng)
     found = barrier_step(step.replace(contacts=changed(step.contacts, phi=[1.0, 2.0, 3.0])), 1e-30)
-    np.testing.assert_allclose(found.lam, 1e-30 / found.slack, rtol=CLOSED_FORM)
+    assert_relative(found.lam, 1e-30 / found.slack, CLOSED_FORM)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -76,7 +76,7 @@ def test_r36_random_smoothed_steps_change_as_written(seed):
     found = barrier_step(step, kappa)
     H, g, A, b = standard_form(step)
     x = found.x
-    np.testing.assert_allclose(found.lam * (A @ x - b), kappa, rtol=CLOSED_FORM)
+    assert_relative(found.lam * (A @ x - b), kappa, CLOSED_FORM)
     balance = H @ x - g - A.T @ found.lam
     assert np.abs(balance).max() < 1e-12 * (np.abs(H) @ np.abs(x) + np.abs(g)).max()
     tau_u, phi, mu_v, K = (rng.normal(size=n) for n in (step.n_u, 3, 3, step.n_a))
@@ -97,4 +97,4 @@ def test_r36_random_smoothed_steps_change_as_written(seed):
     right = dg - dH @ x + dA.T @ found.lam - A.T @ S @ (dA @ x - db)
     dx = np.linalg.solve(H + A.T @ S @ A, right)
     expected = rate(lambda t: barrier_step(moved(t), kappa).x, little)
-    np.testing.assert_allclose(dx, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
+    assert_within(dx, expected, 1e-6 * np.abs(expected).max())

@@ -10,6 +10,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
 )
 from quasistatic_ref.optional.derivatives.step.touching import _most, bearing, touching_rows
 from quasistatic_ref.tolerances import BEARING, FILLED, SHARE, SPLIT, TOUCHING
+from tests.closeness import assert_close
 from tests.helpers import changed, point_on_floor
 from tests.tolerances import ROUNDING
 
@@ -53,8 +54,7 @@ def test_the_most_that_a_row_bears_is_what_the_others_can_add_to_the_load():
         f = np.array([side, 0.0, 1.0])
         rows = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], f / np.linalg.norm(f)])
         found = _most(rows, rows[1], 0)
-        np.testing.assert_allclose(found, [most, 0.0, bool(most) * np.linalg.norm(f)],
-                                   rtol=ROUNDING, atol=ROUNDING)  # fmt: skip
+        assert_close(found, [most, 0.0, bool(most) * np.linalg.norm(f)], ROUNDING)  # fmt: skip
 
 
 def answer(step, lam):

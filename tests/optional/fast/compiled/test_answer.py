@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast import simulator
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
-from quasistatic_ref.scenario.scenario import load_scenario
+from tests.closeness import assert_within
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
 pytestmark = needs_compiler
@@ -87,7 +88,7 @@ def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
     run = list(results(scenario, True, 8))
     assert False in found[3:]
     for result, q in zip(run, expected, strict=True):
-        np.testing.assert_allclose(result.q, q, rtol=0, atol=1e-9)  # cold, and so not the same bits
+        assert_within(result.q, q, 1e-9)  # cold, and so not the same bits
 
 
 def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(monkeypatch):

@@ -5,9 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 
+from quasistatic_ref import contact_forces, load_scenario
 from quasistatic_ref.optional.fast.compiled import forces
-from quasistatic_ref.optional.forces.forces import contact_forces
-from quasistatic_ref.scenario.scenario import load_scenario
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.rows_given import SQUARES, half_way_forces
 from validation.make.confirmed_bits import random_case

@@ -10,16 +10,20 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref import (
+    Body,
+    ContactPair,
+    Extension,
+    PlacedShape,
+    PointCloud,
+    Simulator,
+    System,
+    load_scenario,
+    standard_form,
+)
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
-from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.standard_form import standard_form
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, written
 from tests.optional.fast.compiled.test_fast_pairs import CLOUDS, SHAPES, cloud
 

@@ -9,11 +9,11 @@ from operator import mul
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.compiled import certificate, library
-from quasistatic_ref.scenario.scenario import load_scenario
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler

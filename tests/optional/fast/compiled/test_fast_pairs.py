@@ -8,22 +8,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import closest_points, pair_closest_points
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import OF_CLOUD
-from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.fast.compiled import pairs as in_c
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref import (
     Box,
     Capsule,
     Cone,
+    ContactError,
+    ContactPair,
     Cylinder,
     Ellipsoid,
     HalfSpace,
     PointCloud,
     Sphere,
+    convex_hull,
 )
+from quasistatic_ref.contact.distance import closest_points, pair_closest_points
+from quasistatic_ref.contact.separations import OF_CLOUD
+from quasistatic_ref.optional.fast.compiled import pairs as in_c
 from quasistatic_ref.tolerances import TIED_FACES
 from tests.contact.still import pair, placed, standing
 from tests.oracles.posed_pairs import PosedPairs

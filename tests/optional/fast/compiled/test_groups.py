@@ -5,9 +5,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from quasistatic_ref import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step

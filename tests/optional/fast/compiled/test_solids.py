@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from quasistatic_ref import convex_hull
 from quasistatic_ref.optional.fast.compiled.solids import CORNERS, measured
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles import closest
 

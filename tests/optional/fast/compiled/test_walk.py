@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref import load_scenario, solve_step
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast import proofs
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import pinch
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.rows_given import step_of

@@ -5,14 +5,14 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
+from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.grasp import rotations
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.closeness import assert_close, assert_relative
 from tests.legible import faults
 from tests.tolerances import ROUNDING
 
@@ -78,7 +78,7 @@ def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, ru
             dots = [line for line in axes.lines if line.get_marker() == "o"]
             filled = [dot for dot in dots if dot.get_markerfacecolor() != "white"]
             found = np.reshape([dot.get_xydata()[0] for dot in filled], (-1, 2))
-            np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=ROUNDING)
+            assert_close(found, expected, ROUNDING)
 
 
 def plain_figure():
@@ -101,4 +101,4 @@ def test_a_figure_is_written_as_png_and_pdf_and_closed(tmp_path):
 
 def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
     seen = Camera(azimuth=0, elevation=0).seen(np.array([[1.0, 2.0, 3.0]]))
-    np.testing.assert_allclose(seen, [[2, 3, 1]], rtol=ROUNDING)
+    assert_relative(seen, [[2, 3, 1]], ROUNDING)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref import InputError
 from quasistatic_ref.optional.show.figures import figure_style, panels, style_file
 from quasistatic_ref.optional.show.figures.style import PAGE, STYLES, scaled, sized
 from tests.legible import faults

@@ -8,9 +8,8 @@ import sys
 import numpy as np
 import pytest
 
+from quasistatic_ref import Body, Box, InputError, Sphere, System, load_scenario
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import ROBOTS
@@ -23,8 +22,6 @@ from quasistatic_ref.optional.show.figures.viewer import (
     view_written,
 )
 from quasistatic_ref.optional.show.figures.visuals import visuals
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.simulate.scene import Scene
 from tests.model.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
