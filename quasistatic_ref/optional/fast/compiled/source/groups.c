@@ -157,7 +157,7 @@ int groups_proved(Step *s)
     return all;
 }
 
-/* The forces of all groups, as far as they are DECIDED. */
+/* The forces of all groups, as far as they are DECIDED; of one of which nothing has changed, as before. */
 void groups_forces(Step *s)
 {
     for (int64_t i = 0; i < s->groups; i++) {
@@ -165,9 +165,10 @@ void groups_forces(Step *s)
         s->code[i] = NOT_POSED;
         if (!p)
             continue;
-        posed(s, p);
         rows_taken(s->forces[i]->near, s->near, p->contacts, p->n_c, 4);
-        s->code[i] = forces(s->forces[i]);
+        if (posed(s, p) || p->code != DECIDED)
+            p->code = forces(s->forces[i]);
+        s->code[i] = p->code;
         for (int64_t c = 0; c < p->n_c; c++)
             memcpy(s->wrench + 4 * p->contacts[c], s->forces[i]->wrench + 4 * c, 4 * sizeof(double));
     }
