@@ -9,14 +9,15 @@ P = 2**56 - 5
 """By which zeros.c divides."""
 
 
-def step_of(A, b, g, h=1.0):
-    """H = 1 / h and A x >= b: contacts without friction, of which J along n is a row of A."""
+def step_of(A, b, g, h=1.0, M=None):
+    """H = M / h, or 1 / h, and A x >= b: contacts without friction; J along n is a row of A."""
     A = np.array(A, dtype=np.float64)
     m, n = A.shape
     J = np.zeros((m, 4, n))
     J[:, 2] = A
     contacts = contacts_of(-np.array(b, dtype=np.float64), np.tile(np.eye(3), (m, 1, 1)), J, 0.0)
-    step = free_step(np.eye(n), np.array(g, dtype=np.float64), contacts, h)
+    M = np.eye(n) if M is None else np.array(M, dtype=np.float64)
+    step = free_step(M, np.array(g, dtype=np.float64), contacts, h)
     return step.replace(cone="frictionless")
 
 
@@ -76,3 +77,88 @@ def divisible():
     A[10] = [*(2.0 ** (49 * i - 676) for i in range(8)), 1.0, -1.0]
     A[11] = 1.0
     return step_of(A, [*x, 1.0, 1.0, 0.0, -5.0], np.zeros(10))
+
+
+def far(n, count):
+    """Rows that are far away, along one axis after the other, and make the median length one."""
+    return np.resize(np.eye(n), (count, n)).tolist(), [-9.0] * count
+
+
+def without_slack():
+    """Rows that nothing presses at x: some motion opens all of them, or none does.
+
+    In this order: x_1 + x_3 / 2 is its bound, which is not zero, and the row is short; the row is
+    long, so that its weight is small; of two rows with weights of a ratio of 2^45, the first gets
+    none, and what opens the second does not move along it; the third is a combination of the two
+    others with positive factors; the third opposes the first, and the second, nearly parallel to
+    them, gets a factor of rounding.
+    """
+    small, large = 2.0**-35, 2.0**40
+    for A, b, g in (
+        ([[small, 0, small / 2]], [-small], [-0.75, 0.25, -0.5]),
+        ([[large, 0]], [-large], [-1, 1]),
+        ([[32, -32], [1 / large, 1 / large]], [-32, -1 / large], [-1, 0]),
+        ([[1, 0], [0, 1], [-2, -1]], [0, 0, 0], [0, 0]),
+        ([[0.73, 0.93], [0.87591, 1.11607], [-1.46, -1.86]], [0, 0, 0], [0, 0]),
+    ):
+        rows, bounds = far(len(g), 4)
+        yield step_of(A + rows, b + bounds, g)
+
+
+def small_numbers():
+    """The first of these is not zero, the others are.
+
+    A'lam is 2^-130 along x_2, which takes the second precision; A'lam is zero along x_2 while a row
+    has no slack; x_1 is zero, pressed through 2^-416 x_1 + x_2, so that many digits are needed.
+    """
+    pair = [[1, 1], [1, -1]]
+    rows, bounds = far(2, 3)
+    yield step_of(pair + rows, [2, 0, *bounds], [-0.75, 1], M=[[1, 2.0**-130], [2.0**-130, 1]])
+    rows, bounds = far(3, 4)
+    held = [[1, 1, 0], [1, -1, 0], [0, 1, 1]]
+    yield step_of(held + rows, [2, 0, 0, *bounds], [-1, 1, -1])
+    rows, bounds = far(2, 2)
+    for power in (120, 416):
+        yield step_of([[2.0**-power, 1], [1, 0], *rows], [0.75, 0, *bounds], [-1, -0.5])
+
+
+def matrices():
+    """H of an entry below 2^-840, of det H = p, and such that the last bound of errors fails."""
+    low, t, near = 2.0**-850, 2**27, 1 - 1.4 * 2.0**-46
+    rows, bounds = far(2, 2)
+    A = [[1, 0], [0, 2.0**-52], *rows, [1, 1]]
+    yield step_of(A, [0, 1, *bounds, -9], [-1, 0], M=[[1, low], [low, 1]])
+    A = [[1, 0, 0], [1, 1, 1], [0, 0, 1], [1, 1, 1]]
+    M = [[4 * (t - 1), 1, 0], [1, t + 1, 0], [0, 0, 1]]
+    yield step_of(A, [0, 1, 0.25, -3], [-5, -1, -1], M=M)
+    yield step_of([[1, 0]], [-5], [0.75, 1], M=[[1, near], [near, 1]])
+
+
+def in_units(A, b, g, rows, units):
+    """H = 1 and A x >= b, of which rows and coordinates are larger by powers of two."""
+    size, unit = 2.0 ** np.array(rows)[:, None], 2.0 ** np.array(units)
+    near, (away, bounds) = np.array(A), far(len(g), len(A) + 1)
+    return step_of(
+        [*near * size * unit, *away * unit],
+        [*np.array(b) * size[:, 0], *2 * np.array(bounds)],
+        np.array(g) * unit,
+        M=np.diag(unit**2),
+    )
+
+
+def bounds_decide():
+    """Zeros of which float64 shows nothing but their bounds, which hang on one number each.
+
+    In this order: the bound of a slack on the unit of a long row; those of A'lam on the row of K
+    and on the column; the same of 24 coordinates, with room for two contacts only. In the last
+    step x_2 rests, which a row far away couples to x_1.
+    """
+    yield in_units([[3, 0], [0, 3], [-1, -1]], [1, 2, -1], [0, 0], [0, 0, 40], [-20, -20])
+    rows = [[0, 0, -2], [-1, 3, 2], [3, 0, 0]]
+    yield in_units(rows, [2, 1, -3], [-1, 0, 3], [-40, -20, 0], [0, 15, 0])
+    yield in_units([[0, 3, 0], [-3, -1, 0]], [-3, -3], [3, -1, 3], [20, 0], [0, 15, 0])
+    x, n = 2.0**-30, 24
+    A = [[1, 0] + [1] * n, [0, 3] + [-3] * n]
+    M = np.diag([1, 1] + [1 / x**2] * n)
+    yield step_of(A, [1 + n * x, 3 - 3 * n * x], [0, 0] + [1 / x] * n, M=M)
+    yield step_of([[1, 0], [1, 1], [1, 0]], [1, -5, -9], [-1, 0])

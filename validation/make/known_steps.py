@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -34,11 +34,15 @@ from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rows_given import (
     DIGITS_MEET,
+    bounds_decide,
     divisible,
     half_way,
     half_way_forces,
+    matrices,
     sevenths,
+    small_numbers,
     step_of,
+    without_slack,
 )
 from validation.make.degenerate_bits import degenerate_step
 from validation.tools.scripts import asked
@@ -93,6 +97,7 @@ def varied_step(seed: int) -> StepData:
 def chosen() -> Iterator[StepData]:
     """Steps that refuse a wrong prover which others do not: ``prover_mutants``."""
     yield from (half_way(1), half_way(3), half_way(1, 40), sevenths(), divisible())
+    yield from (*without_slack(), *small_numbers(), *matrices())
     yield from map(degenerate_step, (6, 22, 36, 41, 65))
     yield from (step_of(A, b, [0.0] * len(A[0])) for A, b in DIGITS_MEET)
     yield half_way_forces(2.0**39 + 1.0)
@@ -108,26 +113,30 @@ def main() -> int:
     library.chosen = str(untested)
     kinds: Counter[Any] = Counter()
     lines = []
-    designed = ((seed % 4, varied_step(seed)) for seed in range(SEEDS))
-    for family, step in chain(enumerate(chosen(), start=4), designed):
+    seeds = takewhile(lambda _: len(lines) < MOST, range(SEEDS))
+    designed = ((seed % 4, varied_step(seed)) for seed in seeds)
+    first, last = enumerate(chosen(), start=4), enumerate(bounds_decide(), start=100)
+    for family, step in chain(first, designed, last):
         optimum = optimum_of(step)
         divided = group_steps(step)
         if optimum is None and len(divided) > 1:
             continue  # the group without solution is not known
-        outcomes = "".join(letter(one.code) for one in tried(Known(step, optimum, "", None, None)))
+        proofs = list(tried(Known(step, optimum, "", [], None, None)))
+        outcomes = "".join(letter(one.code) for one in proofs)
         kind = family, step.cone, step.n_v, len(divided), "".join(sorted(set(outcomes)))
         told = optimum is None or set("or") & set(outcomes)
         if family < 4 and (kinds[kind] == EACH or not told):
             continue
         kinds[kind] += 1
-        record = {"step": step_record(step), "optimum": optimum, "outcomes": outcomes}
+        record = {
+            "step": step_record(step), "optimum": optimum, "outcomes": outcomes,
+            "digits": [one.digits for one in proofs],
+        }  # fmt: skip
         if optimum is not None and knows(step.cone):
             record["left"] = Forces(step).in_c(step)[1]
             if not record["left"]:
                 record["forces"] = contact_forces(step).wrench.tolist()
         lines.append(json_text(record))
-        if len(lines) == MOST:
-            break
     made = io.BytesIO()
     with gzip.GzipFile(fileobj=made, mode="wb", mtime=0) as packed:
         packed.write("\n".join(lines).encode())

@@ -4,12 +4,14 @@ Each operator of the C files that prove optima is replaced by another one, one a
 compiler would. Each such library is compiled and tested like a new one (``selftest.py``), in a
 process of its own. Compilers that change float64, and five that get one operation of integers
 wrong, are tried, too. The page (``--out``) counts the libraries that are refused, and those of
-which ``prover_mutants.toml`` says why they change no answer, and lists the others. ``--only`` one
-file, or "compilers", makes its rows of the page again; ``--every`` N takes one operator of N; with
-``--compilers`` what is said of a sample of them is printed as JSON. Exit status 1 if one passes
-without a reason. Takes a quarter of an hour.
+which ``prover_mutants.toml`` says why they change no answer, and lists the others. Outcomes are
+added to a file (``--kept``), with which the same command goes on where it was ended, as long as
+sources and self-test are the same; with ``--known`` nothing more is tried. ``--every`` N takes one
+operator of N; with ``--compilers`` what is said of a sample of them is printed as JSON. Exit status
+1 if one passes without a reason. Takes a quarter of an hour.
 """
 
+import hashlib
 import json
 import os
 import re
@@ -20,7 +22,8 @@ import sys
 import tempfile
 import tomllib
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -35,7 +38,6 @@ FILES = (
 """Those that prove."""
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
 """Of each file, lines that are not refused, and why these mutants change no answer."""
-COMPILERS = "compilers"
 SECONDS = 4
 """A mutant that takes longer of the processor does not end, and is refused."""
 PATIENCE = 120
@@ -86,6 +88,7 @@ FLAGS = {
     "-fsingle-precision-constant": "0.1 x",
 }  # fmt: skip
 """After the package's own, and the first operation of which they change the bits, if any."""
+COLUMNS = ("refused", "same code", "harmless", "passed", "not tried")
 SAMPLE = ("-freciprocal-math", "a borrow")
 """Those that a test tries."""
 
@@ -95,10 +98,10 @@ Written by `python -m validation.make.prover_mutants --out FILE`. Operators of t
 prove optima, each replaced by another one. `refused`: the self-test has found a difference, the
 library ended the process, or it did not end. `same code`: the compiler makes the same code of both.
 `harmless`: `validation/make/prover_mutants.toml` says why it changes no answer. `passed`: no known
-step shows what it changes.
+step shows what it changes. `not tried`: no outcome is kept; some of these do not compile.
 
-| file | mutants | refused | same code | harmless | passed |
-|---|---|---|---|---|---|
+| file | mutants | refused | same code | harmless | passed | not tried |
+|---|---|---|---|---|---|---|
 {counts}
 
 Compilers, the first ones right, that change float64, or get an operation of 128-bit integers or a
@@ -209,22 +212,17 @@ class Builder:
             for name in names:
                 (self.folder / f"{name}.o").write_bytes(self.plain[name])
 
-    def compilers(self, names: Collection[str]) -> dict[str, str]:
-        """What the self-test says with each of some compilers."""
-        found = {}
-        plain = (library.SOURCE / "arithmetic.c").read_text()
-        for flags in [flags for flags in FLAGS if flags in names]:
-            found[flags] = self.outcome("arithmetic.c", plain, flags)
-        for name in [name for name in WRONG_COMPILERS if name in names]:
-            right, wrong = WRONG_COMPILERS[name]
-            file = next(f for f in FILES if right in (library.SOURCE / f).read_text())
-            text = (library.SOURCE / file).read_text()
-            found[name] = self.outcome(file, text.replace(right, wrong))
-        return found
+    def compiler(self, name: str) -> str:
+        """What the self-test says with a compiler."""
+        if name in FLAGS:
+            return self.outcome("arithmetic.c", (library.SOURCE / "arithmetic.c").read_text(), name)
+        right, wrong = WRONG_COMPILERS[name]
+        file = next(f for f in FILES if right in (library.SOURCE / f).read_text())
+        return self.outcome(file, (library.SOURCE / file).read_text().replace(right, wrong))
 
 
 def tested(file: Path) -> str:
-    """What the self-test says of a library; empty if it passes."""
+    """What the self-test says of a library, its proofs first; empty if it passes."""
     reading, writing = os.pipe()
     child = os.fork()
     if not child:
@@ -233,7 +231,8 @@ def tested(file: Path) -> str:
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
         signal.alarm(PATIENCE)
         try:
-            found = selftest.refusal(str(file)) or ""
+            library.chosen = str(file)
+            found = selftest.wrong_proof() or selftest.wrong_parts(str(file)) or ""
         except BaseException as failure:  # whatever ends the process is no pass
             found = f"{type(failure).__name__}: {failure}"
         os.write(writing, found.encode()[:4000])
@@ -245,69 +244,85 @@ def tested(file: Path) -> str:
     return f"it was ended by signal {status}" if status else words
 
 
-def of_file(builder: Builder, file: str, every: int) -> tuple[str, list[str], int]:
+class Kept:
+    """Outcomes of these sources and this self-test, each in a line of a file.
+
+    Parameters
+    ----------
+    file : Path or None
+        None keeps them in this process alone.
+    """
+
+    def __init__(self, file: Path | None) -> None:
+        self.file = file
+        parts = sorted(library.SOURCE.glob("*.[ch]"))
+        parts += [library.SOURCE.parent / name for name in library.TESTED_BY]
+        self.of = hashlib.sha256(b"".join(part.read_bytes() for part in parts)).hexdigest()
+        lines = file.read_text().splitlines() if file and file.exists() else []
+        every = [json.loads(line) for line in lines]
+        self.known = {name: said for of, name, said in every if of == self.of}
+
+    def outcome(self, name: str, found: Callable[[], str]) -> str:
+        """The outcome of a name: what is known of it, or is found now."""
+        if name not in self.known:
+            self.known[name] = found()
+            if self.file:
+                with self.file.open("a") as lines:
+                    print(json.dumps([self.of, name, self.known[name]]), file=lines)
+        return self.known[name]
+
+
+def of_file(
+    builder: Builder, file: str, every: int, kept: Kept, known: bool
+) -> tuple[str, list[str], int]:
     """The row of a file, that of its mutants that pass, and how many these are."""
     reasons = tomllib.loads(REASONS.read_text()).get(file, {})
     kinds: Counter[str] = Counter()
     lines = []
     for one in mutants(file, every):
-        said = builder.outcome(one.file, one.text)
+        name = f"{file} {one.line} {hashlib.sha256(one.text.encode()).hexdigest()}"
+        if known and name not in kept.known:
+            kinds["not tried"] += 1
+            continue
+        said = kept.outcome(name, partial(builder.outcome, one.file, one.text))
         if said == "does not compile":
             continue
-        reason = reasons.get(one.code, reasons.get("*", "PASSED"))
-        passes = "passed" if reason == "PASSED" else "harmless"
+        passes = "harmless" if one.code in reasons else "passed"
         kinds[said if said == "same code" else "refused" if said else passes] += 1
         if not said and passes == "passed":
             lines.append(str(one.line))
             print(file, one.line, one.code, file=sys.stderr, flush=True)
-    cells = [kinds[kind] for kind in ("refused", "same code", "harmless", "passed")]
+    cells = [kinds[kind] for kind in COLUMNS]
     row = f"| {file} | {kinds.total()} | {' | '.join(map(str, cells))} |"
     print(row, file=sys.stderr, flush=True)
     left = [f"| {file} | {len(lines)} | {', '.join(lines)} |"] if lines else []
     return row, left, len(lines)
 
 
-def rows_before(out: Path | None, only: str) -> list[str]:
-    """The rows of a page of before that are not made again: all but those of one part."""
-    if not only or out is None or not out.exists():
-        return []
-    names = {*FILES, *WRONG_COMPILERS, *map(shown_flags, FLAGS)}
-    again = {only} if only != COMPILERS else names - {*FILES}
-    rows = [line for line in out.read_text().splitlines() if line.startswith("| ")]
-    return [row for row in rows if row.split(" | ")[0][2:] in names - again]
-
-
 def main() -> int:
     """Try all; exit status 1 if a wrong library passes without a reason."""
-    options = asked(__doc__, every=1, only="", compilers=False, out=Path)
+    options = asked(__doc__, every=1, compilers=False, known=False, kept=Path, out=Path)
     known_steps()  # once, for all that are forked
-    before = rows_before(options.out, options.only)
-    of_compilers = [row for row in before if row.count(" | ") == 1]
-    counts = [row for row in before if row.count(" | ") == 5]
-    left = [row for row in before if row not in of_compilers + counts]
-    passed = 0
     with tempfile.TemporaryDirectory() as folder:
         builder = Builder(Path(folder), "-O0" if options.compilers else "-O1")
         if options.compilers:
-            print(json.dumps(builder.compilers(SAMPLE)))
+            print(json.dumps({name: builder.compiler(name) for name in SAMPLE}))
             return 0
-        if options.only in ("", COMPILERS):
-            said = builder.compilers([*FLAGS, *WRONG_COMPILERS])
-            passed += sum(not said[name] for name in WRONG_COMPILERS)
-            of_compilers = [
-                f"| {shown_flags(name)} | {words[:80] or 'passes'} |"
-                for name, words in said.items()
-            ]
-        for file in FILES:
-            if options.only in ("", file):
-                row, rows, count = of_file(builder, file, options.every)
-                counts.append(row)
-                left += rows
-                passed += count
+        kept = Kept(options.kept)
+        said = {
+            name: kept.outcome(name, partial(builder.compiler, name))
+            for name in (*FLAGS, *WRONG_COMPILERS)
+        }
+        rows = [
+            of_file(builder, file, options.every, kept, options.known) for file in sorted(FILES)
+        ]
+    passed = sum(count for *_, count in rows) + sum(not said[name] for name in WRONG_COMPILERS)
     page = PAGE.format(
-        counts="\n".join(sorted(counts)),
-        compilers="\n".join(of_compilers),
-        left="\n".join(sorted(left)),
+        counts="\n".join(row for row, *_ in rows),
+        compilers="\n".join(
+            f"| {shown_flags(name)} | {words[:80] or 'passes'} |" for name, words in said.items()
+        ),
+        left="\n".join(line for _, left, _ in rows for line in left),
     )
     shown(page, options.out)
     return int(passed > 0)

@@ -160,7 +160,7 @@ class GroupProof:
         room_for_step(s, n_a, n, n_c, m)
         s.room({"J": (n_c, 4, n), "A": (m, n), "units": (2,)})
         s.room(
-            {"answer": (m,), "guess": (m,), "idle": (m,), "still": (n,), "counts": (2,)}, np.int64
+            {"answer": (m,), "guess": (m,), "idle": (m,), "still": (n,), "counts": (3,)}, np.int64
         )
         if like is None:
             contact, row = np.divmod(own.row_layout.numbers, own.row_layout.mask.shape[1])

@@ -6,7 +6,7 @@ no solution. ``validation/make/known_steps.py`` makes the file from the core's e
 
 import gzip
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -23,6 +23,8 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     Prover,
 )
 from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
+from quasistatic_ref.optional.fast.compiled.known_functions import Room
+from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.files import step_from_record
@@ -30,6 +32,9 @@ from quasistatic_ref.step.groups import Group, group_steps
 
 FILE = Path(__file__).parent / "known_steps.jsonl.gz"
 
+WRITTEN = ("delta_q", "lam", "net", "slack", "rest", "bound", "least", "claims")
+"""Arrays that the library writes, of a step and of each group; and others of a group."""
+OF_GROUP = ("guess", "answer", "idle", "still", "counts")
 RIGHT = "right"
 """The guess that is the working set of the stored optimum."""
 
@@ -48,6 +53,8 @@ class Known(NamedTuple):
         What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
         that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
         for neither.
+    digits : list of int
+        How many digits modulo p each of these proofs found, which the bound of zeros.c tells.
     left : list of int or None
         The groups whose forces that library left open; None of a cone that C does not know.
     forces : list of list of float, or None
@@ -57,6 +64,7 @@ class Known(NamedTuple):
     step: StepData
     optimum: dict[str, Any] | None
     outcomes: str
+    digits: list[int]
     left: list[int] | None
     forces: list[list[float]] | None
 
@@ -69,10 +77,7 @@ def known_steps() -> list[Known]:
     return [
         Known(
             step_from_record(one["step"]),
-            one["optimum"],
-            one["outcomes"],
-            one.get("left"),
-            one.get("forces"),
+            **{name: one.get(name) for name in ("optimum", "outcomes", "digits", "left", "forces")},
         )
         for one in records
     ]
@@ -120,6 +125,8 @@ class Tried(NamedTuple):
         Whether the guess differs from the right one in rows of this group.
     code : int
         The outcome, as in proof.h.
+    digits : int
+        As of Known.
     found : ExactOptimum or None
     whole : ExactOptimum or None
         Of the step, where all groups are proved on what the guess leads to.
@@ -130,6 +137,8 @@ class Tried(NamedTuple):
         it did not pose the step.
     of : DenseStepInBothUnits
         The step of the group.
+    inside : bool
+        Whether nothing was written behind the arrays of a step and its groups.
     """
 
     group: Group
@@ -137,11 +146,24 @@ class Tried(NamedTuple):
     guess: str
     changed: bool
     code: int
+    digits: int
     found: ExactOptimum | None
     whole: ExactOptimum | None
     rest: Array
     units: Array | None
     of: DenseStepInBothUnits
+    inside: bool
+
+
+def room_behind(s: Structure, names: Sequence[str]) -> list[Room]:
+    """Arrays of a structure, each of which has room behind it from now on."""
+    found = []
+    for name in names:
+        room = Room(s[name].size, float if s[name].dtype == np.float64 else int)
+        room.all[: room.size] = s[name]
+        s.put({name: room.all[: room.size]})
+        found.append(room)
+    return found
 
 
 def tried(known: Known) -> Iterator[Tried]:
@@ -150,6 +172,9 @@ def tried(known: Known) -> Iterator[Tried]:
     divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
     both = DenseStepInBothUnits(step)
     prover = Prover(both, [(group, own.si_step, own.hessian) for group, own in divided])
+    rooms = room_behind(prover.s, WRITTEN)
+    for each in prover.proofs:
+        rooms += room_behind(each.s, (*WRITTEN, *OF_GROUP)) if each else []
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
@@ -160,13 +185,16 @@ def tried(known: Known) -> Iterator[Tried]:
             changed = bool((lam != right)[group.rows].any())
             found = None
             units = None
-            code = NOT_POSED
+            code, digits = NOT_POSED, 0
             if isinstance(proof, GroupProof) and proof.code != NOT_POSED:
                 guess: Indices = np.flatnonzero(lam[group.rows])
                 units = proof.s["units"].copy()
                 found = proof.on(guess, own.units)
-                code = proof.code
-            yield Tried(group, number, words, changed, code, found, whole, rest, units, own)
+                code, digits = proof.code, int(proof.s["counts"][2])
+            inside = all(room.kept for room in rooms)
+            yield Tried(
+                group, number, words, changed, code, digits, found, whole, rest, units, own, inside
+            )
 
 
 def letter(code: int) -> str:
@@ -179,8 +207,12 @@ def wrong(known: Known) -> str | None:
     for i, one in enumerate(tried(known)):
         if one.units is not None and one.units.tolist() != [*one.of.units[1:]]:
             return f"its natural units are {one.units.tolist()} in place of {one.of.units[1:]}"
+        if not one.inside:
+            return "something is written behind an array"
         if letter(one.code) != known.outcomes[i]:
             return f"a guess {one.guess} is decided otherwise"
+        if one.digits != known.digits[i]:
+            return f"a guess {one.guess} takes {one.digits} digits in place of {known.digits[i]}"
         if one.code == REFUTED and not one.changed:
             return "the right guess is refuted"
         if one.whole is not None and not same(one.whole, known.optimum, one.guess == RIGHT):

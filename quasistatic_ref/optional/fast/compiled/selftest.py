@@ -252,6 +252,11 @@ def wrong_proof() -> str | None:
 
 def refusal(file: str) -> str | None:
     """Why a library must not be used; None if it is right."""
+    return wrong_parts(file) or wrong_proof()
+
+
+def wrong_parts(file: str) -> str | None:
+    """What is wrong with the numbers and functions of a library, in words."""
     right = by_python()
     compiled.chosen = file
     try:
@@ -264,7 +269,6 @@ def refusal(file: str) -> str | None:
         or wrong_span(library)
         or wrong_bound(library)
         or wrong_points()
-        or wrong_proof()
     )
 
 

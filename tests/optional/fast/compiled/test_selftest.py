@@ -8,9 +8,10 @@ from collections import Counter
 import pytest
 
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.optional.fast.compiled.known_steps import known_steps
+from quasistatic_ref.optional.fast.compiled.known_steps import Known, known_steps, tried
 from quasistatic_ref.step.groups import group_steps
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from tests.oracles.rows_given import P, small_numbers
 from validation.make.known_steps import optimum_of
 from validation.make.prover_mutants import FLAGS, SAMPLE, WRONG_COMPILERS
 from validation.tools.scripts import ROOT
@@ -55,3 +56,10 @@ def test_an_optimum_that_is_stored_is_that_of_the_exact_method():
     """Of a sample: ``validation/make/known_steps.py`` writes all."""
     for known in known_steps()[::16]:
         assert json.loads(json_text(optimum_of(known.step))) == known.optimum
+
+
+def test_as_many_digits_are_found_as_determinants_have():
+    """A row and a column of K are 2^416 times larger in whole numbers: p^m is above 2^832."""
+    *_, step = small_numbers()
+    first = next(tried(Known(step, optimum_of(step), "", [], None, None)))
+    assert P**first.digits > 2 ** (2 * 416)

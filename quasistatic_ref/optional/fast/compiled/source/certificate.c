@@ -241,6 +241,7 @@ static int proved(Proof *s, Room *m)
 {
     int64_t n = s->n_v, N = n + s->working;
     lost = 0;
+    s->counts[2] = 0;
     load(s, m->g);
     int code = regular(s, m);
     if (code != DECIDED)

@@ -52,7 +52,8 @@ typedef struct {
     /* The answer, in SI units; and what rounding took from delta_q, within a bound. */
     double *delta_q, *lam, *net, *slack, *rest, *bound;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
-       many of both. Whether multipliers are unique, and whether delta_q is differentiable. */
+       many of both, and of the digits that show it. Whether multipliers are unique, and whether
+       delta_q is differentiable. */
     int64_t *idle, *still, *counts, *claims;
     /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
        infinite where there is none. */

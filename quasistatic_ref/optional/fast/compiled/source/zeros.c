@@ -219,6 +219,7 @@ static int vanish(Lifting *l, const int64_t *still, int64_t count)
     Sum sum = EMPTY;
     for (double left = bits(l); left >= 0.0; left -= BITS - 1) {
         digits(l);
+        s->counts[2]++;
         for (int64_t i = 0; i < count; i++)
             if (l->d[still ? still[i] : i])
                 return 0;
@@ -320,7 +321,6 @@ static void left_out(Rows *E, int64_t i, int64_t n)
 {
     int64_t after = --E->count - i;
     memmove(E->row + i, E->row + i + 1, (size_t)after * sizeof(int64_t));
-    memmove(E->weight + i, E->weight + i + 1, (size_t)after * sizeof(double));
     memmove(E->A + i * n, E->A + (i + 1) * n, (size_t)(after * n) * sizeof(Number));
 }
 
