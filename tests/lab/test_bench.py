@@ -10,6 +10,8 @@ from quasistatic_ref.lab.bench.acceptance import promises
 from quasistatic_ref.lab.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.bench.report import promise_rows
+from quasistatic_ref.lab.bench.scenes import AT_REST, GRAVITY, HAND, MU_V, H, cubes
+from quasistatic_ref.lab.bench.solids import LARGE, STATES
 from quasistatic_ref.lab.bench.timing import in_turn, least
 from quasistatic_ref.lab.bench.whole_run import WALL
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
@@ -35,7 +37,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     of_run = found["run"]
     assert of_run[WALL] > of_run["the stages of its steps"] > 0.0
     text = (tmp_path / "bench.md").read_text()
-    for title in ("certificate", "300 steps", "Derivatives", "Scenes of solids"):
+    for title in ("certificate", "300 steps", "Derivatives", "Scenes of solids", "Many bodies"):
         assert title in text
     assert f"| full, plain | {found['certification']['full, plain']:.1f} |" in text
     assert text.count("| not judged |") == len(found["promises"])
@@ -74,20 +76,44 @@ def test_each_promise_is_judged_by_its_limit():
         "step of the grasp over the bare solver": False,
         "step of the grasp [us]": True,
     }
-    # Of boxes by MuJoCo's step, unless the solver alone takes more than six of that.
-    by_mujoco = {"over_solver": 5.0, "over_mujoco": 5.9, "solver_over_mujoco": 1.2}
-    by_solver = {"over_solver": 2.1, "over_mujoco": 13.0, "solver_over_mujoco": 6.2}
-    proved = {"proved_over_off": 4.1}
-    solids = {
-        "few": by_mujoco | proved,
-        "many": by_solver | proved,
-        "alone": proved | {"over_solver": 5.0},
-    }
-    judged = promises({"quick": False, "grasp": grasp, "solids": solids})[2:]
+    # Of single cubes by MuJoCo's step, unless the solver alone takes more than six of that.
+    few, many, alone = [*STATES][:3]
+    own = {"full": 10.0, "proved_over_off": 4.1, "first_over_later": 9.9}
+    by_mujoco = own | {"over_solver": 5.0, "over_mujoco": 5.9, "solver_over_mujoco": 1.2}
+    by_solver = own | {"over_solver": 2.1, "over_mujoco": 13.0, "solver_over_mujoco": 6.2}
+    solids = {few: by_mujoco, many: by_solver, alone: own | {"over_solver": 5.0}, HAND: own}
+    large = {"40 cubes, askew": own, "10 cubes, askew": own | {"full": 10 / 4.6}}
+    judged = promises({"quick": False, "grasp": grasp, "solids": solids, "large": large})[2:]
     assert {p["what"]: p["holds"] for p in judged} == {
-        "few, step over MuJoCo's": True,
-        "many, step over the bare solver": False,
-        **{f"{name}, proved over not": False for name in solids},
+        f"{few}: step over MuJoCo's": True,
+        f"{many}: step over the bare solver": False,
+        **{f"{name}: proved over not": False for name in solids | large},
+        **{f"{name}: first over later": True for name in solids | large},
+        "40 cubes, askew over 10 cubes, askew": False,
     }
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step of the grasp over the bare solver", "4.1", "at most 4", "FAILS")
+
+
+@pytest.mark.parametrize("name", ["8 stacks of five, rest", "24 boxes in a bin"])
+def test_bodies_of_a_scene_at_rest_stay_where_they_are(name):
+    """And MuJoCo's, where it is installed, stand at the same places."""
+    scene = LARGE[name]()
+    result = scene.simulator("off", True).step(scene.q, scene.goals[0], scene.force)
+    assert np.abs(result.solution.delta_q).max() <= AT_REST
+    if not missing("engines"):
+        _, data = scene.model()
+        assert np.array_equal(data.qpos.reshape(-1, 7)[:, :3], scene.q.reshape(-1, 7)[:, :3])
+
+
+def test_pushed_cubes_stick_or_slide_as_their_state_says():
+    """Friction holds half of the weight m g: a push of 0.2 m g moves nothing.
+
+    One of 0.7 m g leaves 0.2 m g. The first step of a slide rises, too, by mu_v times its length,
+    so that it is h^2 times 0.2 g over 1 + mu_v^2.
+    """
+    slide = (0.7 - MU_V) * GRAVITY * H**2 / (1 + MU_V**2)
+    for push, along in (("rest", 0.0), ("sticks", 0.0), ("slides", slide)):
+        scene = cubes(1, 1, 6, push)
+        moved = scene.simulator("full", True).step(scene.q, scene.goals[0], scene.force)
+        assert moved.solution.delta_q[0] == pytest.approx(along, rel=1e-9, abs=1e-15)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.bench.scenes import cubes
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.adapters.piqp import Piqp
@@ -30,7 +31,6 @@ from quasistatic_ref.tolerances import (
 )
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
-from validation.make.ordinary_states import Scene, simulator
 
 LARGE = EntriesOfJ(10**9, 10**9)
 FAILED = Reply(None, None, False, "at a loss")
@@ -63,7 +63,7 @@ def test_bodies_that_cannot_touch_count_one_by_one():
 
     J has four rows a contact. Under another law than the model's contacts are never in blocks.
     """
-    made = simulator(Scene(stacks=3, height=2, rows=6, push="rest"), "off")
+    made = cubes(stacks=3, height=2, rows=6, push="rest").simulator("off", True)
     here = EntriesOfJ(4 * 24 * 36, 4 * 8 * 12)
     assert entries_of_J(made.system, made.pairs, ordinary=True) == here
     assert entries_of_J(made.system, made.pairs, ordinary=False) == EntriesOfJ(0, 0)

@@ -78,7 +78,6 @@ RESULTS = (
         (
             "large_steps",
             "grouped_proofs",
-            "ordinary_states",
             "proved_problems",
             "pair_distances",
             "scans",

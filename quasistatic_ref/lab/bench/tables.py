@@ -15,7 +15,7 @@ from quasistatic_ref.lab.bench.grasp import (
     certification,
     places,
 )
-from quasistatic_ref.lab.bench.solids import SCENES, solid_scenes
+from quasistatic_ref.lab.bench.solids import LARGE, SCENES, solid_scenes
 from quasistatic_ref.lab.bench.whole_run import whole_run
 from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.parts import fast_part
@@ -29,6 +29,9 @@ minute to minute, ratios of least times of 12 stay within 5 % of each other, of 
 
 RUNS = 5
 """Runs of a scene, each from its start, so that they have the same steps."""
+
+SOLID_STEPS, LARGE_STEPS = 60, 10
+"""Steps of such a run; of a scene with many bodies."""
 
 
 def tables(quick: bool, tell: Tell) -> dict[str, Any]:
@@ -56,12 +59,14 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     twice = 1 if quick else 2
     at = places(steps)
     some = places(4 if quick else 60)
-    scenes = [*SCENES][:1] if quick else [*SCENES]
+    scenes = dict([*SCENES.items()][:1]) if quick else SCENES
+    large = dict([*LARGE.items()][:1]) if quick else LARGE
     each: dict[str, Callable[[], Any]] = {
         "certification": lambda: certification(some, twice),
         "run": lambda: whole_run(6 if quick else 300, 1 if quick else RUNS),
         "derivatives": lambda: of_derivatives(2 if quick else 100, twice),
-        "solids": lambda: solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS),
+        "solids": lambda: solid_scenes(scenes, 3 if quick else SOLID_STEPS, 1 if quick else RUNS),
+        "large": lambda: solid_scenes(large, 2 if quick else LARGE_STEPS, twice, large=True),
     }
     grasp = GraspSteps(at)
     for name, measured in each.items():
