@@ -81,16 +81,22 @@ def test_each_promise_is_judged_by_its_limit():
     own = {"full": 10.0, "proved_over_off": 4.1, "first_over_later": 9.9}
     by_mujoco = own | {"over_solver": 5.0, "over_mujoco": 5.9, "solver_over_mujoco": 1.2}
     by_solver = own | {"over_solver": 2.1, "over_mujoco": 13.0, "solver_over_mujoco": 6.2}
-    solids = {few: by_mujoco, many: by_solver, alone: own | {"over_solver": 5.0}, HAND: own}
-    large = {"40 cubes, askew": own, "10 cubes, askew": own | {"full": 10 / 4.6}}
+    solids = {few: by_mujoco, many: by_solver, alone: own | {"over_solver": 5.0}}
+    solids[HAND] = own | {"proved_over_off": 4.0, "first_over_later": 10.0}
+    large = {"10 cubes, askew": own | {"full": 10 / 4.6, "proved_over_off": 5}}
+    large["40 cubes, askew"] = own
     judged = promises({"quick": False, "grasp": grasp, "solids": solids, "large": large})[2:]
-    assert {p["what"]: p["holds"] for p in judged} == {
-        f"{few}: step over MuJoCo's": True,
-        f"{many}: step over the bare solver": False,
-        **{f"{name}: proved over not": False for name in solids | large},
-        **{f"{name}: first over later": True for name in solids | large},
-        "40 cubes, askew over 10 cubes, askew": False,
-    }
+    assert [(p["what"], p["measured"], p["holds"]) for p in judged] == [
+        ("proved step over one that is not, most of 6 scenes, 5 beyond: 10 cubes, askew", 5, False),
+        (f"first step over later ones, most of 6 scenes, 0 beyond: {HAND}", 10.0, True),
+        (f"step of single cubes over MuJoCo's, most of 1 scenes, 0 beyond: {few}", 5.9, True),
+        (
+            f"step of single cubes over the bare solver, most of 1 scenes, 1 beyond: {many}",
+            2.1,
+            False,
+        ),
+        ("40 cubes, askew over 10 cubes, askew", pytest.approx(4.6), False),
+    ]
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step of the grasp over the bare solver", "4.1", "at most 4", "FAILS")
 

@@ -44,21 +44,28 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     measured = [(what, grasp.get(key), limit) for what, key, limit in GRASP]
     solids = tables.get("solids", {})
     large = tables.get("large", {})
-    for name, costs in (solids | large).items():
-        measured += [
-            (f"{name}: proved over not", costs["proved_over_off"], PROVED_OVER_OFF),
-            (f"{name}: first over later", costs["first_over_later"], FIRST_OVER_LATER),
-        ]
-        if name in STATES:
-            solver_decides = costs.get("solver_over_mujoco", 0.0) > OVER_MUJOCO
-            by_solver = f"{name}: step over the bare solver", costs["over_solver"]
-            by_mujoco = f"{name}: step over MuJoCo's", costs.get("over_mujoco")
-            limit = OVER_ITS_SOLVER if solver_decides else OVER_MUJOCO
-            measured.append((*(by_solver if solver_decides else by_mujoco), limit))
+    every = solids | large
+    by_solver = {
+        name: costs["over_solver"]
+        for name, costs in solids.items()
+        if name in STATES and costs.get("solver_over_mujoco", 0.0) > OVER_MUJOCO
+    }
+    by_mujoco = {
+        name: costs["over_mujoco"]
+        for name, costs in solids.items()
+        if name in STATES and name not in by_solver and "over_mujoco" in costs
+    }
+    of_scenes = (
+        ("proved step over one that is not", _each(every, "proved_over_off"), PROVED_OVER_OFF),
+        ("first step over later ones", _each(every, "first_over_later"), FIRST_OVER_LATER),
+        ("step of single cubes over MuJoCo's", by_mujoco, OVER_MUJOCO),
+        ("step of single cubes over the bare solver", by_solver, OVER_ITS_SOLVER),
+    )
+    measured += [_most(what, each, limit) for what, each, limit in of_scenes if each]
     measured += [
         (f"{many} over {few}", large[many]["full"] / large[few]["full"], limit)
         for many, few, limit in GROWTH
-        if many in large
+        if many in large and few in large
     ]
     judged = not tables["quick"]
     return [
@@ -71,3 +78,15 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
         for what, value, limit in measured
         if value is not None
     ]
+
+
+def _each(scenes: Mapping[str, Mapping[str, float]], ratio: str) -> dict[str, float]:
+    """A ratio of each scene."""
+    return {name: costs[ratio] for name, costs in scenes.items()}
+
+
+def _most(what: str, each: Mapping[str, float], limit: float) -> tuple[str, float, float]:
+    """The largest of what was measured in some scenes: in which, and in how many beyond a limit."""
+    name = max(each, key=lambda name: each[name])
+    beyond = sum(value > limit for value in each.values())
+    return f"{what}, most of {len(each)} scenes, {beyond} beyond: {name}", each[name], limit
