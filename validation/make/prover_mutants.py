@@ -8,7 +8,7 @@ which ``prover_mutants.toml`` says why they change no answer, and lists the othe
 added to a file (``--kept``), with which the same command goes on where it was ended, as long as
 sources and self-test are the same; with ``--known`` nothing more is tried. ``--every`` N takes one
 operator of N; with ``--compilers`` what is said of a sample of them is printed as JSON. Exit status
-1 if one passes without a reason. Takes a quarter of an hour.
+1 if one passes without a reason. Takes hours.
 """
 
 import hashlib

@@ -104,7 +104,10 @@ def costs(scene: Scene, steps: int, repeat: int, *, large: bool = False) -> dict
 
 
 def first_steps(scene: Scene) -> Array:
-    """Times of proved first steps, shape (FIRSTS,), that the plain path does not compare [s]."""
+    """Times of proved first steps, shape (FIRSTS,), that the plain path does not compare [s].
+
+    Of the processor, since each of them runs once.
+    """
     jobs = []
     for _ in range(FIRSTS):
         simulator: Any = scene.simulator(PROVED, True)

@@ -197,7 +197,7 @@ def link_poses(
         if joint.kind != "fixed":
             mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
             position = mimic.multiplier * positions[mimic.of] + mimic.offset
-            if JOINTS[joint.kind].lengths:  # its first coordinate is one
+            if JOINTS[joint.kind].lengths:  # its coordinate is a length: it slides
                 t = t + R @ joint.axis * position
             else:
                 R = R @ turn(joint.axis, position)

@@ -51,7 +51,7 @@ class Contact:
     Parameters
     ----------
     name : str
-        As of the step; MuJoCo's number and the geoms.
+        As of the step; of MuJoCo its number and the geoms.
     bodies : tuple of str
         The two; ``"world"`` for what cannot move.
     depth : float

@@ -259,7 +259,7 @@ class Pair(NamedTuple):
     Parameters
     ----------
     name : str
-        Those of the geometries, alpha's first.
+        Those of the geometries, alpha's first; with a number where another pair has the same.
     geometries : tuple
         Drake's ids of them.
     bodies : tuple
@@ -315,7 +315,8 @@ def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list
     try:
         closest = query.ComputeSignedDistancePairwiseClosestPoints(margin)
     except RuntimeError as error:
-        problem = f"cannot be had from Drake: {str(error).splitlines()[0]}"
+        said = str(error).splitlines()[0]
+        problem = f"cannot be had from Drake: {said}; take other shapes, or filter the pair"
         raise ModelError(problem, field="signed distances") from error
     found = []
     for pair in sorted(closest, key=lambda pair: (pair.id_A.get_value(), pair.id_B.get_value())):
@@ -326,7 +327,8 @@ def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list
         if "Sphere" in kinds and kinds & {*HULLS}:
             phi, n, at = sphere_and_hull(query, pair)
         if not np.isfinite(n).all():
-            raise ModelError("has no normal at this distance", field=f"pair {name}")
+            problem = "has no normal at this distance: move the two apart"
+            raise ModelError(problem, field=f"pair {name}")
         relative = np.zeros((6, plant.num_velocities()))
         frictions = []
         bodies = []
@@ -344,7 +346,11 @@ def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list
         J = np.vstack([relative[3:], n @ relative[:3]])
         ids, of = (pair.id_B, pair.id_A), (bodies[1], bodies[0])
         found.append(Pair(name, ids, of, phi, n, J, mu_v, iterated))
-    return found
+    names = [pair.name for pair in found]
+    return [
+        pair._replace(name=f"{k}: {pair.name}") if names.count(pair.name) > 1 else pair
+        for k, pair in enumerate(found)
+    ]
 
 
 def sphere_and_hull(query: Any, pair: Any) -> tuple[float, Array, dict[Any, Array]]:

@@ -55,7 +55,8 @@ def drake_opinion(
     InputError
         If `tolerance` is not positive.
     ModelError
-        As of ``drake_step``, and if there is another number of plants or a contact is a surface.
+        As of ``drake_step``, and if there is another number of plants, a contact is a surface, or
+        Drake cannot go on.
 
     Examples
     --------
@@ -81,7 +82,9 @@ def drake_opinion(
     drake = needed_package("pydrake.all", "drake", "drake_opinion")
     plants = [s for s in diagram.GetSystems() if isinstance(s, drake.MultibodyPlant)]
     if len(plants) != 1:
-        raise ModelError("must have one plant", field="diagram", value=len(plants))
+        raise ModelError(
+            "must have one plant: build a diagram for each", field="diagram", value=len(plants)
+        )
     (plant,) = plants
     step_of = partial(
         drake_step, plant, plant.GetMyContextFromRoot(context), stiffness=stiffness or {},
@@ -125,14 +128,25 @@ def words(drake: Any, plant: Any) -> Words:
 
 
 def velocities(drake: Any, diagram: Any, plant: Any, context: Any) -> tuple[Array, Array]:
-    """Drake's mean velocity over a WINDOW, and over the one after it, (nv,) each."""
+    """Drake's mean velocity over a WINDOW, and over the one after it, (nv,) each.
+
+    Raises
+    ------
+    ModelError
+        If Drake cannot go on.
+    """
     simulator = drake.Simulator(diagram, context.Clone())
     now = plant.GetMyContextFromRoot(simulator.get_mutable_context())
     means = []
     for _ in range(2):
         start = plant.GetPositions(now).copy()
         began = simulator.get_context().get_time()
-        simulator.AdvanceTo(began + WINDOW)
+        try:
+            simulator.AdvanceTo(began + WINDOW)
+        except RuntimeError as error:
+            said = str(error).splitlines()[0]
+            problem = f"cannot go on: {said}; take a smaller time_step or another state"
+            raise ModelError(problem, field="context") from error
         rate = (plant.GetPositions(now) - start) / WINDOW
         means.append(np.array(plant.MapQDotToVelocity(now, rate)))
     return means[0], means[1]
@@ -209,7 +223,8 @@ def movers(drake: Any, plant: Any, context: Any, own: Any) -> Iterator[Mover]:
             own, drake.JacobianWrtVariable.kV, body.body_frame(), at, world, world
         )
         moves = J.any(axis=0)
-        free = body.is_floating_base_body() and not M[np.ix_(moves, ~moves)].any()
+        floats = any(one.is_floating_base_body() for one in group)
+        free = floats and not M[np.ix_(moves, ~moves)].any()
         size = 0.0
         for X, one in zip(places, group, strict=True):
             for geometry in plant.GetCollisionGeometriesForBody(one):

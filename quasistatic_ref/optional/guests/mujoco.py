@@ -36,17 +36,17 @@ AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
 
 @dataclass(frozen=True, eq=False)
 class Coordinates(Plain):
-    """Where the coordinates of a step are in MuJoCo, and what the step leaves out.
+    """Where the coordinates of a step are in an engine, and what the step leaves out.
 
     Parameters
     ----------
     names : tuple of str, length n_v
         ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
     dofs : ndarray of int, shape (n_v,)
-        Their places among MuJoCo's velocities; -1 for those that friction appends, (R40).
+        Their places among the engine's velocities; -1 for those that friction appends, (R40).
     T : ndarray, shape (nv, n_v)
-        MuJoCo's displacement, per unit of delta_q [-]: what ``mj_integratePos`` takes is
-        T delta_q, with dt = 1.
+        The engine's displacement, per unit of delta_q [-]: what MuJoCo's ``mj_integratePos`` takes
+        is T delta_q, with dt = 1.
     left_out : tuple of str
         What the step does not have, or holds as it is: one sentence for each.
     quasi_dynamic_number : float

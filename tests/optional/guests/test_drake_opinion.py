@@ -78,6 +78,27 @@ def test_a_block_that_rests_has_no_finding() -> None:
     assert "Drake's numbers" in str(opinion)
 
 
+def test_contacts_of_one_name_have_numbers() -> None:
+    """Two balls, of 2 and 3 kg, have a geometry of the same name: each bears its own weight."""
+
+    def balls(drake: Any, plant: Any, body: Any) -> Any:
+        rubs = drake.CoulombFriction(0.5, 0.5)
+        here = drake.RigidTransform()
+        made = []
+        for mass in (2.0, 3.0):
+            inertia = drake.SpatialInertia.SolidSphereWithMass(mass, 0.01)
+            ball = plant.AddRigidBody(f"{mass:.0f} kg", inertia)
+            plant.RegisterCollisionGeometry(ball, here, drake.Sphere(0.01), "tip", rubs)
+            made.append((ball, drake.RigidTransform([mass, 0.0, 0.00999])))
+        return lambda own: [plant.SetFreeBodyPose(own, *placed) for placed in made]
+
+    contacts = asked(change=balls).contacts
+    assert len({contact.name for contact in contacts}) == len(contacts) == 6
+    normals = {contact.bodies[0]: contact.exact.normal for contact in contacts if contact.exact}
+    for mass in (2.0, 3.0):
+        assert normals[f"{mass:.0f} kg"] == pytest.approx(mass * GRAVITY)
+
+
 def test_a_block_on_a_slope_slides_by_statics() -> None:
     """By tan 15 degrees, 0.27: 0.2 holds 0.2 / 0.27 of the load."""
     (found,) = asked(0.2, mu=0.2, slope=SLOPE).findings

@@ -222,7 +222,7 @@ def main():
     stand_ins(source)
     from qsim.parser import QuasistaticParser
 
-    # Its barriers are solved by CVXPY's own choice for exponential cones, Clarabel, as it comes.
+    # It leaves the solver of its barriers to CVXPY, which takes Clarabel: here at 1e-12.
     tight = dict.fromkeys(OPTIONS, TOLERANCES[TIGHT])
     cp.Problem.solve = partialmethod(cp.Problem.solve, solver=cp.CLARABEL, **tight)
     found = {}

@@ -161,6 +161,7 @@ def evidence() -> Evidence:
         for result, theirs in zip(results[::every], given["gradients"], strict=True)
         if not np.isnan(B := gradients(result.solution)[0][ORDER]).any()
     ]
+    assert pairs
     limits = {"clarabel 1e-12": TIGHT, "clarabel 1e-8": AS_IT_COMES, "osqp": DEFAULT}
     return Evidence.of(
         *(

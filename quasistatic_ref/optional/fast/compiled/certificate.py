@@ -58,7 +58,7 @@ class Places(NamedTuple):
 
 
 def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
-    """Those of each group of a step.
+    """Where the entries of J and A of each group stand among those that a step keeps.
 
     Parameters
     ----------
@@ -108,6 +108,7 @@ def _in_A(A: Any, groups: Sequence[Group], column: Indices, row: Indices) -> Ite
         ends = np.searchsorted(of[order], np.arange(len(groups) + 1))
         for k, own in enumerate(found):
             entries = order[ends[k] : ends[k + 1]]
+            entries = entries[column[0, of_column[entries]] == k]  # a zero may be of another group
             own[row[1, A.indices[entries]], column[1, of_column[entries]]] = entries
     yield from found
 

@@ -66,7 +66,7 @@ class Forces:
     def in_c(self, step: StepData, near: Array | None = None) -> tuple[Array, list[int]]:
         """(f_d1, f_d2, f_n, tau_n) of each contact of a step, shape (n_c, 4) [N, N m].
 
-        With the numbers of the groups that C leaves open, whose forces are none.
+        With the numbers of the groups that C leaves open, whose forces here mean nothing.
 
         Parameters
         ----------

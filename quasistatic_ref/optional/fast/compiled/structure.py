@@ -68,7 +68,7 @@ class Structure:
             address += 8 * size
 
     def share(self, other: "Structure", names: Sequence[str]) -> None:
-        """Have some arrays in common with another structure of the same kind."""
+        """Have some arrays in common with another structure, in fields of the same names."""
         for name in names:
             self._arrays[name] = other[name]
             setattr(self._fields, name, getattr(other._fields, name))

@@ -18,7 +18,7 @@ def opinion_figure(opinion: Any) -> Figure:
     Parameters
     ----------
     opinion : Opinion
-        Of ``second_opinion``.
+        Of ``second_opinion`` or ``drake_opinion``.
     """
     contacts = sorted(opinion.contacts, key=lambda c: -c.theirs.normal)[:MOST]
     bodies = sorted(opinion.bodies, key=lambda b: -b.fastest(b.theirs))[:MOST]

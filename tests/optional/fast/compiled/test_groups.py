@@ -1,9 +1,11 @@
 """All groups of a step, proved in one call: the bits that the exact method finds for each group."""
 
 from collections import Counter
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_matrix
 
 from quasistatic_ref import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.exact import form_optimum
@@ -12,10 +14,11 @@ from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
-from quasistatic_ref.optional.fast.compiled.certificate import DECIDED
+from quasistatic_ref.optional.fast.compiled.certificate import DECIDED, places
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.solve.solver import NaturalAnswer, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits
+from quasistatic_ref.step.groups import Group
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
@@ -113,3 +116,19 @@ def test_zeros_are_not_taken_over_by_other_rows_or_another_guess(monkeypatch, be
         assert set(differing(found, other)) <= NEARBY
         smooth.append(found.differentiable)
     assert smooth == [True, True, False]
+
+
+def test_a_kept_zero_of_another_group_is_no_entry_of_a_group():
+    """A keeps all entries of 2 rows and 4 columns, that of row r and column v at 2 v + r.
+
+    The last coordinate is a group of its own, as it is where no contact moves with it.
+    """
+    contacts = SimpleNamespace(kept_J=np.zeros((1, 4, 4)))
+    step = SimpleNamespace(m=2, n_v=4, contacts=contacts)
+    none = np.zeros(0, dtype=np.int64)
+    first = Group(np.arange(3), np.arange(1), none, np.arange(2))
+    found = places(
+        step, csc_matrix(np.ones((2, 4))), [first, Group(np.array([3]), none, none, none)]
+    )
+    assert found[0].in_A.tolist() == [[2 * v + r for v in range(3)] for r in range(2)]
+    assert found[1].in_A.shape == (0, 1)

@@ -287,7 +287,8 @@ static double fall(const Force *g, double share, double *bend)
 }
 
 /* Move x along the way, no farther than to the least energy: where the fall is zero, which Newton's
-   method finds between bounds. At x the fall is `first`. */
+   method finds between bounds. At x the fall is `first`; it is infinite at the first step, which goes
+   all the way, since x = 0 is not yet on the faces of the guess. */
 static void moved(Force *g, double first)
 {
     const Proof *s = g->s;
