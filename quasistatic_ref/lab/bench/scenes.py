@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.scenes.piles import PUSH as PUSH_ON_HEAP
 from quasistatic_ref.lab.scenes.piles import SIDE as SIDE_IN_HEAP
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.scenes.systems import on_link, words
@@ -27,13 +26,17 @@ from quasistatic_ref.step.data import Array
 
 GRAVITY = 9.81
 """[m/s^2]"""
-MU_V, MU_OMEGA = 0.5, 0.01
-"""Friction [-], [m]."""
+MU_V = 0.5
+"""[-]"""
+MU_OMEGA = 0.01
+"""[m]"""
 H = 0.02
 """Time step [s]."""
 
-SIDE, MASS = 0.04, 0.2
-"""Of a cube [m], [kg]."""
+SIDE = 0.04
+"""Of a cube [m]."""
+MASS = 0.2
+"""Of a cube [kg]."""
 APART = 0.1
 """From the middle of a cube to that of the next [m]."""
 PUSHES = {"rest": (0.0, 0.0), "sticks": (0.2, 0.0), "slides": (0.7, 0.0), "askew": (0.56, 0.42)}
@@ -169,8 +172,7 @@ def heap() -> Scene:
     own = made.simulator
     halves = np.full((made.bodies, 3), SIDE_IN_HEAP / 2)
     boxes = Boxes(halves, np.full(made.bodies, 0.5))
-    force = PUSH_ON_HEAP * made.bodies * np.eye(own.system.n_v)[0]
-    return _free(own.h, own.system, own.pairs, made.q, force, boxes)
+    return _free(own.h, own.system, own.pairs, made.q, made.force, boxes)
 
 
 def bin_of_boxes() -> Scene:

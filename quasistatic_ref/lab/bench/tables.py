@@ -30,8 +30,10 @@ minute to minute, ratios of least times of 12 stay within 5 % of each other, of 
 RUNS = 5
 """Runs of a scene, each from its start, so that they have the same steps."""
 
-SOLID_STEPS, LARGE_STEPS = 60, 10
-"""Steps of such a run; of a scene with many bodies."""
+SOLID_STEPS = 60
+"""Steps of a run of a scene of solids."""
+LARGE_STEPS = 10
+"""The same of a scene with many bodies."""
 
 
 def tables(quick: bool, tell: Tell) -> dict[str, Any]:

@@ -16,8 +16,10 @@ from quasistatic_ref.step.data import Array
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: dict[str, Any] = {"alpha": 0.5, "edgecolor": "k"}
-OF_LABELS, OF_TICKS = 21, 8
-"""What matplotlib adds to the pads of axes in space, at every size of the text [pt]."""
+OF_LABELS = 21
+"""What matplotlib adds to the pads of labels of axes in space, at every size of the text [pt]."""
+OF_TICKS = 8
+"""The same of ticks."""
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 

@@ -34,8 +34,10 @@ STIFFNESS = {"joint_1": 50.0, "joint_2": 25.0}
 BASE, LINK, RADIUS, BALL = 0.1, 0.3, 0.05, 0.25
 """Distance of the arms from the middle, length of their first link, radii [m]."""
 LIGHT = (1e-6,) * 3
-INSTANCES, ORDER = ("sphere", "arm_left", "arm_right"), [4, 5, 6, 0, 1, 2, 3]
-"""The peer's order of coordinates, and where they are in ours."""
+INSTANCES = ("sphere", "arm_left", "arm_right")
+"""The peer's order of coordinates."""
+ORDER = [4, 5, 6, 0, 1, 2, 3]
+"""Where these are in ours."""
 
 
 def arm(side: float) -> str:

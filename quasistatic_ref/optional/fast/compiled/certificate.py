@@ -68,7 +68,8 @@ def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
     groups : sequence of Group
     """
     of = np.full((2, step.m + step.n_v + 1), -1)
-    column, row = of[:, : step.n_v + 1], of[:, step.n_v + 1 :]
+    column = of[:, : step.n_v + 1]
+    row = of[:, step.n_v + 1 :]
     for k, group in enumerate(groups):
         for numbered, own in ((column, group.coordinates), (row, group.rows)):
             numbered[0, own] = k
@@ -158,9 +159,9 @@ class GroupProof:
                 "rows_of_step": group.rows, "natural": self._natural.address,
             }
         )  # fmt: skip
-        room_for_step(s, n_a, n, n_c, m)
-        s.room({"J": (n_c, 4, n), "A": (m, n), "units": (2,)})
-        s.room(
+        zeros_for_step(s, n_a, n, n_c, m)
+        s.zeros({"J": (n_c, 4, n), "A": (m, n), "units": (2,)})
+        s.zeros(
             {"answer": (m,), "guess": (m,), "idle": (m,), "still": (n,), "counts": (3,)}, np.int64
         )
         if like is None:
@@ -180,7 +181,7 @@ class GroupProof:
             s.share(like.s, CONSTANT)
             self._natural.share(like._natural, ("squared",))
         self._natural.put({"n": n, "m": m})
-        self._natural.room({"squares": (m,)})
+        self._natural.zeros({"squares": (m,)})
         self._natural.share(s, ("g", "A", "b", "units", "coordinate", "inverse"))
         self.usable: bool = bool(found.hessian(s.address)) if like is None else like.usable
 
@@ -227,7 +228,7 @@ class GroupProof:
         return _optimum(self.s, self.guess.tolist())
 
 
-def room_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
+def zeros_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
     """Arrays for the data of a step of such sizes, a backend's answer to it, and its optimum.
 
     Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...;
@@ -235,14 +236,14 @@ def room_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
     """
     of_coordinates = ("g", "tau", "delta_q", "net", "rest", "bound")
     of_rows = ("b", "pressure", "gap", "lam", "slack")
-    s.room(
+    s.zeros(
         {
             "delta_q_bar_a": (n_a,), "phi": (n_c,), "least": (2,),
             "frame": (n_c, 4, 4), "mu": (n_c, 4),
             **dict.fromkeys(of_coordinates, (n,)), **dict.fromkeys(of_rows, (m,)),
         }
     )  # fmt: skip
-    s.room({"claims": (2,)}, np.int64)
+    s.zeros({"claims": (2,)}, np.int64)
     s["frame"][:, 3, 3] = 1.0
     s["mu"][:] = 1.0
 
@@ -321,7 +322,7 @@ class Prover:
                 "J": step.contacts.kept_J, "A": _kept_A(A),
             }
         )  # fmt: skip
-        room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
+        zeros_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
 
     def optimum(self, both: StepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
         """The exact optimum on the rows that an answer presses; None unless C proves all groups.

@@ -13,7 +13,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     group_proof,
     lend_data,
     places,
-    room_for_step,
+    zeros_for_step,
 )
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
@@ -61,7 +61,7 @@ class Forces:
                 **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
             }
         )  # fmt: skip
-        room_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
+        zeros_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
 
     def in_c(self, step: StepData, near: Array | None = None) -> tuple[Array, list[int]]:
         """(f_d1, f_d2, f_n, tau_n) of each contact of a step, shape (n_c, 4) [N, N m].

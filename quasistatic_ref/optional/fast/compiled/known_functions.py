@@ -35,7 +35,7 @@ ROUNDS = 8
 BOUNDS = 60
 
 
-class Room:
+class MarkedArray:
     """An array that a function writes, and numbers behind it that it must not.
 
     Parameters
@@ -97,9 +97,9 @@ def wrong_span(library: ctypes.CDLL) -> str | None:
                 "counts": np.array([len(idle), 0], np.int64),
             }
         )  # fmt: skip
-        table = Room((len(working) + 1) * 4 * n_c, int)
-        pivot = Room(len(working), int)
-        others = Room(len(row), int)
+        table = MarkedArray((len(working) + 1) * 4 * n_c, int)
+        pivot = MarkedArray(len(working), int)
+        others = MarkedArray(len(row), int)
         every = table, pivot, others
         count = library.unspanned(ctypes.c_void_p(s.address), *(one.address for one in every))
         found = others.all[:count].tolist()
@@ -136,8 +136,8 @@ def wrong_bound(library: ctypes.CDLL) -> str | None:
         n = 1 + case % 6
         K = rng.standard_normal((n, n)) * 2.0 ** rng.integers(-20, 20, (n, 1))
         K[0, 0] = 0.0 if n > 1 else K[0, 0]  # the first pivot is another row's
-        R = Room(n * n, float)
-        pivot = Room(n, int)
+        R = MarkedArray(n * n, float)
+        pivot = MarkedArray(n, int)
         R.all[: n * n] = K.ravel()
         size = ctypes.c_int64(n)
         if not library.inverse(R.address, size, pivot.address) or not R.kept or not pivot.kept:
@@ -146,24 +146,24 @@ def wrong_bound(library: ctypes.CDLL) -> str | None:
         if not np.allclose(inverse @ K, np.eye(n), atol=1e-6):
             return "an inverse is wrong"
         inverse *= 1 + rng.choice([0.0, 1e-12, 0.02], (n, n)) * rng.standard_normal((n, n))
-        G = Room(n * n, float)
-        sizes = Room(n, float)
+        G = MarkedArray(n * n, float)
+        sizes = MarkedArray(n, float)
         summed = K * rng.choice([1.0, 3.0], (n, n))
         given = [array.ctypes.data_as(ctypes.c_void_p) for array in (K, summed)]
         library.defect(R.address, *given, size, G.address, sizes.address)
         if G.all[: n * n].tolist() != _defect(inverse, K, summed) or not G.kept or not sizes.kept:
             return "a bound of |I - R K| is wrong"
         r = np.abs(rng.standard_normal(n)) * rng.choice([0.0, 1e-30, 1.0], n)
-        e = Room(n, float)
+        e = MarkedArray(n, float)
         shown = library.error_bounds(
             R.address, G.address, r.ctypes.data_as(ctypes.c_void_p), size, e.address
         )
         right = _error_bounds(inverse, G.all[: n * n].reshape(n, n), r)
         if (e.all[:n].tolist() if shown else None) != right or not e.kept:
             return "a bound of errors is wrong"
-    empty = Room(4, float)
+    empty = MarkedArray(4, float)
     empty.all[:4] = 1.0, 2.0, 2.0, 4.0  # the second row is twice the first
-    if library.inverse(empty.address, ctypes.c_int64(2), Room(2, int).address):
+    if library.inverse(empty.address, ctypes.c_int64(2), MarkedArray(2, int).address):
         return "a singular matrix has an inverse"
     return None
 

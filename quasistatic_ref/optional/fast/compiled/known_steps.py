@@ -23,7 +23,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     Prover,
 )
 from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
-from quasistatic_ref.optional.fast.compiled.known_functions import Room
+from quasistatic_ref.optional.fast.compiled.known_functions import MarkedArray
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Array, Indices, StepData
@@ -155,14 +155,14 @@ class Tried(NamedTuple):
     inside: bool
 
 
-def room_behind(s: Structure, names: Sequence[str]) -> list[Room]:
-    """Arrays of a structure, each of which has room behind it from now on."""
+def marks_behind(s: Structure, names: Sequence[str]) -> list[MarkedArray]:
+    """Arrays of a structure, each of which has marks behind it from now on."""
     found = []
     for name in names:
-        room = Room(s[name].size, float if s[name].dtype == np.float64 else int)
-        room.all[: room.size] = s[name]
-        s.put({name: room.all[: room.size]})
-        found.append(room)
+        array = MarkedArray(s[name].size, float if s[name].dtype == np.float64 else int)
+        array.all[: array.size] = s[name]
+        s.put({name: array.all[: array.size]})
+        found.append(array)
     return found
 
 
@@ -172,9 +172,9 @@ def tried(known: Known) -> Iterator[Tried]:
     divided = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
     both = DenseStepInBothUnits(step)
     prover = Prover(both, [(group, own.si_step, own.hessian) for group, own in divided])
-    rooms = room_behind(prover.s, WRITTEN)
+    arrays = marks_behind(prover.s, WRITTEN)
     for each in prover.proofs:
-        rooms += room_behind(each.s, (*WRITTEN, *OF_GROUP)) if each else []
+        arrays += marks_behind(each.s, (*WRITTEN, *OF_GROUP)) if each else []
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
@@ -185,13 +185,15 @@ def tried(known: Known) -> Iterator[Tried]:
             changed = bool((lam != right)[group.rows].any())
             found = None
             units = None
-            code, digits = NOT_POSED, 0
+            code = NOT_POSED
+            digits = 0
             if isinstance(proof, GroupProof) and proof.code != NOT_POSED:
                 guess: Indices = np.flatnonzero(lam[group.rows])
                 units = proof.s["units"].copy()
                 found = proof.on(guess, own.units)
-                code, digits = proof.code, int(proof.s["counts"][2])
-            inside = all(room.kept for room in rooms)
+                code = proof.code
+                digits = int(proof.s["counts"][2])
+            inside = all(array.kept for array in arrays)
             yield Tried(
                 group, number, words, changed, code, digits, found, whole, rest, units, own, inside
             )

@@ -56,7 +56,7 @@ class Structure:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
         self.put({name: value})
 
-    def room(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
+    def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
         sizes = [math.prod(shape) for shape in shapes.values()]
         block: NDArray[Any] = np.zeros(sum(sizes), kind)
