@@ -12,7 +12,6 @@ from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled.certificate import GroupProof, Prover
 from quasistatic_ref.optional.fast.compiled.library import why_not
 from quasistatic_ref.optional.fast.far import (
-    BallHessian,
     Balls,
     Solved,
     balls,
@@ -75,13 +74,6 @@ class Kept:
 
     def __init__(self) -> None:
         self.hessian: HessianInBothUnits | None = None
-        self._in_balls: BallHessian | None = None
-
-    def in_balls(self, step: StepData) -> BallHessian:
-        """H of a step in balls: the one that is kept, if it is the same."""
-        if self._in_balls is None or not self._in_balls.fits(step):
-            self._in_balls = BallHessian(step)
-        return self._in_balls
 
     @property
     def norm(self) -> EnergyNorm:
@@ -276,12 +268,11 @@ class Proofs:
 
     def _in_balls(self, step: StepData, optimum: ExactOptimum) -> Balls | None:
         """Balls about delta_q where the exact method has solved a group; None if not shown."""
-        points = list[Solved]()
+        solved = list[Solved]()
         for part in self.parts:
-            own = part.step(step)
             working = part.group.within(optimum.working_set)
-            points.append((part.group.coordinates, own, part.kept.in_balls(own), working))
-        return displacement(step, points)
+            solved.append((part.group.coordinates, part.step(step), working))
+        return displacement(step, solved)
 
     def _may_be_long(self, g: Array, delta_q: Array) -> bool:
         """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not.
