@@ -35,12 +35,12 @@ class Body(Plain):
         Its file; or the URDF itself, a string that begins with ``<``, whose meshes are looked for
         in the working folder.
     base : str
-        ``"fixed"``, ``"floating"`` or ``"planar"``: moving in the horizontal plane at the height
-        of xyz, turning about the vertical.
+        ``"fixed"``, ``"floating"``, ``"planar"`` (moving in the horizontal plane at the height of
+        xyz, turning about the vertical) or ``"ball"`` (turning about xyz).
     actuated : tuple of str, or "all"
         Names of joints in this URDF, without the prefix; ``"base"`` is the base.
     xyz : array_like, shape (3,)
-        Where the root link is (fixed) or starts (floating, planar), in the world [m].
+        Where the root link is (fixed) or starts (otherwise), in the world [m].
     rpy : array_like, shape (3,)
         Its orientation, R = Rz(yaw) Ry(pitch) Rx(roll) [rad].
     positions : mapping of str to float

@@ -43,7 +43,7 @@ class Urdf:
         What was loaded: the file's text without what the model ignores in links, each mesh URI
         replaced by the path of its file.
     base : str
-        How its root link moves (joint ``base``): ``"fixed"``, ``"floating"`` or ``"planar"``.
+        How its root link moves (joint ``base``), as ``Body.base``.
     model : pinocchio.Model
         Its kinematics and inertias.
     links : tuple of str
@@ -82,8 +82,8 @@ def loaded_urdf(
     ----------
     path : str or Path
     base : str
-        ``"fixed"``; or ``"floating"`` or ``"planar"``: a joint named ``base``, with six or three
-        degrees of freedom, between the world and the root link.
+        ``"fixed"``; or ``"floating"``, ``"planar"`` or ``"ball"``: a joint named ``base``, with
+        six, three or three degrees of freedom, between the world and the root link.
     actuated : sequence of str, or "all"
         Joints that have a stiffness. The inertia of a link that only these move need not be
         physically consistent.
