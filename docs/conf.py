@@ -259,10 +259,10 @@ def _lesson(name):
 def _downloads_written(app, failure):
     """The notebooks and the slides that pages give to be downloaded."""
     if failure is None and app.builder.format == "html":
-        from validation.tools.slides import SETS, written  # reads every example
+        from validation.tools.slides import SETS, write_slides  # reads every example
 
         for name in SETS:
-            written(name, Path(app.outdir) / "slides")
+            write_slides(name, Path(app.outdir) / "slides")
         folder = Path(app.outdir) / "lessons"
         folder.mkdir(exist_ok=True)
         for name in LECTURES:

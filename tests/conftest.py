@@ -13,7 +13,7 @@ import pytest
 from hypothesis import settings
 
 from quasistatic_ref import Scenario, System, load_scenario
-from tests.extras import missing, reason
+from tests.extras import is_missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
@@ -39,7 +39,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Skip what needs an extra that is not installed."""
     for item in items:
         for mark in item.iter_markers("extra"):
-            if missing(*mark.args):
+            if is_missing(*mark.args):
                 item.add_marker(pytest.mark.skip(reason=reason(*mark.args)))
 
 

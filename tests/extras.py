@@ -20,17 +20,17 @@ OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 
 
 @cache
-def missing(extra: str) -> bool:
+def is_missing(extra: str) -> bool:
     """Whether a package of an extra is not installed; of ``fast``, whether nothing compiles C."""
     if extra == "fast":
         return why_not() is not None  # any C compiler serves as well as the extra's
     matches = filter(None, map(OF_EXTRA.match, requires("quasistatic-ref") or ()))
     packages = [match[1] for match in matches if match[2] == extra]
     assert packages, f"pyproject.toml declares no extra {extra}"
-    return not all(map(_installed, packages))
+    return not all(map(_is_installed, packages))
 
 
-def _installed(package: str) -> bool:
+def _is_installed(package: str) -> bool:
     try:
         distribution(package)
     except PackageNotFoundError:
@@ -43,7 +43,7 @@ def reason(extra: str) -> str:
     return f'needs the extra {extra}: pip install -e ".[test,{extra}]"'
 
 
-def marked(names: Iterable[str], needs: Mapping[str, str]) -> list[Any]:
+def marked_parameters(names: Iterable[str], needs: Mapping[str, str]) -> list[Any]:
     """Parameters of a test; those that need an extra are marked with it."""
     return [
         pytest.param(name, marks=pytest.mark.extra(needs[name])) if name in needs else name
@@ -51,9 +51,9 @@ def marked(names: Iterable[str], needs: Mapping[str, str]) -> list[Any]:
     ]
 
 
-SCENARIOS = marked(scenario_names(), {"allegro_turn": "robots", "panda_push": "robots"})
+SCENARIOS = marked_parameters(scenario_names(), {"allegro_turn": "robots", "panda_push": "robots"})
 """The scenarios that come along."""
-GALLERY = marked(
+GALLERY = marked_parameters(
     EXAMPLES, {"hand_turns_a_drum": "robots", "plan_a_push": "jax", "robot_push": "robots"}
 )
 """The examples of the gallery."""

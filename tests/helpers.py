@@ -50,7 +50,7 @@ def in_blocks(step):
     return step.replace(contacts=SparseContacts(*own))
 
 
-def judged(step, delta_q, lam):
+def residuals_of(step, delta_q, lam):
     """The residuals of an answer in the step's own cone."""
     judge = cone(step.cone).judge(step)
     return optimality_residuals(standard_form(step), delta_q, lam, judge)
@@ -179,7 +179,7 @@ def hessian(step):
     return H
 
 
-def unconstrained(step):
+def free_displacement(step):
     """H^-1 g in closed form: delta_q_bar_a + K_q^-1 tau_a; h^2 M_u^-1 tau_u."""
     actuated = step.delta_q_bar_a + np.linalg.solve(step.K_q, step.tau_a)
     return np.concatenate([actuated, step.h**2 * np.linalg.solve(step.M_u, step.tau_u)])
@@ -188,7 +188,7 @@ def unconstrained(step):
 def error(step, delta_q, truth):
     """||x - x*||_H / ||H^-1 g||_H."""
     H = hessian(step)
-    free = unconstrained(step)
+    free = free_displacement(step)
     gap = np.asarray(delta_q) - np.asarray(truth)
     return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
 

@@ -28,7 +28,7 @@ WITH_UNIT = re.compile(rf"(?<![\w.^])[-+]?\d(?:[\d,.]*\d)?(?:e-?\d+)? (?:{UNITS}
 
 
 @cache
-def held(page):
+def expected_phrases(page):
     """The phrases of a page, as they ought to read."""
     phrases = [phrase.format_map(FILLED) for phrase in QUOTED[page]["phrases"]]
     for source, row in QUOTED[page].get("rows", {}).items():
@@ -42,7 +42,7 @@ def flat(text):
     return " ".join(text.split())
 
 
-def printed(page):
+def printed_blocks(page):
     """The fenced blocks of printed text on a page, without their indents."""
     blocks = re.findall(r"^( *)```text\n(.*?)^\1```$", page, re.MULTILINE | re.DOTALL)
     return [re.sub(rf"^{indent}", "", block, flags=re.MULTILINE) for indent, block in blocks]

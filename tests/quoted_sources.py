@@ -37,7 +37,7 @@ from tests.helpers import error, pinch
 from tests.lab.study.test_known_issues import highs_solved
 from validation.make.challenges import ANSWERS
 from validation.programs.engines.second_order import STUDY
-from validation.programs.engines.second_order_page import chosen as second_order
+from validation.programs.engines.second_order_page import rows_with as second_order
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "validation" / "results"
@@ -337,7 +337,7 @@ def turns_of_clouds():
     scans = [row["rotation"] for row in dense if row["sampling"] == "scan"]
     grips = [row for row in cloud_rows() if clouds_table.with_torsion(row)]
     margins = np.array([clouds_table.margin(row) for row in grips])
-    held = np.array([clouds_table.held(row) for row in grips])
+    held = np.array([clouds_table.is_held(row) for row in grips])
     soft = np.array([(row["change"], row["value"]) == ("arm", 0.1) for row in grips])
     fails = ~held & (margins >= 1)
     return {

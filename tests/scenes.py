@@ -3,13 +3,22 @@
 from pathlib import Path
 
 from quasistatic_ref import Body, System
-from tests.model.urdf.urdf_texts import BOX, CHAIN, collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import (
+    BOX,
+    CHAIN,
+    collision,
+    inertial,
+    joint,
+    link,
+    robot,
+    urdf_of_text,
+)
 
 
 def chain_scene(folder: Path) -> System:
     """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
-    chain = written(folder, CHAIN, "chain.urdf")
-    box = written(folder, BOX, "box.urdf")
+    chain = urdf_of_text(folder, CHAIN, "chain.urdf")
+    box = urdf_of_text(folder, BOX, "box.urdf")
     return System(
         [
             Body("box", box, "floating", xyz=(0.5, 0.6, 0.7), rpy=(0.1, 0.2, 0.3)),
@@ -126,7 +135,7 @@ solution."""
 def written_scenario(folder: Path, text: str = PUSH, name: str = "scene.toml") -> Path:
     """A scenario file with its URDFs next to it."""
     for urdf, file in ((RAIL, "rail.urdf"), (BALL, "ball.urdf"), (CLUB, "club.urdf")):
-        written(folder, urdf, file)
+        urdf_of_text(folder, urdf, file)
     path = folder / name
     path.write_text(text)
     return path

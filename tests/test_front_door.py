@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from tests.extras import marked
+from tests.extras import marked_parameters
 
 PACKAGE = Path(qr.__file__).parent
 NAMES = [name for name in qr.__all__ if name != "__version__"]
@@ -58,7 +58,7 @@ def test_the_names_are_those_that_dir_shows():
     assert len(set(NAMES)) == len(NAMES)
 
 
-@pytest.mark.parametrize("name", marked(NAMES, dict.fromkeys(JAX, "jax") | DRAKE))
+@pytest.mark.parametrize("name", marked_parameters(NAMES, dict.fromkeys(JAX, "jax") | DRAKE))
 def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = getattr(qr, name).__doc__

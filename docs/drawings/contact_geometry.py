@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Circle, Rectangle
 
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -68,5 +68,5 @@ def figure(ax=None, *, gap=10.0):
         axes.set(xlim=(-41, 63), ylim=(-34, 70), aspect="equal", xticks=[], yticks=[])
         axes.grid(visible=False)
         sign = ">" if phi > 0 else "<"
-        labelled(axes, title=rf"{name}: $\phi$ {sign} 0", key=False)
+        label_axes(axes, title=rf"{name}: $\phi$ {sign} 0", key=False)
     return made

@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -90,7 +90,7 @@ def figure(ax=None, *, pushes=PUSHES):
         axes.grid(visible=False)
         axes.set(xlim=(-95, 95), ylim=(-45, 110), aspect="equal")
         axes.set_title(f"push {push:g} N")
-        labelled(axes, "x [mm]", "z [mm]")
+        label_axes(axes, "x [mm]", "z [mm]")
         axes.label_outer(remove_inner_ticks=True)
     handles = [Line2D([], [], label=name, **style) for name, style in styles.items()]
     legend_below(row, handles, f"1 N is {mm_per_newton} mm")

@@ -6,7 +6,7 @@ from matplotlib.patches import Polygon, Rectangle
 
 from docs.drawings.the_program import GRAVITY, MASS, MU_V, point
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -45,7 +45,7 @@ def figure(ax=None, *, pushes=PUSHES):
         axes.set(xlim=(-8, 8), ylim=(-11, 12), aspect="equal")
         axes.grid(visible=False)
         held = "no resultant: it stays" if "resultant" not in forces else "it slides and rises"
-        labelled(axes, "force along the push [N]", "force up [N]", f"{push:g} N, {held}")
+        label_axes(axes, "force along the push [N]", "force up [N]", f"{push:g} N, {held}")
         axes.label_outer(remove_inner_ticks=True)
     handles = [
         Line2D([], [], label=name, **style | {"linewidth": scaled(style["linewidth"])})

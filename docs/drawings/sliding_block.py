@@ -8,7 +8,7 @@ from matplotlib.patches import Rectangle
 
 from docs.drawings.the_program import H, point
 from quasistatic_ref import solve_step
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -43,7 +43,7 @@ def drawn(axes, k):
     axes.annotate("", tip, (tip[0] - 6 * push, tip[1]), arrowprops={**style, "shrinkB": 0})
     axes.set(xlim=(-45, 75), ylim=(-8, 60), aspect="equal", yticks=[])
     axes.grid(visible=False)
-    labelled(axes, "x [mm]", "", f"{push:g} N, step {k}, gap {1e3 * gap:.0f} µm", key=False)
+    label_axes(axes, "x [mm]", "", f"{push:g} N, step {k}, gap {1e3 * gap:.0f} µm", key=False)
 
 
 def figure(ax=None, *, larger=6.0, smaller=3.0):
@@ -59,5 +59,5 @@ def figure(ax=None, *, larger=6.0, smaller=3.0):
     ):
         axes.plot(steps, ours, color="#0072B2", label="the model")
         axes.plot(steps, theirs, "--", color="0.3", label="Coulomb's law")
-        labelled(axes, "step [-]", what)
+        label_axes(axes, "step [-]", what)
     return made

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Contacts, StepData, solve_step
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.style import scaled
 
@@ -66,7 +66,7 @@ def figure(ax=None, *, pushes=PUSHES, mu_v=MU_V, h=H):
         axes.text(0, 0.6 * deep, "allowed", color="#0072B2", ha="center", va="center")
         axes.set(xlim=(x.min(), x.max()), ylim=(z.min(), z.max()), aspect="equal")
         axes.grid(visible=False)
-        labelled(axes, "dx [µm]", "dz [µm]", f"push {push:g} N", key=False)
+        label_axes(axes, "dx [µm]", "dz [µm]", f"push {push:g} N", key=False)
         axes.label_outer(remove_inner_ticks=True)
     handles = [line for line in row[0].lines if not line.get_label().startswith("_")]
     legend_below(row, handles)

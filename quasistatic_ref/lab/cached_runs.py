@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from quasistatic_ref.lab.grasp import CASES, lifted
+from quasistatic_ref.lab.grasp import CASES, lift_motion
 from quasistatic_ref.optional.account.motions import LinkMotion
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -29,4 +29,4 @@ def grasp(case: str) -> tuple[Scenario, Trajectory]:
 
 def lift(case: str) -> tuple[LinkMotion, slice]:
     """The bunny's motion in a case of the grasp, and its steps from the closed grip to the top."""
-    return lifted(*grasp(case))
+    return lift_motion(*grasp(case))

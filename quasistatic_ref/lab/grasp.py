@@ -49,7 +49,7 @@ def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
     return scenarios
 
 
-def lifted(scenario: Scenario, run: Trajectory) -> tuple[LinkMotion, slice]:
+def lift_motion(scenario: Scenario, run: Trajectory) -> tuple[LinkMotion, slice]:
     """The bunny's motion in a run, and its steps from the closed grip to the top."""
     motion = link_motion(scenario.system, run, "bunny")
     return motion, slice(motion.index(CLOSED), motion.index(TOP) + 1)
@@ -70,7 +70,7 @@ def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, A
     dict
         times [s], angles [deg] by case, and h [s].
     """
-    found = {case: lifted(scenario, run) for case, run in runs.items()}
+    found = {case: lift_motion(scenario, run) for case, run in runs.items()}
     first, steps = next(iter(found.values()))
     return {
         "times": first.times[steps],
@@ -89,7 +89,7 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         drag over the friction that contacts can bear), variables, rows, worst_residual (natural
         units), findings, and the milliseconds of each part of a step.
     """
-    motion, steps = lifted(scenario, trajectory)
+    motion, steps = lift_motion(scenario, trajectory)
     z = motion.t[steps, 2]
     parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
     return {

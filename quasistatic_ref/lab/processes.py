@@ -37,12 +37,12 @@ def descendants(pid: int) -> list[int]:
     return found
 
 
-def detached(pid: int) -> list[int]:
+def detached_processes(pid: int) -> list[int]:
     """Those descendants that have left the session of a process that leads one."""
     return [child for child in descendants(pid) if _session(child) not in (pid, None)]
 
 
-def marked(token: str) -> list[int]:
+def marked_processes(token: str) -> list[int]:
     """Processes whose environment has a token, wherever they are."""
     words = f"{TOKEN}={token}".encode()
     end = time.monotonic() + STARTING
@@ -88,11 +88,11 @@ def computed_and_waited(pid: int) -> tuple[float, float]:
 
     Both are 0 where they are not known.
     """
-    computed, waited = _scheduled(PROC / str(pid))
-    return computed, waited + _scheduled(PROC / "thread-self")[1]
+    computed, waited = _schedstat(PROC / str(pid))
+    return computed, waited + _schedstat(PROC / "thread-self")[1]
 
 
-def _scheduled(folder: Path) -> tuple[float, float]:
+def _schedstat(folder: Path) -> tuple[float, float]:
     try:
         computed, waited, _ = map(int, (folder / "schedstat").read_text().split())
     except (OSError, ValueError):

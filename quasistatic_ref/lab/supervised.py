@@ -63,7 +63,7 @@ class Supervised:
 
     def tidy(self) -> None:
         """End what has detached itself from it."""
-        processes.end(processes.detached(self.pid))
+        processes.end(processes.detached_processes(self.pid))
 
     def end(self) -> None:
         """End it, its children, and what they left behind."""
@@ -73,4 +73,4 @@ class Supervised:
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
         self.process.wait()
-        processes.end(processes.marked(self._token))
+        processes.end(processes.marked_processes(self._token))

@@ -8,7 +8,7 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
 from quasistatic_ref.lab.sweep_numbers import exact
 from quasistatic_ref.step.friction import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
-from tests.contact.still import found_for, placed, standing
+from tests.contact.still import found_for, placed_shape, standing_links
 from tests.oracles.random_steps import mixed_step
 
 
@@ -110,9 +110,11 @@ def test_r37_contacts_of_convex_bodies_share_a_normal(rng, both):
 
 def test_bodies_that_are_apart_may_come_to_touch_along_another_normal():
     """A box that moves from diagonally above an edge of another onto its top, without a turn."""
-    large, small = (placed(Box(np.full(3, half)), link) for half, link in ((0.1, 1), (0.01, 2)))
+    large, small = (
+        placed_shape(Box(np.full(3, half)), link) for half, link in ((0.1, 1), (0.01, 2))
+    )
     for xyz, n in (([0.12, 0, 0.12], [np.sqrt(0.5), 0, np.sqrt(0.5)]), ([0, 0, 0.11], [0, 0, 1])):
-        where = standing((np.eye(3), np.zeros(3)), (np.eye(3), np.array(xyz)))
+        where = standing_links((np.eye(3), np.zeros(3)), (np.eye(3), np.array(xyz)))
         near(found_for(large, small, where).n, [n], 1.0)
 
 

@@ -26,7 +26,7 @@ THRESHOLDS = {
 }
 
 
-def slipped(step):
+def slip_at_contacts(step):
     """Motion of the bar relative to the fingers along d2 and about the normal, at the contacts."""
     answer = solve_step(step, "clarabel")
     assert answer.certificate.kind in ("exact", "enclosure")
@@ -51,8 +51,8 @@ def test_r21_r22_r23_r24_it_slips_below_the_threshold_and_not_at_all_above_it(na
     above, below = (
         pinch(grip=least * (1 + side), **bar).replace(cone=name) for side in (THRESHOLD, -THRESHOLD)
     )
-    np.testing.assert_array_equal(slipped(above), 0.0)
-    assert np.abs(slipped(below)).max() > 1e-12
+    np.testing.assert_array_equal(slip_at_contacts(above), 0.0)
+    assert np.abs(slip_at_contacts(below)).max() > 1e-12
     if name != "ellipsoid":
         far = pinch(grip=least * (1 - 1e-3), **bar).replace(cone=name)
         assert [balances(step, np.zeros(step.n_v)) for step in (above, far)] == [True, False]

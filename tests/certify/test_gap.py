@@ -21,7 +21,7 @@ from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_rational import fraction
 from tests.oracles.random_steps import any_step, mixed_step
-from tests.oracles.rational_kkt import exact, proved, solved
+from tests.oracles.rational_kkt import exact, proved_optimum, solution
 from tests.oracles.solution_truth import program
 
 INFEASIBLE = {11, 12}
@@ -46,10 +46,10 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     Y = exact(lam)
     off = H @ X - g - Y @ A
     unit = fraction(form.net_unit) * fraction(form.x_unit)
-    expected = off @ solved(H, off) / 2 + Y @ (A @ X - b)
+    expected = off @ solution(H, off) / 2 + Y @ (A @ X - b)
     found = duality_gap(form, x, fractions(lam, form.lam_unit))
     assert fraction(found) * unit == expected
-    free = g @ solved(H, g) / 2
+    free = g @ solution(H, g) / 2
     taken = X @ H @ X / 2
     assert fraction(free_energy(form)) * unit == free
     assert fraction(energy(form, x)) * unit == taken
@@ -65,7 +65,7 @@ def optimum(step):
     """The exact optimum, and multipliers of all rows."""
     active = solve_step(step).certificate.active
     working = [step.offsets[contact] + row for contact, row in active]
-    x, on_working, slack = proved(program(step), working)
+    x, on_working, slack = proved_optimum(program(step), working)
     lam = exact(np.zeros(len(slack)))
     lam[working] = on_working
     return x, lam
@@ -84,7 +84,7 @@ def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
 
     def gap(x, lam):
         off = H @ x - g - lam @ A
-        return off @ solved(H, off) / 2 + lam @ (A @ x - b)
+        return off @ solution(H, off) / 2 + lam @ (A @ x - b)
 
     lam = exact(rng.random(len(b)) * (rng.random(len(b)) < 0.3) * step.h)
     near = best[0] + exact(10.0 ** rng.uniform(-9, -3) * rng.normal(size=step.n_v))

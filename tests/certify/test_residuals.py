@@ -9,7 +9,7 @@ from quasistatic_ref import Extra, standard_form
 from quasistatic_ref.certify.residuals import largest, optimality_residuals
 from quasistatic_ref.optional.ellipsoid.cone import cone_violations
 from tests.closeness import assert_within
-from tests.helpers import judged, planted_step, sphere_on_floor
+from tests.helpers import planted_step, residuals_of, sphere_on_floor
 from tests.tolerances import ROUNDING
 
 SIZE = 1e-3
@@ -62,10 +62,10 @@ def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, ex
     """f_n = 2 and tangential impulses of (3, 4) mu_v, in the order (n, d1, d2, spin)."""
     step = sphere_on_floor(mu_v=0.5, mu_omega=mu_omega).replace(cone="ellipsoid")
     lam = np.array([2.0, 0.5 * 3, 0.5 * 4, tau_n])
-    found = judged(step, np.zeros(6), lam)
+    found = residuals_of(step, np.zeros(6), lam)
     assert found.dual == pytest.approx(excess, rel=1e-12)
     assert found.primal == 0.0
-    inside = judged(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
+    inside = residuals_of(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
     assert inside.dual == 0.0
 
 
@@ -74,7 +74,7 @@ def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
     step = sphere_on_floor().replace(
         cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], np.array([0.3, 0.1]))
     )
-    found = judged(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
+    found = residuals_of(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
     near(found.primal, 0.3)
     near(found.dual, 0.7)
     near(found.complementarity, 0.3 * 0.7)
@@ -95,9 +95,9 @@ def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
     """It rises and slips by 1 mm each; 2 N s along the normal and -2 N s along the slip: none."""
     step = sphere_on_floor().replace(cone="ellipsoid")
     delta_q = np.array([1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0])
-    found = judged(step, delta_q, np.array([2.0, -2.0, 0.0, 0.0]))
+    found = residuals_of(step, delta_q, np.array([2.0, -2.0, 0.0, 0.0]))
     near(found.complementarity, 0.0)
-    pressed = judged(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
+    pressed = residuals_of(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
     near(pressed.complementarity, 2e-3)
 
 

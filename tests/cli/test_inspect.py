@@ -8,13 +8,13 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.options import WIDTH
 from tests.extras import SCENARIOS
-from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, written
+from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 
 
 def test_inspect_shows_a_urdf(tmp_path, capsys):
-    path = str(written(tmp_path, RAIL, "rail.urdf"))
+    path = str(urdf_of_text(tmp_path, RAIL, "rail.urdf"))
     assert main(["inspect", path, "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert [c["name"] for c in record["coordinates"]] == ["rail/slide", "rail/turn"]
@@ -42,12 +42,12 @@ def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, capsys):
         joint("under", "a", "c", "prismatic", more=rubbed + mimic("slide", 2.0)),
         joint("weld", "a", "d", "fixed", more=rubbed),
     )  # fmt: skip
-    written(tmp_path, arm, "arm.urdf")
+    urdf_of_text(tmp_path, arm, "arm.urdf")
     lines = {}
     for friction in ('"urdf"', "{ slide = 1 }"):
         text = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
         text += f'[bodies.arm]\nurdf = "arm.urdf"\njoint_friction = {friction}\n'
-        path = written(tmp_path, text, "scene.toml")
+        path = urdf_of_text(tmp_path, text, "scene.toml")
         assert main(["inspect", str(path), "--json"]) == 0
         lines[friction] = json.loads(capsys.readouterr().out)["ignored"]
     assert "arm: joint friction (1)" in lines['"urdf"']  # of the weld
@@ -56,7 +56,7 @@ def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, capsys):
 
 
 def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):
-    path = str(written(tmp_path, CHAIN, "arm.urdf"))
+    path = str(urdf_of_text(tmp_path, CHAIN, "arm.urdf"))
     assert main(["inspect", path]) == 0
     assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in capsys.readouterr().out
     assert main(["inspect", path, "--json"]) == 0
@@ -103,7 +103,7 @@ def test_what_is_inspected_fits_a_terminal(name, capsys):
 def test_inspect_names_links_that_nothing_can_touch(tmp_path, capsys):
     visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
     text = robot(link("a", visual), link("b"), joint("j", "a", "b"))
-    assert main(["inspect", str(written(tmp_path, text, "one.urdf"))]) == 0
+    assert main(["inspect", str(urdf_of_text(tmp_path, text, "one.urdf"))]) == 0
     assert "- one: links with visual but no collision geometry: a\n" in capsys.readouterr().out
 
 
@@ -115,7 +115,7 @@ TURNED = inertial(
 
 def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, capsys):
     """A quarter turn about z: ixx along the frame of the inertia is iyy along the link's."""
-    path = str(written(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf"))
+    path = str(urdf_of_text(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf"))
     assert main(["inspect", path, "--json"]) == 0
     (found,) = json.loads(capsys.readouterr().out)["links"]
     assert found["centre"] == [0.5, 0.25, 0.125]

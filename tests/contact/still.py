@@ -7,11 +7,11 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.model.system import Kinematics
 
 
-def placed(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
+def placed_shape(shape, link=0, R=None, t=(0.0, 0.0, 0.0), name="s"):
     return PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t, dtype=float), shape)
 
 
-def standing(*poses):
+def standing_links(*poses):
     """Links at given poses (R, t), the world first; nothing moves."""
     R = np.array([np.eye(3), *(pose[0] for pose in poses)])
     t = np.array([np.zeros(3), *(pose[1] for pose in poses)])

@@ -55,7 +55,7 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
         assert [wrong(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
 
 
-def found(low, top, R, place, nearest):
+def points_of_alpha(low, top, R, place, nearest):
     """Points of alpha's, sorted, of a body over a fixed one."""
     a = ShapeInWorld(low, STRAIGHT, ORIGIN)
     b = ShapeInWorld(top, R, np.array(place))
@@ -70,15 +70,17 @@ def test_crossings_are_where_they_are_by_hand():
     # Equal squares, one turned by 45 degrees: the sides of an octagon of inner radius 0.2.
     t = 0.2 * np.tan(np.pi / 8)
     corners = [[x * u, y * v] for x, y in ((0.2, t), (t, 0.2)) for u in (-1, 1) for v in (-1, 1)]
-    octagon = found(TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), (0.0, 0.0))
+    octagon = points_of_alpha(TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), (0.0, 0.0))
     assert_within(octagon, sorted(corners), ROUNDING)
 
 
 def test_edges_that_are_parallel_or_no_part_of_what_touches_do_not_cross():
-    assert found(TABLE, TABLE, STRAIGHT, (0.0, 0.0, 0.02), (0.1, 0.1)) == sorted(
+    assert points_of_alpha(TABLE, TABLE, STRAIGHT, (0.0, 0.0, 0.02), (0.1, 0.1)) == sorted(
         [[x, y] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for _ in range(2)]
     )
-    assert found(TABLE, Box(np.full(3, 0.01)), STRAIGHT, (0.0, 0.0, 0.02), (0.0, 0.0)) == []
+    assert (
+        points_of_alpha(TABLE, Box(np.full(3, 0.01)), STRAIGHT, (0.0, 0.0, 0.02), (0.0, 0.0)) == []
+    )
 
 
 @pytest.mark.parametrize("swapped", [False, True])

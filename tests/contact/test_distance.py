@@ -17,7 +17,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.tolerances import FILLED, REPEATED
 from tests.closeness import assert_within
-from tests.contact.still import found_for, pair, placed, standing
+from tests.contact.still import found_for, pair, placed_shape, standing_links
 from tests.tolerances import EXACT, SIGNED_DISTANCE
 
 X, _, Z = np.eye(3)
@@ -45,9 +45,9 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     (R_solid, t_solid), (R_cloud, t_cloud) = (
         (S @ R, S @ t + s) for (S, s), (R, t) in zip(links, own, strict=True)
     )
-    solid = placed(SOLIDS[name], 1, *own[0])
-    cloud = placed(PointCloud(points), 2, *own[1])
-    found = found_for(solid, cloud, standing(*links), k=7)
+    solid = placed_shape(SOLIDS[name], 1, *own[0])
+    cloud = placed_shape(PointCloud(points), 2, *own[1])
+    found = found_for(solid, cloud, standing_links(*links), k=7)
     each = []
     for i, p in enumerate(points):
         world = R_cloud @ p + t_cloud
@@ -63,10 +63,10 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
 
 
 def test_pairs_follow_one_another_each_nearest_first(rng):
-    floor = placed(FLOOR)
-    ball = placed(Sphere(0.1), 2)
-    cloud = placed(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
-    kinematics = standing(random_pose(rng, 0.2), random_pose(rng, 0.3))
+    floor = placed_shape(FLOOR)
+    ball = placed_shape(Sphere(0.1), 2)
+    cloud = placed_shape(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
+    kinematics = standing_links(random_pose(rng, 0.2), random_pose(rng, 0.3))
     pairs = [pair(floor, cloud, 3), pair(floor, ball), pair(ball, cloud, 2)]
     found = closest_points(pairs, kinematics)
     assert found.phi.shape == (6,)
@@ -121,8 +121,8 @@ def test_zero_is_never_minus_zero():
 
 def test_candidates_are_counted_that_are_no_farther_than_the_nearest_by_more_than_a_length():
     # The lower corners of a cube are 0.5 m above the floor, the upper ones 0.5 m higher.
-    one = pair(placed(FLOOR), placed(CUBE, 1))
-    kinematics = standing((np.eye(3), 0.75 * Z))
+    one = pair(placed_shape(FLOOR), placed_shape(CUBE, 1))
+    kinematics = standing_links((np.eye(3), 0.75 * Z))
     found = [number_within(one, kinematics.R, kinematics.t, within) for within in (0, 0.25, 0.5)]
     assert found == [4, 4, 8]
     assert closest_points([one], kinematics).point.tolist() == [0]
@@ -132,8 +132,8 @@ def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_squ
     # The square leads from (0, 0) to (0.25, 0.25). Corners count from 0 (binary: x lowest), alpha's
     # first: the upper one of alpha is 7, the lower one of beta 8. Of the 12 edges, counted by axis,
     # alpha's are 3 (along x) and 7 (along y), beta's 0 and 4.
-    there = standing((np.eye(3), np.array([0.25, 0.25, 0.5])))
-    found = found_for(placed(CUBE), placed(CUBE, 1), there, 4)
+    there = standing_links((np.eye(3), np.array([0.25, 0.25, 0.5])))
+    found = found_for(placed_shape(CUBE), placed_shape(CUBE, 1), there, 4)
     crossings = 16 + 4 + 2 * (12 * np.array([3, 7]) + [4, 0])
     assert found.point.tolist() == [7, 8, *crossings]
     assert found.alpha[:, :2].tolist() == [[0.25, 0.25], [0, 0], [0, 0.25], [0.25, 0]]
@@ -142,8 +142,8 @@ def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_squ
 def test_a_capsule_that_lies_above_a_box_has_its_contacts_below_the_centres_of_its_caps():
     table = Box(np.array([1.0, 1.0, 0.5]))
     along_x = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
-    there = standing((along_x, 1.0 * Z))
-    found = found_for(placed(table), placed(Capsule(0.125, 0.25), 1), there, 2)
+    there = standing_links((along_x, 1.0 * Z))
+    found = found_for(placed_shape(table), placed_shape(Capsule(0.125, 0.25), 1), there, 2)
     assert found.phi.tolist() == [0.375, 0.375]  # 1 - 0.125 - 0.5
     assert found.alpha.tolist() == [[-0.25, 0, 0.5], [0.25, 0, 0.5]]
     assert found.beta.tolist() == [[-0.25, 0, 0.875], [0.25, 0, 0.875]]
@@ -165,7 +165,7 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
     nearest = listed(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
     nearest = nearest._replace(alpha=beta[None], beta=beta[None], n=n[None])
     rimmed = Cylinder(0.5, half)
-    one = pair(placed(FLOOR), placed(rimmed, 1), 2)
+    one = pair(placed_shape(FLOOR), placed_shape(rimmed, 1), 2)
     a = ShapeInWorld(FLOOR, np.eye(3), np.zeros(3))
     found = every_candidate(one, a, ShapeInWorld(rimmed, np.eye(3), t), nearest)
     angle = first + np.arange(4) * np.pi / 2
@@ -174,9 +174,9 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
 
 
 def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
-    along_x = placed(Box(np.array([0.5, 0.25, 0.25])))
-    along_y = placed(Box(np.array([0.25, 0.5, 0.25])), 1)
-    found = found_for(along_x, along_y, standing((np.eye(3), 0.5 * Z)), 4)
+    along_x = placed_shape(Box(np.array([0.5, 0.25, 0.25])))
+    along_y = placed_shape(Box(np.array([0.25, 0.5, 0.25])), 1)
+    found = found_for(along_x, along_y, standing_links((np.eye(3), 0.5 * Z)), 4)
     square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
     assert sorted(found.alpha[:, :2].tolist()) == square
     assert (found.point > 16).all()  # the closest pair's number, after 16 corners
@@ -184,15 +184,15 @@ def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_
 
 def test_copies_of_the_closest_pair_fill_the_number_at_a_distance_that_bears_nothing():
     # A ball above the middle of a face: of the box's 8 corners none has a normal about the pair's.
-    ball = placed(Sphere(0.1), 1, t=(0.0, 0.0, 0.4))
-    box = placed(Box(np.full(3, 0.2)))
-    world = standing((np.eye(3), np.zeros(3)))
+    ball = placed_shape(Sphere(0.1), 1, t=(0.0, 0.0, 0.4))
+    box = placed_shape(Box(np.full(3, 0.2)))
+    world = standing_links((np.eye(3), np.zeros(3)))
     found = found_for(ball, box, world, k=4)
     assert found.phi == pytest.approx([0.1, FILLED, FILLED, FILLED], rel=EXACT)
     assert found.point.tolist() == [8, 9, 10, 11]
     assert np.array_equal(found.n, np.tile(-Z, (4, 1)))
     assert found_for(ball, box, world).point.tolist() == [0]
     # A ball 3e6 m away: its copies are twice as far, not nearer than itself.
-    plain = placed(Box((1e7, 1e7, 0.2)))
-    beyond = found_for(placed(Sphere(0.1), 1, t=(0.0, 0.0, 3e6)), plain, world, k=4).phi
+    plain = placed_shape(Box((1e7, 1e7, 0.2)))
+    beyond = found_for(placed_shape(Sphere(0.1), 1, t=(0.0, 0.0, 3e6)), plain, world, k=4).phi
     assert beyond.tolist() == [beyond[0], *[2 * beyond[0]] * 3]

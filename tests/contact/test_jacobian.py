@@ -8,7 +8,7 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry, contact_jacobian, tangents
 from quasistatic_ref.contact.pairs import contact_layout
 from tests.closeness import assert_within
-from tests.contact.still import placed
+from tests.contact.still import placed_shape
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
 
@@ -54,9 +54,9 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     system = chain_scene(tmp_path)
     box = system.link("box/box")
     upper = system.link("arm/upper")
-    floor = placed(HalfSpace(Z, 0.0))
-    cloud = placed(PointCloud(rng.normal(size=(9, 3))), box)
-    ball = placed(Sphere(0.1), upper)
+    floor = placed_shape(HalfSpace(Z, 0.0))
+    cloud = placed_shape(PointCloud(rng.normal(size=(9, 3))), box)
+    ball = placed_shape(Sphere(0.1), upper)
     pairs = [
         ContactPair("a", floor, cloud, 0.5, 0.0, 4, 3),
         ContactPair("b", ball, cloud, 0.6, 0.02, 6, 2),

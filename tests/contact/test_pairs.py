@@ -12,7 +12,7 @@ from quasistatic_ref import (
     Sphere,
     convex_hull,
 )
-from tests.contact.still import placed
+from tests.contact.still import placed_shape
 
 CLOUD = PointCloud(np.eye(3))
 BALL = Sphere(0.1)
@@ -21,7 +21,7 @@ FLOOR = HalfSpace(np.eye(3)[2], 0.0)
 
 
 def pair(alpha, beta, link_alpha=0, link_beta=1, k=1, **more):
-    sides = placed(alpha, link_alpha, name="a"), placed(beta, link_beta, name="b")
+    sides = placed_shape(alpha, link_alpha, name="a"), placed_shape(beta, link_beta, name="b")
     return ContactPair("grip", *sides, 0.5, 0.01, 6, k, **more)
 
 

@@ -12,15 +12,15 @@ from quasistatic_ref.contact.tied_faces import corner_surface, faces_apart
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import SAME_NORMAL
 from tests.closeness import assert_within
-from tests.contact.still import found_for, pair, placed, standing
+from tests.contact.still import found_for, pair, placed_shape, standing_links
 from tests.tolerances import CLOSED_FORM
 
 X, Y, Z = np.eye(3)
 
 
-def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
-    points = found_for(placed(a), placed(b, 1), standing((R, t)), k)
-    assert len(points.phi) == pair(placed(a), placed(b, 1), k).n_c
+def closest_points_of(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
+    points = found_for(placed_shape(a), placed_shape(b, 1), standing_links((R, t)), k)
+    assert len(points.phi) == pair(placed_shape(a), placed_shape(b, 1), k).n_c
     return points
 
 
@@ -38,7 +38,7 @@ def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place():
     for degrees in range(1, 45):
         R = Rotation.from_rotvec([0, np.deg2rad(degrees), 0]).as_matrix()
         slope = HalfSpace(R[:, 2], 0.0)
-        points = found(slope, CUBE, R, R @ [0.3, 0.2, 0.05], 4)
+        points = closest_points_of(slope, CUBE, R, R @ [0.3, 0.2, 0.05], 4)
         assert sorted(points.point.tolist()) == [0, 1, 2, 3]
         assert_within(points.phi, 0, CLOSED_FORM)
 
@@ -47,7 +47,7 @@ def test_of_two_corners_that_are_one_contact_alpha_s_is_kept():
     # Two equal cubes, one on the other: the four corners of either's face are in the same places.
     # Alpha's corners are 0 to 7 (binary: x lowest), so that its upper ones are 4 to 7.
     cube = Box(np.full(3, 0.25))
-    points = found(cube, cube, np.eye(3), np.array([0, 0, 0.5]), 4)
+    points = closest_points_of(cube, cube, np.eye(3), np.array([0, 0, 0.5]), 4)
     assert sorted(points.point.tolist()) == [4, 5, 6, 7]
 
 
@@ -93,6 +93,6 @@ def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
     # -0.5.
     t = 5 * X
     cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
-    points = found(Box(np.array([0.1, 1.0, 1.0])), cloud, np.eye(3), t, 2)
+    points = closest_points_of(Box(np.array([0.1, 1.0, 1.0])), cloud, np.eye(3), t, 2)
     assert_within(points.n, [X, X], CLOSED_FORM)
     assert points.tie.tolist() == [OF_CLOUD] * 2

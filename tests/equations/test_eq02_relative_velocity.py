@@ -26,7 +26,7 @@ def turn_rate(R_before, R_after, seconds):
     return [w / seconds for w in Rotation.from_matrix(R_after @ R_before.T).as_rotvec()]
 
 
-def moved(kinematics, link, local):
+def point_of_link(kinematics, link, local):
     """R local + t by loops: where a point fixed in a link is."""
     R = kinematics.R[link]
     t = kinematics.t[link]
@@ -50,8 +50,8 @@ def relative_velocity(scene, q, v, link_alpha, link_beta, alpha, beta, n):
     omega = {}
     for side, link, point in (("alpha", link_alpha, alpha), ("beta", link_beta, beta)):
         fixed = local(here, link, point)
-        one = moved(before, link, fixed)
-        two = moved(after, link, fixed)
+        one = point_of_link(before, link, fixed)
+        two = point_of_link(after, link, fixed)
         nu[side] = [(two[i] - one[i]) / seconds for i in range(3)]
         omega[side] = turn_rate(before.R[link], after.R[link], seconds)
     spin = sum(n[i] * (omega["beta"][i] - omega["alpha"][i]) for i in range(3))

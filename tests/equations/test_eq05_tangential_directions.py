@@ -6,7 +6,7 @@ from tests.helpers import random_step
 from tests.tolerances import ROUNDING
 
 
-def printed(contacts):
+def printed_directions(contacts):
     expected = []
     for j in range(contacts.n_c):
         d_tilde_1 = [contacts.mu_v[j] * contacts.d1[j][r] for r in range(3)] + [0.0]
@@ -44,4 +44,4 @@ def assert_shares_are_printed(rng, printed, first):
 
 
 def test_they_are_what_the_first_two_constraints_add_to_the_gap(rng):
-    assert_shares_are_printed(rng, printed, 0)
+    assert_shares_are_printed(rng, printed_directions, 0)

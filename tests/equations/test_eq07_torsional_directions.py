@@ -6,12 +6,12 @@ from tests.equations.test_eq05_tangential_directions import assert_shares_are_pr
 from tests.helpers import random_step
 
 
-def printed(contacts):
+def printed_directions(contacts):
     return [[[0.0, 0.0, 0.0, mu], [0.0, 0.0, 0.0, -mu]] for mu in contacts.mu_omega]
 
 
 def test_they_are_what_the_last_two_constraints_add_to_the_gap(rng):
-    assert_shares_are_printed(rng, printed, 4)
+    assert_shares_are_printed(rng, printed_directions, 4)
 
 
 def test_only_contacts_with_six_rows_have_them(rng):

@@ -21,7 +21,7 @@ def refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
     """
 
     def run(*arguments: object, status: int = 2) -> str:
-        before = everything(tmp_path)
+        before = paths_below(tmp_path)
         start = time.process_time()
         assert main([str(argument) for argument in arguments]) == status
         assert time.process_time() - start < SLOWEST
@@ -30,12 +30,12 @@ def refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
         lines = captured.err.splitlines()
         assert len(lines) == 1, captured.err
         assert lines[0].startswith("quasistatic-ref: ")
-        assert everything(tmp_path) == before
+        assert paths_below(tmp_path) == before
         return lines[0].removeprefix("quasistatic-ref: ")
 
     return run
 
 
-def everything(folder: Path) -> set[Path]:
+def paths_below(folder: Path) -> set[Path]:
     """All files and folders below a folder."""
     return set(folder.rglob("*"))

@@ -46,7 +46,7 @@ from quasistatic_ref.step.files import step_text
 from tests.errors import texts
 from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA
-from tests.model.urdf.urdf_texts import collision, link, written
+from tests.model.urdf.urdf_texts import collision, link, urdf_of_text
 from tests.model.urdf.urdf_texts import robot as urdf_of
 from tests.optional.mjcf.test_mjcf import ARM, WEDGE
 from tests.oracles.spoilt_files import (
@@ -98,7 +98,9 @@ def models(folder: Path) -> dict[str, Reader]:
 
     def mesh(path: Path) -> None:
         about = collision(f'<mesh filename="{path.name}" scale="1 1 1"/>')
-        System([Body("r", written(folder, urdf_of(link("r", about)), "mesh.urdf"), "floating")])
+        System(
+            [Body("r", urdf_of_text(folder, urdf_of(link("r", about)), "mesh.urdf"), "floating")]
+        )
 
     binary = bytes(80) + struct.pack("<I", len(texts.TRIANGLES))
     ascii_ = "solid s\n"

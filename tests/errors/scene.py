@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.model.urdf.urdf_texts import collision, joint, link, robot, written
-from tests.oracles.records import put, toml_text
+from tests.model.urdf.urdf_texts import collision, joint, link, robot, urdf_of_text
+from tests.oracles.records import toml_text, with_value
 from tests.scenes import BALL
 
 RAIL = robot(
@@ -66,7 +66,7 @@ def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]
     """A deep copy with fields replaced (or removed, by `...`), each given as ``a/b/0``."""
     for path, value in changes:
         place = tuple(int(key) if key.isdigit() else key for key in path.split("/"))
-        record = put(record, place, value)
+        record = with_value(record, place, value)
     return record
 
 
@@ -100,10 +100,10 @@ def dotted(record: dict[str, Any], path: str) -> str:
 
 def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
     """A scenario file with its URDFs and a cloud next to it."""
-    written(folder, BALL, "ball.urdf")
-    written(folder, RAIL, "rail.urdf")
-    written(folder, CLOUD, "cloud.xyz")
-    return written(folder, toml_text(scene).decode(), "scene.toml")
+    urdf_of_text(folder, BALL, "ball.urdf")
+    urdf_of_text(folder, RAIL, "rail.urdf")
+    urdf_of_text(folder, CLOUD, "cloud.xyz")
+    return urdf_of_text(folder, toml_text(scene).decode(), "scene.toml")
 
 
 def contents(folder: Path) -> dict[Path, bytes]:

@@ -10,7 +10,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.quoting import clipped
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.helpers import planted_step
-from tests.model.urdf.urdf_texts import written
+from tests.model.urdf.urdf_texts import urdf_of_text
 from tests.scenes import BALL
 
 LEAVES = "is outside the scenario's folder; move the file there, or give the path on the command"
@@ -19,8 +19,8 @@ LEAVES = "is outside the scenario's folder; move the file there, or give the pat
 @pytest.fixture
 def outside(tmp_path):
     """A scenario in a folder of its own, and a good URDF and cloud next to that folder."""
-    written(tmp_path, BALL, "outside.urdf")
-    written(tmp_path, "0 0 0\n", "outside.xyz")
+    urdf_of_text(tmp_path, BALL, "outside.urdf")
+    urdf_of_text(tmp_path, "0 0 0\n", "outside.xyz")
     (tmp_path / "inner").mkdir()
     return tmp_path / "inner"
 

@@ -8,7 +8,7 @@ from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario import contacts
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
-from tests.model.urdf.urdf_texts import collision, link, robot, written
+from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
 from tests.oracles.records import toml_text
 
 BALL = "bodies/ball/"
@@ -216,8 +216,10 @@ AGAIN = {
 def test_meshes_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch, field):
     """It may name one large file a thousand times."""
     monkeypatch.setattr(mesh_files, "LARGEST_MESHES", 1.5 * len(CORNERS))
-    written(tmp_path, CORNERS, "corners.obj")
-    written(tmp_path, robot(link("a", collision('<mesh filename="corners.obj"/>'))), "mesh.urdf")
+    urdf_of_text(tmp_path, CORNERS, "corners.obj")
+    urdf_of_text(
+        tmp_path, robot(link("a", collision('<mesh filename="corners.obj"/>'))), "mesh.urdf"
+    )
     table, of_one = AGAIN[field]
     scene = changed(SCENE, (f"{table}/one", of_one))
     load_scenario(scene_written(tmp_path, scene))

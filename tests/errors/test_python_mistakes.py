@@ -10,7 +10,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, QuasistaticError
-from tests.model.urdf.urdf_texts import collision, inertial, link, robot, written
+from tests.model.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
 from tests.scenes import PUSH, written_scenario
 
 BLOCK = qr.Body.of_shape("block", qr.Box((0.05, 0.05, 0.02)), mass=0.5, xyz=(0, 0, 0.02))
@@ -259,7 +259,7 @@ def test_a_collision_keeps_its_name_and_contacts_may_use_it(tmp_path):
     ball = collision('<sphere radius="0.01"/>', '<origin xyz="0.04 0 0"/>')
     named = ball.replace("<collision>", '<collision name="handle">')
     mug = link("mug", collision('<sphere radius="0.03"/>') + named, inertial("0.2", ("1e-4",) * 3))
-    written(tmp_path, robot(mug), "mug.urdf")
+    urdf_of_text(tmp_path, robot(mug), "mug.urdf")
     path = tmp_path / "mug.toml"
     path.write_text(
         'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.bench.solids import LARGE, STATES
 from quasistatic_ref.lab.bench.timing import in_turn, least
 from quasistatic_ref.lab.bench.whole_run import WALL
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
-from tests.extras import missing
+from tests.extras import is_missing
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET, SCENE
 
@@ -32,7 +32,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     found = json.loads(capsys.readouterr().out)
     assert json.loads((tmp_path / "bench.json").read_text()) == found
     assert set(found["grasp"]) == {"step", "over_solver", "certified", "certified, p99"}
-    in_jax = set() if missing("jax") else {MAPPED, "step_jax"}
+    in_jax = set() if is_missing("jax") else {MAPPED, "step_jax"}
     assert set(found["derivatives"]) == {STEP, "derivatives"} | in_jax
     of_run = found["run"]
     assert of_run[WALL] > of_run["the stages of its steps"] > 0.0
@@ -107,7 +107,7 @@ def test_bodies_of_a_scene_at_rest_stay_where_they_are(name):
     scene = LARGE[name]()
     result = scene.simulator("off", True).step(scene.q, scene.goals[0], scene.force)
     assert np.abs(result.solution.delta_q).max() <= SCENE
-    if not missing("engines"):
+    if not is_missing("engines"):
         _, data = scene.model()
         assert np.array_equal(data.qpos.reshape(-1, 7)[:, :3], scene.q.reshape(-1, 7)[:, :3])
 

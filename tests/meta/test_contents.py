@@ -61,7 +61,7 @@ def test_results_in_markdown_have_at_most_so_many_words():
     assert sum(len(path.read_text("utf-8").split()) for path in pages) <= MOST_OF_RESULTS
 
 
-def explaining(what, text):
+def explaining_paragraphs(what, text):
     """The paragraphs of a text that explain something."""
     formula, words, *_ = EXPLAINED[what]
     return [one for one in paragraphs(text) if re.search(formula, one) and re.search(words, one)]
@@ -70,5 +70,5 @@ def explaining(what, text):
 @pytest.mark.parametrize("what", EXPLAINED)
 def test_what_is_explained_is_explained_on_one_page(what):
     *_, home, sentence = EXPLAINED[what]
-    assert {page for page, text in PAGES.items() if explaining(what, text)} == home
-    assert explaining(what, f"Before.\n\n{sentence}\n\nAfter.") == [sentence]
+    assert {page for page, text in PAGES.items() if explaining_paragraphs(what, text)} == home
+    assert explaining_paragraphs(what, f"Before.\n\n{sentence}\n\nAfter.") == [sentence]

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.make.second_order import Engines
 from validation.programs.engines import phenomena, second_order, second_order_page
 from validation.programs.engines.judge import ENGINES, HERE, RESULTS
-from validation.programs.engines.reproduce import FOLDER, LIST, missing, unlike
+from validation.programs.engines.reproduce import FOLDER, LIST, cells_without_program, unlike
 from validation.programs.engines.tables import phenomena_page
 
 RECORDS = {name: json.loads((RESULTS / f"{name}.json").read_text("utf-8")) for name in ENGINES}
@@ -32,7 +32,7 @@ def test_the_engine_of_the_page_is_asked_everything(capsys):
 
 
 def test_every_red_cell_is_shown_by_its_reproduction_in_its_setting():
-    assert missing(RECORDS) == unlike(RECORDS) == []
+    assert cells_without_program(RECORDS) == unlike(RECORDS) == []
 
 
 def test_the_page_is_that_of_the_results():
@@ -61,5 +61,5 @@ def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scen
     engines.programs[engine] = Program(f"{sys.executable} {HERE / 'mujoco_adapter.py'}", 60.0)
     with engines.programs[engine]:
         found = engines.row(run)
-    (committed,) = second_order_page.chosen(**run._asdict())
+    (committed,) = second_order_page.rows_with(**run._asdict())
     assert found | {"cost": 0.0} == committed | {"cost": 0.0}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.extras import missing
+from tests.extras import is_missing
 
 ROOT = Path(__file__).parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
@@ -47,7 +47,7 @@ def test_every_marker_names_an_extra(request):
     marks = [mark.args for item in request.session.items for mark in item.iter_markers("extra")]
     assert {extra for (extra,) in marks} <= EXTRAS.keys()
     with pytest.raises(AssertionError, match="declares no extra nonsense"):
-        missing("nonsense")
+        is_missing("nonsense")
 
 
 def test_what_is_skipped_is_named_with_its_extra_and_listed_for_a_second_run(tmp_path):

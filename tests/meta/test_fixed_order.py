@@ -48,7 +48,7 @@ EXCEPTIONS = {
 """Reason -> files, or functions of files."""
 
 
-def unordered(node, owner=""):
+def unordered_functions(node, owner=""):
     """Names of the functions below a node that use one of UNORDERED or ``@``; "" is the module."""
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         owner = f"{owner}.{node.name}".lstrip(".")
@@ -56,7 +56,7 @@ def unordered(node, owner=""):
     if called or isinstance(getattr(node, "op", None), ast.MatMult):
         yield owner
     for child in ast.iter_child_nodes(node):
-        yield from unordered(child, owner)
+        yield from unordered_functions(child, owner)
 
 
 def test_only_the_exceptions_use_sums_and_sines_of_an_order_that_is_not_written():
@@ -65,6 +65,6 @@ def test_only_the_exceptions_use_sums_and_sines_of_an_order_that_is_not_written(
     for folder in FOLDERS:
         for path in (PACKAGE / folder).rglob("*.py"):
             file = path.relative_to(PACKAGE).as_posix()
-            for owner in unordered(ast.parse(path.read_text("utf-8"))):
+            for owner in unordered_functions(ast.parse(path.read_text("utf-8"))):
                 found.add(file if file in excepted else f"{file}:{owner}")
     assert found == excepted

@@ -12,7 +12,7 @@ LOCK = ROOT / ".ci" / "lock.txt"
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 
 
-def locked():
+def locked_versions():
     """Package -> its versions: where Pythons or systems need different ones, several."""
     found = {}
     for line in LOCK.read_text("utf-8").splitlines():
@@ -25,7 +25,7 @@ def locked():
 
 
 def test_every_declared_dependency_is_locked_at_versions_that_it_admits():
-    found = locked()
+    found = locked_versions()
     lists = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
     declared = [Requirement(line) for one in lists for line in one]
     others = [one for one in declared if one.name != PROJECT["name"]]

@@ -16,7 +16,7 @@ NAMED = re.compile(r"`([^`]+)`")
 LIST = r"((?:`\w+`(?:, | and )?)+)"
 
 
-def listed(word, text):
+def listed_names(word, text):
     """Names that follow a word: claim `a`; claims `a`, `b` and `c`."""
     runs = re.findall(rf"\b{word}s? {LIST}", text)
     return [name for run in runs for name in NAMED.findall(run)]
@@ -32,7 +32,7 @@ def functions_of(path):
 
 def evidence(text):
     """Tests and claims that a text names and that exist; a test is of the file before it."""
-    claims = [name for name in listed("claim", text) if name in BY_NAME]
+    claims = [name for name in listed_names("claim", text) if name in BY_NAME]
     tests = []
     inside = set()
     for name in NAMED.findall(text):
@@ -63,7 +63,7 @@ def test_every_erratum_that_a_test_shows_is_in_the_errata():
 
 
 def test_every_claim_about_the_paper_is_on_its_page():
-    named = set(listed("claim", (THEORY / "the_paper.md").read_text()))
+    named = set(listed_names("claim", (THEORY / "the_paper.md").read_text()))
     about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
     assert about <= named

@@ -30,7 +30,7 @@ FORMATS = {
 LIST = Path(__file__).parents[1] / "public_names.txt"
 
 
-def frozen():
+def frozen_lines():
     """A line for each name, format, table of a file, and command with its options."""
     for name in sorted({*qr.__all__} - {"__version__"}):
         try:
@@ -49,8 +49,8 @@ def frozen():
 
 
 def test_public_names_are_those_of_the_list():
-    assert LIST.read_text("utf-8").splitlines() == list(frozen())
+    assert LIST.read_text("utf-8").splitlines() == list(frozen_lines())
 
 
 if __name__ == "__main__":
-    LIST.write_text("\n".join(frozen()) + "\n", "utf-8")
+    LIST.write_text("\n".join(frozen_lines()) + "\n", "utf-8")

@@ -5,7 +5,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.lab.vectors.material import answer_file, cases
-from tests.quoted import QUOTED, ROOT, flat, held, outside, printed, stale
+from tests.quoted import QUOTED, ROOT, expected_phrases, flat, outside, printed_blocks, stale
 
 PAGES = sorted(
     str(path.relative_to(ROOT)) for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
@@ -29,17 +29,17 @@ def text(page):
 
 @pytest.mark.parametrize("page", QUOTED)
 def test_every_quoted_number_is_that_of_its_source(page):
-    wrong = stale(text(page), held(page))
+    wrong = stale(text(page), expected_phrases(page))
     assert not wrong, f"{page} ought to read:\n" + "\n".join(wrong)
 
 
 @pytest.mark.parametrize("page", [page for page, own in QUOTED.items() if "given" in own])
 def test_every_number_with_a_unit_has_a_source_or_is_given_by_the_page(page):
-    assert sorted(set(outside(text(page), held(page)))) == QUOTED[page]["given"]
+    assert sorted(set(outside(text(page), expected_phrases(page)))) == QUOTED[page]["given"]
 
 
 def test_every_page_with_printed_text_has_a_test_of_it():
-    assert [page for page in PAGES if printed(text(page))] == sorted(PRINTED)
+    assert [page for page in PAGES if printed_blocks(text(page))] == sorted(PRINTED)
 
 
 def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys):
@@ -49,7 +49,7 @@ def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys)
     layers = ["--layer", "rows", "--layer", "wrench"]
     assert main(["vectors", "check", str(tmp_path), *layers]) == 1
     said = capsys.readouterr()
-    (shown,) = printed(text("docs/guides/check_your_implementation.md"))
+    (shown,) = printed_blocks(text("docs/guides/check_your_implementation.md"))
     assert flat(said.out + said.err) == flat(shown)
 
 

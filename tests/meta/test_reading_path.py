@@ -14,7 +14,7 @@ BRANCH = re.compile(r"^( *)(\w+(?:\.\w+)?) +(\w+/\w+\.py)", re.MULTILINE)
 SECTION = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
 
 
-def called(name):
+def function_named(name):
     """The function of a name: of a class its constructor."""
     return f"{name}.__init__" if name[0].isupper() and "." not in name else name
 
@@ -23,7 +23,7 @@ def branches():
     """(file, name) of each function of the tree, with that of the one it is indented below."""
     above = {}
     for indent, name, file in BRANCH.findall(SECTION.partition("```text")[2].partition("```")[0]):
-        function = f"{PACKAGE}/{file}", called(name)
+        function = f"{PACKAGE}/{file}", function_named(name)
         above[len(indent)] = function
         if indent:
             yield function, above[len(indent) - 4]

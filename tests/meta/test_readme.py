@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.quoted import printed
+from tests.quoted import printed_blocks
 from validation.tools.installs import shell_lines
 
 ROOT = Path(__file__).parents[2]
@@ -15,7 +15,7 @@ def test_the_example_prints_what_the_readme_shows(capsys):
     text = (ROOT / "README.md").read_text("utf-8")
     (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
-    shown = [line.rsplit(maxsplit=1) for line in printed(text)[0].splitlines()]
+    shown = [line.rsplit(maxsplit=1) for line in printed_blocks(text)[0].splitlines()]
     found = [line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
     assert [answer for answer, _ in found] == [answer for answer, _ in shown]
     # A solver's own digits depend on the instructions of the processor.

@@ -23,7 +23,7 @@ RANDOM = re.compile(r"^def (test(?:_r\d+)+)_\w+\(.*?(?=^def |^@|\Z)", re.MULTILI
 UNDER_TEST = re.compile(r"Under test: ([\w.]+)\.(\w+)\.")
 
 
-def cited(text):
+def cited_equations(text):
     """The equation numbers that a text cites as Eq. (N), Eqs. (N)-(M), Eqs. (N), (M) and (K)."""
     numbers = set()
     for found in CITATION.finditer(text):
@@ -35,7 +35,9 @@ def cited(text):
 
 
 def test_the_package_cites_every_equation_of_the_paper_and_no_other():
-    assert set().union(*(cited(path.read_text()) for path in PACKAGE.rglob("*.py"))) == PAPER
+    assert (
+        set().union(*(cited_equations(path.read_text()) for path in PACKAGE.rglob("*.py"))) == PAPER
+    )
 
 
 def test_every_equation_of_the_paper_is_labelled_once_and_in_order():
@@ -51,7 +53,7 @@ def test_under_each_equation_stand_its_code_and_its_test():
     assert [int(path.name[7:9]) for path in files] == sorted(PAPER)
     for path, number in zip(files, sorted(PAPER), strict=True):
         header = ast.get_docstring(ast.parse(path.read_text()))
-        assert number in cited(header.split("\n")[0]), path
+        assert number in cited_equations(header.split("\n")[0]), path
         module, name = UNDER_TEST.search(header).groups()
         # (2) and (3), (5) and (6) are one display and one function.
         shown = under[number + 1 if number in (2, 5) else number]

@@ -20,7 +20,7 @@ def parts():
     return re.search(r"^parts=\((.*)\)$", RUN.read_text("utf-8"), re.MULTILINE)[1].split()
 
 
-def called(job):
+def called_parts(job):
     """The parts that a job calls; one that its matrix names stands for each of that list."""
     matrix = job.get("strategy", {}).get("matrix", {})
     for step in job["steps"]:
@@ -32,5 +32,5 @@ def called(job):
 def test_every_part_is_a_function_and_the_workflows_call_each():
     functions = set(re.findall(r"^(\w+)\(\) \{$", RUN.read_text("utf-8"), re.MULTILINE))
     assert functions - {"environment", "installed", "site"} == {*parts()}
-    assert {part for job in JOBS.values() for part in called(job)} == {*parts()}
+    assert {part for job in JOBS.values() for part in called_parts(job)} == {*parts()}
     assert len(parts()) > 5

@@ -51,7 +51,7 @@ def root_centre(bodies, at):
     return np.average(centres, axis=0, weights=[body["mass"] for body in welded])
 
 
-def expected(mechanism, q):
+def program_numbers(mechanism, q):
     """Poses, J, the forces of gravity and of a wrench on the root, and M_u, by the program."""
     bodies = mechanism["bodies"]
     at = kinematics(mechanism, np.array(q))
@@ -63,7 +63,7 @@ def expected(mechanism, q):
     return poses, J, weight[n_a:], v.T @ FORCE + w.T @ TORQUE, M[n_a:, n_a:]
 
 
-def found(own, mechanism, q):
+def package_numbers(own, mechanism, q):
     """The same by the package, in the mechanism's order of bodies and coordinates."""
     system = own.system
     at = system.kinematics(q)
@@ -84,9 +84,11 @@ def test_random_mechanisms_move_and_weigh_as_their_links_do():
         followers += sum("mimic" in body for body in mechanism["bodies"])
         own = own_system(mechanism)
         q = [random_q(rng, mechanism) for _ in range(3)]
-        answers = [found(own, mechanism, own.model_q(q[call % 3])) for call in range(CALLS)]
+        answers = [
+            package_numbers(own, mechanism, own.model_q(q[call % 3])) for call in range(CALLS)
+        ]
         for place, answer in zip(q, answers, strict=False):
-            for a, b in zip(answer, expected(mechanism, place), strict=True):
+            for a, b in zip(answer, program_numbers(mechanism, place), strict=True):
                 size = np.abs(b).max(initial=0.0)
                 assert_within(a, b, ROUNDING * size)
         for call, answer in enumerate(answers):

@@ -20,7 +20,7 @@ PLANAR = Planar("puck", False, slice(1, 5), slice(1, 4))
 CONTINUOUS = Continuous("wheel", False, slice(1, 3), slice(1, 2))
 
 
-def moved(joint, q, delta_q):
+def next_entries(joint, q, delta_q):
     """A joint's entries of q (+) delta_q."""
     return joint.moved(q[joint.q], delta_q[joint.v])
 
@@ -66,7 +66,7 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     q = [9.0, *at, *quaternion_about(about, 0.8)]
     delta_q = [7.0, *LINEAR, *w]
     expected = at + R @ screw(LINEAR, w)[1]
-    q_next = [9.0, *moved(FLOATING, q, delta_q)]
+    q_next = [9.0, *next_entries(FLOATING, q, delta_q)]
     assert_within(q_next[1:4], expected, ROUNDING * 4)
     found = change(FLOATING, q, q_next)
     assert_within(found, delta_q[1:], 8 * ROUNDING)
@@ -81,7 +81,7 @@ def test_a_planar_base_moves_by_its_twist_in_its_own_frame(angle):
     q = [9.0, *at, np.cos(heading), np.sin(heading)]
     expected = at + (R @ screw([0.3, -0.7, 0.0], [0.0, 0.0, angle])[1])[:2]
     expected = [*expected, np.cos(heading + angle), np.sin(heading + angle)]
-    assert_within(moved(PLANAR, q, delta_q), expected, ROUNDING * 4)
+    assert_within(next_entries(PLANAR, q, delta_q), expected, ROUNDING * 4)
     found = change(PLANAR, q, [9.0, *expected])
     assert_within(found, delta_q[1:], 8 * ROUNDING)
 
@@ -91,7 +91,7 @@ def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle
     q = [9.0, np.cos(0.7), np.sin(0.7)]
     q_next = [9.0, np.cos(0.7 + angle), np.sin(0.7 + angle)]
     np.testing.assert_allclose(change(CONTINUOUS, q, q_next), [angle], atol=ROUNDING)
-    np.testing.assert_allclose(moved(CONTINUOUS, q, [0.0, angle]), q_next[1:], atol=ROUNDING)
+    np.testing.assert_allclose(next_entries(CONTINUOUS, q, [0.0, angle]), q_next[1:], atol=ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])
@@ -101,7 +101,7 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     about = np.array([1.0, 2.0, -2.0]) / 3
     w = angle * axis
     q = [9.0, 0.0, 0.0, 0.0, *quaternion_about(about, 0.8)]
-    after = [9.0, *moved(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
+    after = [9.0, *next_entries(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
     expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]
     found = Rotation.from_quat(after[4:]).as_matrix()
     assert_within(found, expected, 4 * ROUNDING)
@@ -113,16 +113,18 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
 @pytest.mark.parametrize("joint", [FLOATING, PLANAR, CONTINUOUS])
 def test_without_a_turn_a_joint_keeps_its_bits(joint):
     q = [9.0, 0.1, 0.2, 0.3, *quaternion_about(AXIS, 0.8)]
-    assert moved(joint, q, [0.0] * 7) == q[joint.q]
+    assert next_entries(joint, q, [0.0] * 7) == q[joint.q]
 
 
 def test_only_the_twist_without_a_turn_keeps_the_quaternion_as_it_is():
     rounded = [0.1, 0.2, 0.3, 1.0]  # of no length one: nothing but a copy keeps its bits
     q = [9.0, 0.0, 0.0, 0.0, *rounded]
-    still = moved(FLOATING, q, [7.0, *LINEAR, 0.0, -0.0, 0.0])
+    still = next_entries(FLOATING, q, [7.0, *LINEAR, 0.0, -0.0, 0.0])
     assert still[3:] == rounded
     for w in ((0.1, 0.1, 0.1), (0.1, 0.1, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.1)):
-        turned = moved(FLOATING, [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [7.0, *LINEAR, *w])
+        turned = next_entries(
+            FLOATING, [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [7.0, *LINEAR, *w]
+        )
         angle = np.sqrt(np.dot(w, w))
         expected = quaternion_about(np.array(w) / angle, angle)
         assert_within(turned[3:], expected, ROUNDING)

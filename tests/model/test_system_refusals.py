@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Body, ModelError, System
-from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, urdf_of_text
 
 BAD_Q: dict[str, tuple[str, int, float, str]] = {
     "nan": ("arm/swing", 0, np.nan, r"q\[arm/swing\]: must be finite"),
@@ -74,14 +74,14 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
 
 @pytest.mark.parametrize(("changes", "words"), BAD_BODY.values(), ids=BAD_BODY)
 def test_a_body_that_cannot_be_is_refused(tmp_path, changes, words):
-    good = {"name": "c", "urdf": written(tmp_path, CHAIN)}
+    good = {"name": "c", "urdf": urdf_of_text(tmp_path, CHAIN)}
     System([Body(**good)])
     with pytest.raises(ModelError, match=words):
         System([Body(**(good | changes))])
 
 
 def test_two_bodies_of_one_name_are_refused(tmp_path):
-    body = Body("box", written(tmp_path, BOX))
+    body = Body("box", urdf_of_text(tmp_path, BOX))
     with pytest.raises(ModelError, match=r"body\.name: is the name of two bodies; rename one"):
         System([body, body])
 
@@ -90,7 +90,7 @@ def test_a_singular_mass_matrix_is_refused_where_it_is_unactuated(tmp_path):
     mote = inertial("1", ("1", "1", "1")).replace(
         "<inertial>", '<inertial><origin xyz="1e9 0 0"/>'
     )  # its moment about the base, 1e18 + 1, has no room for the 1
-    path = written(tmp_path, robot(link("a", inertial=mote)))
+    path = urdf_of_text(tmp_path, robot(link("a", inertial=mote)))
     with pytest.raises(ModelError, match="mote: its mass matrix M_u is singular in float64"):
         System([Body("mote", path, "floating")])
     assert System([Body("mote", path, "floating", "all")]).n_u == 0
@@ -100,7 +100,7 @@ def test_a_chain_whose_last_link_outweighs_all_is_refused_by_its_joints(tmp_path
     """About one axis M = [[I1 + I2, I2], [I2, I2]]: of I1 = 1e-5, I2 = 2^40 all four are I2."""
     light, heavy = (inertial("1", (moment,) * 3) for moment in ("1e-5", str(2**40)))
     links = [link("b0"), link("b1", inertial=light), link("b2", inertial=heavy)]
-    path = written(tmp_path, robot(*links, joint("one", "b0", "b1"), joint("two", "b1", "b2")))
+    path = urdf_of_text(tmp_path, robot(*links, joint("one", "b0", "b1"), joint("two", "b1", "b2")))
     with pytest.raises(ModelError, match="mass matrix M_u is singular in float64") as caught:
         System([Body("arm", path, "fixed", ())])
     assert caught.value.value == ["arm/one", "arm/two"]

@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.forces.forces import compliant_form
-from tests.oracles.rational_kkt import proved
+from tests.oracles.rational_kkt import proved_optimum
 from tests.oracles.solution_truth import program, wrenches
 
 
@@ -43,7 +43,7 @@ def forces(step, compliance):
     stiffness = Fraction(step.h) / Fraction(compliance) * np.eye(gives.shape[1], dtype=int)
     whole = np.block([[H, aside], [aside.T, stiffness]]), np.append(g, aside[:1])
     working = dual_active_set(compliant_form(step, compliance)).minimiser.working
-    _, pressing, _ = proved((*whole, np.hstack([A, gives]), b), working)
+    _, pressing, _ = proved_optimum((*whole, np.hstack([A, gives]), b), working)
     lam = np.zeros(len(b), dtype=object)
     lam[list(working)] = pressing
     return np.array(wrenches(step, [lam[block] for block in blocks])).reshape(-1, 4)

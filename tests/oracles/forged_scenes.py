@@ -22,7 +22,7 @@ def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
 
     walls = between_walls()
     held = walls.replace(extra=Extra(("held back",), -np.eye(3)[:1], np.array([-2e-4])))
-    apart = contacts_of((-1e-3, -1e-3), facing(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    apart = contacts_of((-1e-3, -1e-3), facing_frames(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
     found = {
         ("exact", "held back by a row of its own"): held.replace(cone="pyramid"),
         ("exact", "sticks, six rows of rank four"): on_floor(sticks),
@@ -52,7 +52,7 @@ def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
     return found
 
 
-def facing(count: int) -> np.ndarray:
+def facing_frames(count: int) -> np.ndarray:
     """Frames of walls that face each other along y, shape (count, 3, 3); rows d1, d2, n."""
     frame = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     turned = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
@@ -61,7 +61,7 @@ def facing(count: int) -> np.ndarray:
 
 def between_walls() -> StepData:
     """A ball that slides along a floor between two walls, each 1 m away."""
-    frames = np.concatenate([np.eye(3)[None], facing(2)])
+    frames = np.concatenate([np.eye(3)[None], facing_frames(2)])
     J = np.tile(np.eye(4, 3), (3, 1, 1))
     contacts = contacts_of((0.0, 1.0, 1.0), frames, J, 0.5)
     return free_step(0.3 * np.eye(3), (4.0, 1.0, -2.943), contacts, 0.01).replace(cone="ellipsoid")

@@ -27,7 +27,7 @@ from quasistatic_ref import InputError, StepData, StepInfeasible, solve_step
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read
 from quasistatic_ref.cli.solution_files import solution_text as text_of
 from quasistatic_ref.cli.verify import refutation
-from tests.oracles.records import places, put, value_at
+from tests.oracles.records import places, value_at, with_value
 from tests.oracles.solution_truth import least_bound, truth_of, wrenches
 
 Json = Any
@@ -90,13 +90,13 @@ def forgeries(step: StepData, record: Json) -> Iterator[tuple[str, Json]]:
         for new in (*replacements(value), *([...] if where else [])):
             if new is value or (type(new) is type(value) and repr(new) == repr(value)):
                 continue
-            forged = put(record, where, new)
+            forged = with_value(record, where, new)
             yield name, forged
             if where[0:1] == ("lam",) and isinstance(new, float):
                 yield f"{name} and wrench", with_its_wrenches(step, forged)
 
 
-def refused(step: StepData, record: Json, path: Path) -> bool:
+def is_refused(step: StepData, record: Json, path: Path) -> bool:
     """Whether a record is refused, by its reader or by what `verify` does with it."""
     path.write_text(json.dumps(record))
     try:
@@ -116,7 +116,7 @@ def outcomes(
     for number, (name, forged) in enumerate(forgeries(step, good)):
         if number % every:
             continue
-        if refused(step, forged, path):
+        if is_refused(step, forged, path):
             yield name, "refused", forged
         else:
             yield name, "still true" if truth(forged) else "PASSED", forged
@@ -135,5 +135,5 @@ def at_random(rng: np.random.Generator, step: StepData, record: Json) -> Json:
             value = old + (abs(old) + 1e-12) * float(
                 10 ** rng.uniform(-17, 3) * rng.choice([-1, 1])
             )
-        forged = put(forged, where, value)
+        forged = with_value(forged, where, value)
     return with_its_wrenches(step, forged) if rng.random() < 0.5 else forged

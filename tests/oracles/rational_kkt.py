@@ -26,7 +26,7 @@ def exact(values: Any) -> Exact:
     return np.frompyfunc(Fraction, 1, 1)(np.asarray(values, dtype=object))
 
 
-def solved(M: Exact, right: Exact) -> Exact:
+def solution(M: Exact, right: Exact) -> Exact:
     """The solution of M x = right: FLINT finds it, and here it is put into the equations.
 
     Raises
@@ -56,11 +56,11 @@ def on_rows(of: Program, working: Sequence[int]) -> tuple[Exact, Exact]:
     H, g, A, b = of
     W = list(working)
     none = np.zeros((len(W), len(W)), dtype=int)
-    both = solved(np.block([[H, -A[W].T], [A[W], none]]), np.append(g, b[W]))
+    both = solution(np.block([[H, -A[W].T], [A[W], none]]), np.append(g, b[W]))
     return both[: len(g)], both[len(g) :]
 
 
-def proved(of: Program, working: Sequence[int]) -> tuple[Exact, Exact, Exact]:
+def proved_optimum(of: Program, working: Sequence[int]) -> tuple[Exact, Exact, Exact]:
     """The optimum, its multipliers on a working set, and all slacks.
 
     Raises

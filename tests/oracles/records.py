@@ -45,7 +45,7 @@ def value_at(record: Any, place: Place) -> Any:
     return record
 
 
-def put(record: Any, place: Place, value: Any) -> Any:
+def with_value(record: Any, place: Place, value: Any) -> Any:
     """A copy of a record with something else at a place, or nothing there, by `...`."""
     if not place:
         return value

@@ -10,7 +10,7 @@ Exact = tuple[float, Array, Array]
 """Volume [m^3], centre [m], and inertia about it for each kilogram [m^2]."""
 
 
-def summed(parts: Sequence[Exact]) -> Exact:
+def sum_of_parts(parts: Sequence[Exact]) -> Exact:
     """Of several parts; a negative volume is a part that is cut out (Steiner's theorem)."""
     volume = sum(part[0] for part in parts)
     centre = sum(part[0] * part[1] for part in parts) / volume
@@ -76,7 +76,7 @@ def mug(rng, count: int) -> tuple[Array, Exact]:
     ]
     hollow = rod(inner, height - bottom, (height + bottom) / 2)
     whole = rod(outer, height, height / 2)
-    return np.concatenate(places), summed([whole, (-hollow[0], *hollow[1:])])
+    return np.concatenate(places), sum_of_parts([whole, (-hollow[0], *hollow[1:])])
 
 
 def bracket(rng, count: int) -> tuple[Array, Exact]:
@@ -86,7 +86,7 @@ def bracket(rng, count: int) -> tuple[Array, Exact]:
     shared = abs(first[:, 0] - 0.08) < 1e-12
     hidden = (abs(second[:, 0] - 0.08) < 1e-12) & (abs(second[:, 1]) < 0.01)
     points = np.concatenate([first[~shared], second[~hidden]])
-    return points, summed([block(long), block(across, at)])
+    return points, sum_of_parts([block(long), block(across, at)])
 
 
 Solids = Callable[[np.random.Generator, int], tuple[Array, Exact]]

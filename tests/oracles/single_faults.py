@@ -20,9 +20,9 @@ from quasistatic_ref.cli.solution_files import infeasible_text
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step, point_step
 from quasistatic_ref.step.files import step_sha256, step_text
-from tests.oracles.forged_scenes import facing, scenes
+from tests.oracles.forged_scenes import facing_frames, scenes
 from tests.oracles.forgeries import good_file, with_its_wrenches
-from tests.oracles.records import put
+from tests.oracles.records import with_value
 
 Fault = tuple[str, str, str]
 """Texts of a step and of a solution, and what the second checker says first."""
@@ -34,7 +34,7 @@ H, DOWN = 0.5, 2.0
 def single_faults() -> Iterator[Fault]:
     """Each file with the beginning of the reason for its verdict."""
     yield from in_the_files()
-    yield from rounded()
+    yield from rounding_faults()
     yield from on_other_rows()
     yield from in_the_ellipsoid()
     yield from beyond_a_limit()
@@ -70,15 +70,15 @@ def in_the_files() -> Iterator[Fault]:
             "names of extra are not strings",
         ),
     ):
-        yield json.dumps(put(record, where, value)), solution, reason
-    yield fault(step, put(good, ("certificate", "error_bound"), None), "nothing is claimed")
+        yield json.dumps(with_value(record, where, value)), solution, reason
+    yield fault(step, with_value(good, ("certificate", "error_bound"), None), "nothing is claimed")
     yield fault(of["none"], good_file(of["none"], "none"), "nothing is claimed")
     step = of["infeasible"].replace(cone="ellipsoid")
     proof = infeasible_text(step, ["1"] * 8)
     yield step_text(step), proof, "a proof of infeasibility is not written in the ellipsoid"
 
 
-def rounded() -> Iterator[Fault]:
+def rounding_faults() -> Iterator[Fault]:
     """Numbers half-way between two of float64, and below the normal ones; an indefinite matrix."""
     ulp = math.ulp(1.0)
     tau, target = np.array([1.0, 1.0 + ulp]), np.full(2, ulp / 2)  # delta_q = tau + target
@@ -111,7 +111,9 @@ def on_other_rows() -> Iterator[Fault]:
         ([[0, i] for i in range(4)], "the rows of active are not independent"),
     ):
         yield fault(
-            sticks, put(good_file(sticks, "exact"), ("certificate", "active"), active), reason
+            sticks,
+            with_value(good_file(sticks, "exact"), ("certificate", "active"), active),
+            reason,
         )
 
 
@@ -142,7 +144,7 @@ def in_the_ellipsoid() -> Iterator[Fault]:
     edge, over = 0.5 * DOWN, 0.5 * DOWN * (1 + 2.0**-40)  # of the friction that the floor can give
     at_the_edge = stuck(on_floor(edge), [[push, -H * edge, 0.0, 0.0]], rows, 0.0)
     yield fault(on_floor(edge), at_the_edge, PROVED)
-    beyond = put(at_the_edge, ("lam", 0, 1), math.nextafter(-H * edge, -1.0))
+    beyond = with_value(at_the_edge, ("lam", 0, 1), math.nextafter(-H * edge, -1.0))
     step = on_floor(edge)
     yield fault(step, with_its_wrenches(step, beyond), "lam is not in the dual cones")
     slides, gap = on_floor(over), 1e-20  # more than what is left of the push costs
@@ -176,19 +178,19 @@ def beyond_a_limit() -> Iterator[Fault]:
         ("gap", -1e-20, "gap is above its limit"),
         ("gap", 1.0, "gap is above its limit"),
     ):
-        yield fault(slides, put(good, ("certificate", name), value), reason)
-    record = put(good, ("lam", 0, 1), 2 * good["lam"][0][0])
+        yield fault(slides, with_value(good, ("certificate", name), value), reason)
+    record = with_value(good, ("lam", 0, 1), 2 * good["lam"][0][0])
     yield fault(slides, with_its_wrenches(slides, record), "lam is not in the dual cones")
     sticks = of["exact in the ellipsoid"]
-    record = put(good_file(sticks, "exact in the ellipsoid"), ("certificate", "gap"), 1.0)
+    record = with_value(good_file(sticks, "exact in the ellipsoid"), ("certificate", "gap"), 1.0)
     yield fault(sticks, record, "gap is below the gap, or above its limit")
     slides = of["residual"]
     good = good_file(slides, "residual")
-    record = put(good, ("certificate", "error_bound"), 1.5)
+    record = with_value(good, ("certificate", "error_bound"), 1.5)
     yield fault(slides, record, "error_bound is not between 0 and 1")
-    record = with_its_wrenches(slides, put(good, ("lam", 0, 3), -1e-12))
+    record = with_its_wrenches(slides, with_value(good, ("lam", 0, 3), -1e-12))
     yield fault(slides, record, "a multiplier is negative")
-    open_walls = contacts_of(1e-3, facing(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    open_walls = contacts_of(1e-3, facing_frames(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
     step = free_step(np.eye(3), np.zeros(3), open_walls, H)
     for y in ("0", "-1"):
         farkas = ["0"] * 8

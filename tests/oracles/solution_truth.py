@@ -22,7 +22,7 @@ from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from tests.oracles.rational_kkt import Exact, Program, exact, on_rows, proved, solved
+from tests.oracles.rational_kkt import Exact, Program, exact, on_rows, proved_optimum, solution
 
 Json = Any
 
@@ -78,11 +78,11 @@ def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
     found = []
     for rows, impulses in zip(combinations(step), lam, strict=True):
         forces = exact(impulses) @ rows[:, [1, 2, 0, 3]] / Fraction(step.h)
-        found.append([rounded(part) for part in forces])
+        found.append([nearest_float(part) for part in forces])
     return found
 
 
-def rounded(x: Fraction) -> float:
+def nearest_float(x: Fraction) -> float:
     """The nearest float64, never -0.0."""
     return float(x) + 0.0
 
@@ -145,7 +145,7 @@ class Judge:
     def __init__(self, step: StepData, good: Json) -> None:
         self.program = program(step)
         H, g, _, _ = self.program
-        self.free = g @ solved(H, g)
+        self.free = g @ solution(H, g)
         self.x = self._optimum(step, good["certificate"])
         taken = self.x @ H @ self.x
         self.rounding = Fraction(1e-9) * (self.free + taken) / 2 * ROUNDING
@@ -162,7 +162,7 @@ class Judge:
             return on_rows(self.program, working)[0]
         end = form_optimum(exact_form(step))
         working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
-        return proved(self.program, working)[0]
+        return proved_optimum(self.program, working)[0]
 
     def lam(self, record: Json) -> Exact:
         """All multipliers of a record, the user's own rows last."""
@@ -179,7 +179,7 @@ class Judge:
         H, g, A, b = self.program
         lam = self.lam(record)
         left = H @ self.x - g - lam @ A
-        gap: Fraction = left @ solved(H, left) / 2 + lam @ (A @ self.x - b)
+        gap: Fraction = left @ solution(H, left) / 2 + lam @ (A @ self.x - b)
         return gap
 
 

@@ -19,7 +19,7 @@ from tests.oracles.rational_kkt import exact
 PROBLEMS = 320
 
 
-def eliminated(M, right):
+def gauss_solution(M, right):
     """The solution of M X = right by Gauss-Jordan elimination; None if M is singular."""
     rows = [list(r) + list(s) for r, s in zip(M, right, strict=True)]
     for i in range(len(M)):
@@ -40,7 +40,7 @@ class Enumeration:
     def __init__(self, H, g, A, b):
         self.A, self.b, self.m, self.n = A, b, len(b), len(g)
         identity = [[Fraction(int(i == j)) for j in range(self.n)] for i in range(self.n)]
-        self.H_inv = eliminated(H, identity)
+        self.H_inv = gauss_solution(H, identity)
         self.free = [np.dot(row, g) for row in self.H_inv]
         self.reach = [[np.dot(row, a) for row in self.H_inv] for a in A]
         self.x = None
@@ -54,7 +54,7 @@ class Enumeration:
 
     def _try(self, W):
         S = [[np.dot(self.A[i], self.reach[j]) for j in W] for i in W]
-        lam_w = eliminated(S, [[self.b[i] - np.dot(self.A[i], self.free)] for i in W])
+        lam_w = gauss_solution(S, [[self.b[i] - np.dot(self.A[i], self.free)] for i in W])
         if lam_w is None or any(v[0] < 0 for v in lam_w):
             return
         lam = [Fraction(0)] * self.m
@@ -75,7 +75,7 @@ class Enumeration:
             for C in combinations(Z, k):
                 first, rest = C[0], C[1:]  # a_first = -sum d_i a_i, rest independent
                 gram = [[np.dot(self.A[i], self.A[j]) for j in rest] for i in rest]
-                d = eliminated(gram, [[-np.dot(self.A[i], self.A[first])] for i in rest])
+                d = gauss_solution(gram, [[-np.dot(self.A[i], self.A[first])] for i in rest])
                 if d is None or any(v[0] < 0 for v in d):
                     continue
                 terms = [

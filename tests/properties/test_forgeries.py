@@ -12,7 +12,7 @@ from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.oracles.forged_scenes import between_walls, scenes
-from tests.oracles.forgeries import at_random, good_file, outcomes, refused
+from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
 from tests.oracles.records import places
 from tests.oracles.solution_truth import truth_of, wrenches
 
@@ -27,7 +27,7 @@ def path(tmp_path):
     return tmp_path / "solution.json"
 
 
-def named(record):
+def field_names(record):
     """The names of all fields that stand in a record."""
     return {".".join(k for k in where if isinstance(k, str)) for where in places(record)}
 
@@ -36,12 +36,12 @@ def named(record):
 def test_no_false_file_passes(path, kind, name):
     step = SCENES[kind, name]
     good = good_file(step, kind)
-    assert refused(step, good, path) == (kind in PROVES_NOTHING)
+    assert is_refused(step, good, path) == (kind in PROVES_NOTHING)
     counts = {}
     for field, said, forged in outcomes(step, good, path):
         assert said != "PASSED", (field, forged)
         counts.setdefault(field, Counter())[said] += 1
-    assert counts.keys() >= named(good)
+    assert counts.keys() >= field_names(good)
     assert all(said["refused"] for said in counts.values())
     freely = {field for field, said in counts.items() if said["still true"]}
     allowed = {"delta_q", "lam", "lam and wrench", "certificate.error_bound", "certificate.gap"}
@@ -59,7 +59,7 @@ def test_no_random_forgery_passes(path, kind, name):
     tried = 0
     for forged in (at_random(rng, step, good) for _ in range(RANDOM)):
         tried += forged != good
-        assert refused(step, forged, path) or truth(forged), forged
+        assert is_refused(step, forged, path) or truth(forged), forged
     assert tried > RANDOM / 2
 
 
@@ -75,7 +75,7 @@ def test_every_kind_and_every_claim_of_a_certificate_is_forged():
     assert in_files | in_memory == {field.name for field in fields(Certificate)}
 
 
-def forged(step, path, **changes):
+def faults_of_forgeries(step, path, **changes):
     """What is wrong with a true solution of a step in which some fields are changed."""
     record = json.loads(solution_text(solve_step(step)))
     certificate = record["certificate"]
@@ -89,12 +89,12 @@ def test_a_force_between_walls_that_nothing_touches_is_refused(path):
     """1,000 N on both walls, 1 m away: balanced, in their cones, and at work over 1 m each."""
     step = between_walls()
     record = json.loads(solution_text(solve_step(step)))
-    assert forged(step, path) is None
+    assert faults_of_forgeries(step, path) is None
     lam = record["lam"]
     for wall in (1, 2):
         lam[wall][0] += 1000.0 * step.h
     both = {"lam": lam, "wrench": wrenches(step, lam)}
     for gap in (record["certificate"]["gap"], 1e9):
         for error in (record["certificate"]["error_bound"], 1e9):
-            reason = forged(step, path, **both, gap=gap, error_bound=error)
+            reason = faults_of_forgeries(step, path, **both, gap=gap, error_bound=error)
             assert "error_bound is 1" in reason or "presses where nothing touches" in reason

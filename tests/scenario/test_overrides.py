@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_scenario
-from tests.model.urdf.urdf_texts import written
+from tests.model.urdf.urdf_texts import urdf_of_text
 from tests.scenes import BALL, written_scenario
 
 
@@ -53,7 +53,7 @@ def test_what_is_given_is_not_changed(path):
 @pytest.mark.parametrize("kind", [str, Path])
 def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_path_factory, kind):
     elsewhere = tmp_path_factory.mktemp("elsewhere")
-    urdf = written(elsewhere, BALL.replace('"0.3"', '"0.7"'))
+    urdf = urdf_of_text(elsewhere, BALL.replace('"0.3"', '"0.7"'))
     scenario = load_scenario(path, {"bodies.ball.urdf": kind(urdf)})
     assert scenario.system.mass("ball") == 0.7
     within = {"urdf": kind(urdf), "base": "floating", "pose": {"xyz": (0.065, 0, 0.05)}}

@@ -7,7 +7,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.scenario.paths import path_in, shared_folders
 
 
-def found(folder, address):
+def path_found(folder, address):
     return path_in(folder, TableReader({"urdf": address}, "bodies.arm", ScenarioError), "urdf")
 
 
@@ -23,7 +23,7 @@ def share(tmp_path, monkeypatch):
 
 
 def test_a_file_of_an_installed_package_is_found_from_any_folder(share, tmp_path):
-    path = found(tmp_path / "elsewhere", "package://arms/arm.urdf")
+    path = path_found(tmp_path / "elsewhere", "package://arms/arm.urdf")
     assert path == share / "arms" / "arm.urdf"
     assert shared_folders(path) == [share]
 
@@ -38,19 +38,19 @@ def test_a_file_elsewhere_has_no_shared_folder(share, tmp_path):
 )
 def test_what_is_not_installed_is_refused_with_the_remedy(share, tmp_path, address):
     with pytest.raises(ScenarioError, match=r"pip install 'quasistatic-ref\[robots\]'") as caught:
-        found(tmp_path, address)
+        path_found(tmp_path, address)
     assert (caught.value.field, caught.value.value) == ("bodies.arm.urdf", address)
 
 
 def test_a_path_does_not_leave_its_package(share, tmp_path):
     with pytest.raises(ScenarioError, match="must be a path inside the package"):
-        found(tmp_path, "package://arms/../secret.urdf")
+        path_found(tmp_path, "package://arms/../secret.urdf")
     for address in ("package://../share/secret.urdf", "package://./secret.urdf"):
         with pytest.raises(ScenarioError, match="installed package"):
-            found(tmp_path, address)
+            path_found(tmp_path, address)
 
 
 def test_a_link_does_not_lead_out_of_its_package(share, tmp_path):
     (share / "arms" / "link.urdf").symlink_to(share / "secret.urdf")
     with pytest.raises(ScenarioError, match="must be a path inside the package"):
-        found(tmp_path, "package://arms/link.urdf")
+        path_found(tmp_path, "package://arms/link.urdf")

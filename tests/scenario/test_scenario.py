@@ -17,7 +17,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
 from tests.closeness import assert_close, assert_relative, assert_within
-from tests.model.urdf.urdf_texts import collision, joint, link, mimic, robot, written
+from tests.model.urdf.urdf_texts import collision, joint, link, mimic, robot, urdf_of_text
 from tests.scenes import PUSH
 from tests.tolerances import ROUNDING
 
@@ -97,7 +97,7 @@ def test_an_actuated_base_has_a_stiffness_too(load, value, expected):
 def test_stiffness_is_filled_in_by_joint_in_any_order_of_bodies(tmp_path):
     # In pinocchio's order "b" comes first; each body's matrix belongs to its own joints.
     text = robot(link("a"), link("b"), joint("j", "a", "b"), link("c"), joint("i", "b", "c"))
-    written(tmp_path, text, "two.urdf")
+    urdf_of_text(tmp_path, text, "two.urdf")
     body = '[bodies.%s]\nurdf = "two.urdf"\nactuated = ["j", "i"]\nK_q = [[%d, 1], [1, %d]]\n'
     path = tmp_path / "s.toml"
     head = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
@@ -215,7 +215,7 @@ def test_a_mimic_has_no_target(tmp_path):
         link("a"), link("b", collision('<sphere radius="1"/>')), link("c"), joint("j", "a", "b"),
         joint("m", "a", "c", more=mimic("j")),
     )  # fmt: skip
-    written(tmp_path, text, "m.urdf")
+    urdf_of_text(tmp_path, text, "m.urdf")
     path = tmp_path / "s.toml"
     path.write_text(
         'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n[bodies.m]\n'

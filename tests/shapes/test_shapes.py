@@ -26,7 +26,7 @@ from tests.tolerances import ROUNDING
 TEXT: Any = "big"
 
 
-def sheared(by: float) -> np.ndarray:
+def sheared_matrix(by: float) -> np.ndarray:
     """A matrix R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
     return np.array([[1.0, by, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 
@@ -66,7 +66,7 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ),
     (
         "shear",
-        lambda: PlacedShape("a#0", 0, sheared(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
+        lambda: PlacedShape("a#0", 0, sheared_matrix(2 * ORTHONORMAL), np.zeros(3), Sphere(1.0)),
         "a#0.R: must be a rotation",
     ),
 ]

@@ -44,7 +44,7 @@ class Witness(Observer):
         return replace(trajectory, header={**trajectory.header, "heights": heights})
 
 
-def ran(scenario, witness):
+def run_with(scenario, witness):
     return rollout(
         scenario.simulator(), scenario.system.q_start, scenario.targets, STEPS,
         force=scenario.force, progress=False, observers=[witness],
@@ -54,7 +54,7 @@ def ran(scenario, witness):
 def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario):
     witness = Witness()
     plain = scenario.run(progress=False)
-    run = ran(scenario, witness)
+    run = run_with(scenario, witness)
     steps = [(when, k) for k in range(STEPS) for when in ("before", "after")]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
     assert run.header == {**plain.header, "heights": run.q[1:, 2].tolist()}
@@ -66,7 +66,7 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 def test_an_observer_ends_a_run_as_any_failure_does(scenario):
     witness = Witness(ends_at=2)
     with pytest.raises(RunFailed, match="step 2: high enough") as caught:
-        ran(scenario, witness)
+        run_with(scenario, witness)
     assert witness.asked[-2:] == [("before", 2), ("end", 2, "step 2: high enough", False)]
     assert caught.value.trajectory.header["heights"] == caught.value.trajectory.q[1:, 2].tolist()
 

@@ -14,7 +14,7 @@ from quasistatic_ref import (
     rollout,
 )
 from tests.closeness import assert_close, assert_relative
-from tests.model.urdf.urdf_texts import joint, link, robot, written
+from tests.model.urdf.urdf_texts import joint, link, robot, urdf_of_text
 from tests.scenes import written_scenario
 from tests.tolerances import ROUNDING, STICKING
 
@@ -30,7 +30,7 @@ def scenario(tmp_path):
 def lift(tmp_path):
     """A mass of 2 kg on a vertical slide."""
     text = robot(link("post"), link("car"), joint("z", "post", "car", "prismatic", "0 0 1"))
-    return System([Body("lift", written(tmp_path, text), actuated=("z",))])
+    return System([Body("lift", urdf_of_text(tmp_path, text), actuated=("z",))])
 
 
 def test_the_target_is_a_change_from_where_the_joints_are(scenario):

@@ -41,13 +41,13 @@ def transform(value):
     return T
 
 
-def placed(rng):
+def target_at_random(rng):
     turned = Rotation.from_rotvec(rng.normal(size=3))
     return np.concatenate([rng.normal(size=3), turned.as_quat()])
 
 
 def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
-    values = np.array([placed(rng), placed(rng), placed(rng)])
+    values = np.array([target_at_random(rng), target_at_random(rng), target_at_random(rng)])
     track = JointTrack(scene, scene.joint("arm/base"), TIMES, values)
     for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
         start = transform(values[i])

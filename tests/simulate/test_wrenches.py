@@ -34,7 +34,7 @@ def pinch():
     return scenario, scenario.run(progress=False)
 
 
-def generalised(run, k):
+def row_forces(run, k):
     """A' lam / h, shape (n_v,): what the rows of step k do to the coordinates."""
     return run["A"][k].T @ run["lam"][k] / run.header["h"]
 
@@ -47,7 +47,7 @@ def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
     for k in range(run.steps):
         J = system.kinematics(run["q"][k]).J
         both = J[system.link("ball")].T @ ball[k] + J[system.link("rail/plate")].T @ plate[k]
-        assert_close(both, generalised(run, k), ROUNDING)
+        assert_close(both, row_forces(run, k), ROUNDING)
 
 
 def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):

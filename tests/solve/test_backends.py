@@ -121,7 +121,7 @@ def test_a_solver_stopped_after_one_iteration_is_raised(prefix, name, limit, mon
     assert caught.value.step is step
 
 
-def lying(monkeypatch, spoil):
+def make_backend_lie(monkeypatch, spoil):
     """Make the backend return a spoilt answer while it still says optimal."""
     honest = CvxpySolver.answer
 
@@ -144,7 +144,7 @@ LIES = {
 @pytest.mark.parametrize("spoil", LIES.values(), ids=LIES)
 def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, rng):
     step, _, _ = planted_step(rng)
-    lying(monkeypatch, spoil)
+    make_backend_lie(monkeypatch, spoil)
     with pytest.raises(StepNotSolved) as caught:
         solve_step(step)
     assert caught.value.step is step
@@ -152,7 +152,7 @@ def test_an_optimal_status_is_not_evidence(spoil, monkeypatch, rng):
 
 
 def test_certify_off_takes_the_solver_s_word_and_says_so(monkeypatch, rng):
-    lying(monkeypatch, LIES["no motion"])
+    make_backend_lie(monkeypatch, LIES["no motion"])
     answer = solve_step(planted_step(rng)[0], certify="off")
     assert answer.certificate.kind == "none"
     assert not answer.certificate.residuals

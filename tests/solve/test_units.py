@@ -24,11 +24,11 @@ from quasistatic_ref.solve.units import (
 from quasistatic_ref.tolerances import FAR
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import (
+    free_displacement,
     hessian,
     pinch,
     random_step,
     sphere_on_floor,
-    unconstrained,
 )
 from tests.tolerances import NATURAL_HIGH, NATURAL_LOW, ROUNDING
 
@@ -85,7 +85,7 @@ def test_the_typical_natural_row_is_about_one(step):
 def test_the_natural_unconstrained_step_is_no_longer_than_about_one(step):
     # rho is ||H^-1 g||_H, or the push out of a penetration where that is more.
     natural = natural_step(step, natural_units(step))
-    free = unconstrained(natural)
+    free = free_displacement(natural)
     assert np.sqrt(free @ hessian(natural) @ free) <= NATURAL_HIGH
 
 

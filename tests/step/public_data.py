@@ -31,14 +31,14 @@ from quasistatic_ref import (
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
-from tests.extras import missing
+from tests.extras import is_missing
 from tests.helpers import always_in_blocks, random_step
 from tests.scenes import written_scenario
 
 NAN = np.nan
 
 
-def squeezed():
+def contradiction_error():
     """The error about a step whose two contacts contradict each other."""
     with pytest.raises(StepInfeasible) as caught:
         solve_step(point_between_walls([EAST, WEST], -1e-3), "none")
@@ -74,12 +74,12 @@ def public_data(folder):
     step = random_step(np.random.default_rng(0))
     extra = Extra(("a", "b"), np.ones((2, 7)), [-1.0, -2.0])
     solution = solve_step(step)
-    infeasible = squeezed()
+    infeasible = contradiction_error()
     return {
         "StepData": step,
         "StepData with rows of a user's": step.replace(extra=extra),
         "Contacts": step.contacts,
-        **({} if missing("fast") else posed_data(result.step)),
+        **({} if is_missing("fast") else posed_data(result.step)),
         "Extra": extra,
         "StepSolution": solution,
         "CoulombSolution": coulomb_step(step),

@@ -88,7 +88,7 @@ def test_a_cone_function_combines_the_gap_and_the_motions(name):
     assert name == "product" or not matrix[: cone(name).without_torsion, 3].any()
 
 
-def spent(name, f_1, f_2, tau):
+def used_share(name, f_1, f_2, tau):
     """The left side of a cone's limit surface, forces in units of mu_v, mu_v, mu_omega."""
     if name == "product":
         return max(abs(f_1) + abs(f_2), abs(tau))
@@ -112,7 +112,7 @@ def test_every_wrench_is_inside_of_the_limit_surface(name, seed):
     lam = rng.exponential(size=m) * (rng.uniform(size=m) < 0.7)
     for j, (f_1, f_2, f_n, tau) in enumerate(contact_wrenches(contacts, lam, 0.01, name)):
         units = contacts.mu_v[j], contacts.mu_v[j], contacts.mu_omega[j]
-        assert spent(name, *np.array([f_1, f_2, tau]) / units) <= f_n * (1 + ROUNDING)
+        assert used_share(name, *np.array([f_1, f_2, tau]) / units) <= f_n * (1 + ROUNDING)
         assert contacts.rows[j] == 6 or tau == 0.0
 
 

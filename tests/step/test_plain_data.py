@@ -11,7 +11,7 @@ import pytest
 from quasistatic_ref import Box, Extra, Simulator, Sphere, load_scenario
 from quasistatic_ref.formats.plain import Plain
 from tests.scenes import written_scenario
-from tests.step.public_data import squeezed
+from tests.step.public_data import contradiction_error
 
 ROUND_TRIPS = {
     "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
@@ -35,11 +35,11 @@ def test_a_copy_is_equal_and_of_the_same_class_and_hash(things, trip):
         assert str(again) == str(thing) or not isinstance(thing, Exception), name
 
 
-def locked(data):
+def locked_arrays(data):
     """Names of the arrays that cannot be written, but for those that a copy forms when read."""
     for key, value in vars(data).items():
         if isinstance(value, Plain):
-            yield from locked(value)
+            yield from locked_arrays(value)
         elif isinstance(value, np.ndarray) and not value.flags.writeable:
             yield from {key} - {"H", "mu", "wrench", "counts", "mask", "offsets"}
 
@@ -48,7 +48,7 @@ def locked(data):
 def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, trip):
     for name, thing in things.items():
         if "Step" in name:
-            assert sorted(locked(trip(thing))) == sorted(locked(thing)), name
+            assert sorted(locked_arrays(trip(thing))) == sorted(locked_arrays(thing)), name
 
 
 def test_a_pickled_system_does_not_need_its_files(tmp_path):
@@ -92,7 +92,7 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "certify": "full",
         "cone": "product",
         "law": "coulomb",
-        "extension": squeezed,  # any function that a pickle finds by its name
+        "extension": contradiction_error,  # any function that a pickle finds by its name
         "limits": replace(scenario.limits, reach=7.0),
     }
     _, (kind, again) = trip(Simulator(scenario.system, scenario.pairs, **given)).__reduce__()

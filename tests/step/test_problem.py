@@ -21,7 +21,7 @@ from tests.tolerances import MULTIPLIERS, OPTIMUM
 PAPER = {"n_a": 7, "n_u": 6, "rows": (6,) * 10 + (4,) * 5}
 
 
-def filled(step):
+def filled_problem(step):
     problem = CvxpyProblem(step)
     problem.fill(step)
     return problem
@@ -35,7 +35,7 @@ def with_mu_of(other, step):
 
 @pytest.mark.parametrize("solver", [cp.CLARABEL, cp.OSQP, cp.PIQP])
 def test_the_paper_s_step_compiles_to_13_variables_and_80_rows(solver, rng):
-    problem = filled(random_step(rng, **PAPER)).problem
+    problem = filled_problem(random_step(rng, **PAPER)).problem
     data, _, _ = problem.get_problem_data(solver, solver_opts={})
     rows = data["F"] if "F" in data else data["A"]  # a QP solver's inequalities | a conic one's
     assert data["P"].shape == (13, 13)
@@ -43,7 +43,7 @@ def test_the_paper_s_step_compiles_to_13_variables_and_80_rows(solver, rng):
 
 
 def test_quad_form_with_a_psd_parameter_is_dpp_only_inside_its_scope(rng):
-    problem = filled(random_step(rng, **PAPER)).problem
+    problem = filled_problem(random_step(rng, **PAPER)).problem
     assert not problem.is_dpp()
     with scopes.quad_form_dpp_scope():
         assert problem.is_dpp()
@@ -103,7 +103,7 @@ def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
     # The row is far from tight: its multiplier is zero, the others are the planted ones.
     step, delta_q, lam = planted_step(rng)
     far = float(np.abs(delta_q).sum()) + 1.0
-    problem = filled(step.replace(extra=Extra(("far",), np.ones((1, 7)), [-far])))
+    problem = filled_problem(step.replace(extra=Extra(("far",), np.ones((1, 7)), [-far])))
     problem.problem.solve(solver=cp.DAQP)
     expected = [*lam, 0.0]
     assert_within(problem.dual(), expected, MULTIPLIERS * lam.max())

@@ -14,7 +14,7 @@ FILES = json.loads(Path(__file__).with_name("solutions_of_version_1.json").read_
 PROVED = ("exact", "exact in the ellipsoid", "enclosure", "infeasible")
 
 
-def read(path, file, **changes):
+def step_and_solution(path, file, **changes):
     """The step and the solution of a file, with fields of it or of its certificate changed."""
     step = step_from_record(FILES[file]["step"])
     record = json.loads(json.dumps(FILES[file]["solution"]))
@@ -47,7 +47,7 @@ def test_what_was_true_is_verified(tmp_path, capsys, kind):
 
 @pytest.mark.parametrize("kind", ["residual", "none"])
 def test_what_proved_nothing_is_refused_or_held_to_its_bound(tmp_path, kind):
-    step, solution = read(tmp_path / "x.json", kind)
+    step, solution = step_and_solution(tmp_path / "x.json", kind)
     assert (refutation(step, solution) is None) == (kind == "residual")
 
 
@@ -57,7 +57,7 @@ def test_a_claim_that_is_null_is_a_claim_that_is_missing(tmp_path, kind):
     claims = record["certificate"]
     for name in set(claims) - {"kind", "residuals"}:
         others = {other: claims[other] for other in claims if other != name}
-        step, null = read(tmp_path / "x.json", kind, certificate=others | {name: None})
-        _, missing = read(tmp_path / "x.json", kind, certificate=others)
+        step, null = step_and_solution(tmp_path / "x.json", kind, certificate=others | {name: None})
+        _, missing = step_and_solution(tmp_path / "x.json", kind, certificate=others)
         assert null.certificate == missing.certificate
         assert refutation(step, null) == refutation(step, missing)

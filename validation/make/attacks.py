@@ -42,10 +42,17 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
 from tests.oracles.random_steps import any_step
-from tests.oracles.rational_kkt import exact, proved
-from tests.oracles.solution_truth import Judge, combinations, program, proof, rounded, wrenches
+from tests.oracles.rational_kkt import exact, proved_optimum
+from tests.oracles.solution_truth import (
+    Judge,
+    combinations,
+    nearest_float,
+    program,
+    proof,
+    wrenches,
+)
 from validation.tools.check_verifier import verdicts
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 from validation.tools.verifier_files import Case, verify_refusal
 
 Json = Any
@@ -130,17 +137,17 @@ def right_file(step: StepData, record: Json) -> Json:
     sizes = [len(rows) for rows in combinations(step)]
     starts = np.cumsum([0, *sizes]).tolist()
     working = [starts[j] + i for j, i in record["certificate"]["active"]]
-    x, lam_w, slack = proved(of, working)
+    x, lam_w, slack = proved_optimum(of, working)
     lam = [0.0] * len(of[3])
     for i, value in zip(working, lam_w, strict=True):
-        lam[i] = rounded(value)
+        lam[i] = nearest_float(value)
     by_contact = [lam[a:b] for a, b in pairwise(starts)]
-    known = {"smallest_active_multiplier": min(map(rounded, lam_w), default=None)}
+    known = {"smallest_active_multiplier": min(map(nearest_float, lam_w), default=None)}
     if record["certificate"]["differentiable"]:
-        open_ = [rounded(s) for s in slack if s]
+        open_ = [nearest_float(s) for s in slack if s]
         known["smallest_inactive_slack"] = min(open_, default=None)
     return record | {
-        "delta_q": [*map(rounded, x)],
+        "delta_q": [*map(nearest_float, x)],
         "lam": by_contact,
         "lam_extra": lam[starts[-1] :],
         "wrench": wrenches(step, by_contact),
@@ -235,7 +242,7 @@ ATTACKS = {
 }
 
 
-def attacked(kind: str, family: str, number: int) -> tuple[Counter[str], list[str]]:
+def attack_counts(kind: str, family: str, number: int) -> tuple[Counter[str], list[str]]:
     """What came of so many cases of a family, and those that went wrong."""
     counts = Counter()
     wrong = []
@@ -252,7 +259,7 @@ def attacked(kind: str, family: str, number: int) -> tuple[Counter[str], list[st
 
 def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
-    options = asked(__doc__, count=500, out=Path)
+    options = script_options(__doc__, count=500, out=Path)
     count = options.count
     families = [("bounds", family, 2 * count) for family in FAMILIES]
     families += [("exact answers", family, count) for family in FAMILIES]
@@ -260,12 +267,12 @@ def main() -> int:
     rows = []
     wrong = []
     for kind, family, number in tqdm(sorted(families), "families"):
-        counts, own = attacked(kind, family, number)
+        counts, own = attack_counts(kind, family, number)
         rows += [(f"{kind}, {family}", what, f"{n:,}") for what, n in sorted(counts.items())]
         wrong += own
     lines = markdown_table(("what", "what came of it", "cases"), rows, left=2)
     lines += ["", f"{len(wrong)} cases are wrong."]
-    shown(HEAD + "\n".join(lines), options.out)
+    show_page(HEAD + "\n".join(lines), options.out)
     print(*wrong[:20], sep="\n")
     return int(bool(wrong))
 

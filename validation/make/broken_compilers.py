@@ -89,7 +89,7 @@ def file_for_folder() -> None:
     cache().write_text("")
 
 
-def kept(text: bytes) -> None:
+def put_in_cache(text: bytes) -> None:
     """A library in the cache that is not what was compiled."""
     command = [
         sys.executable,
@@ -104,14 +104,14 @@ def kept(text: bytes) -> None:
 def kept_without_symbols() -> None:
     """Any other library."""
     named = subprocess.check_output(["gcc", "-print-file-name=libm.so.6"], text=True)
-    kept(Path(named.strip()).read_bytes())
+    put_in_cache(Path(named.strip()).read_bytes())
 
 
 CACHES = {
     "no home and no passwd entry": no_passwd_entry,
     "a cache that cannot be written": read_only,
     "a file for the cache": file_for_folder,
-    "nonsense in the cache": lambda: kept(b"nonsense" * 1000),
+    "nonsense in the cache": lambda: put_in_cache(b"nonsense" * 1000),
     "another library in the cache": kept_without_symbols,
 }
 PLAIN = "no compiler"

@@ -22,8 +22,8 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, scope_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from validation.tools.ports import PORTS, built
-from validation.tools.scripts import asked, shown
+from validation.tools.ports import PORTS, compiler_errors
+from validation.tools.scripts import script_options, show_page
 
 PLAIN = f"{sys.executable} -m quasistatic_ref.lab.program"
 ANSWERS = {"numpy": 20_000, "go": 10_000, "cpp": 10_000}
@@ -47,7 +47,7 @@ def piece(runner: str, command: str, seed: int, jobs: int, kept: Path | None) ->
             "remarks": found.remarks}  # fmt: skip
 
 
-def counted(pieces: list[Record]) -> dict[str, Counter[str]]:
+def verdict_counts(pieces: list[Record]) -> dict[str, Counter[str]]:
     """Verdicts by layer of all pieces."""
     found = {layer: Counter() for layer in LAYERS}
     for one in pieces:
@@ -56,22 +56,22 @@ def counted(pieces: list[Record]) -> dict[str, Counter[str]]:
     return {layer: verdicts for layer, verdicts in found.items() if verdicts}
 
 
-def judged(pieces: list[Record]) -> int:
+def judged_count(pieces: list[Record]) -> int:
     """How many answers were judged."""
-    verdicts = counted(pieces).values()
+    verdicts = verdict_counts(pieces).values()
     return sum(one.total() - one["unsupported"] for one in verdicts)
 
 
-def challenged(runner: str, log: Log, jobs: int, kept: Path | None) -> list[Record]:
+def challenge_pieces(runner: str, log: Log, jobs: int, kept: Path | None) -> list[Record]:
     """The pieces of a program."""
     pieces: list[Record] = []
     with tempfile.TemporaryDirectory() as folder:
         command = PLAIN
         if (PORTS / runner).exists():
             command = str(Path(folder) / runner)
-            if said := built(runner, Path(command)):
+            if said := compiler_errors(runner, Path(command)):
                 raise SystemExit(said)
-        while judged(pieces) < ANSWERS[runner]:
+        while judged_count(pieces) < ANSWERS[runner]:
             seed = len(pieces) + 1
             if (runner, seed) not in log.found:
                 log.add(piece(runner, command, seed, jobs, kept))
@@ -105,7 +105,7 @@ def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
     )
     rows = []
     for runner, pieces in found.items():
-        for layer, verdicts in counted(pieces).items():
+        for layer, verdicts in verdict_counts(pieces).items():
             counts = [verdicts[kind] for kind in KINDS]
             cells = [verdicts.total(), *counts, verdicts.total() - sum(counts)]
             rows.append((runner, layer, *(f"{n:,}" for n in cells)))
@@ -113,7 +113,7 @@ def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
     yield ""
     for runner, pieces in found.items():
         findings = [title for one in pieces for title in one["findings"]]
-        said = f"{runner}: seeds 1 to {len(pieces)}, {judged(pieces):,} answers judged"
+        said = f"{runner}: seeds 1 to {len(pieces)}, {judged_count(pieces):,} answers judged"
         yield f"{said}, {len(findings) or 'no'} finding{'s' * (len(findings) != 1)}."
         yield from (f"- {title}" for title in findings)
         remarks = dict.fromkeys(remark for one in pieces for remark in one["remarks"])
@@ -122,12 +122,12 @@ def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
 
 def main() -> int:
     """Challenge all, or those that are named; write the page."""
-    options = asked(__doc__, ANSWERS, log=Path, out=Path, jobs=1)
+    options = script_options(__doc__, ANSWERS, log=Path, out=Path, jobs=1)
     log = Log(options.log, itemgetter("runner", "seed"))
     kept = options.log and options.log.parent
     names = options.names or ANSWERS
-    found = {name: challenged(name, log, options.jobs, kept) for name in names}
-    shown("\n".join(page(found)), options.out)
+    found = {name: challenge_pieces(name, log, options.jobs, kept) for name in names}
+    show_page("\n".join(page(found)), options.out)
     return int(any(one["findings"] for pieces in found.values() for one in pieces))
 
 

@@ -10,14 +10,14 @@ from tqdm import tqdm
 
 from quasistatic_ref.lab.clouds.study import Cell, cells, grid, row
 from quasistatic_ref.lab.parallel import Log
-from validation.tools.scripts import RESULTS, asked
+from validation.tools.scripts import RESULTS, script_options
 
 ROWS = RESULTS / "clouds.jsonl"
 
 
 def main() -> None:
     """Grasp what was not yet grasped."""
-    options = asked(__doc__, count=int)
+    options = script_options(__doc__, count=int)
     names = list(Cell.__dataclass_fields__)
     path = None if options.count else ROWS
     log = Log(path, key=lambda one: Cell(*(one[name] for name in names)), head=grid())

@@ -32,7 +32,7 @@ from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_ste
 from quasistatic_ref.step.data import Indices
 from quasistatic_ref.step.groups import Group
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COLUMNS = (
@@ -78,7 +78,7 @@ def ascending(guess: list[int]) -> Indices:
     return np.array(sorted(set(guess)), dtype=np.int64)
 
 
-def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
+def differing_fields(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
     """Names of the fields in which two optima differ in any bit."""
     names = [f.name for f in fields(one)]
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
@@ -101,7 +101,7 @@ def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimu
     return found
 
 
-def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
+def seed_outcome(seed: int) -> tuple[str, Counter[str], list[str]]:
     """The kind of a random step, what was found on it, and faults in words."""
     kind, step = random_case(seed)
     found = Counter()
@@ -113,7 +113,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     def answer(guess: list[int]) -> ExactOptimum | None:
         """What C proves, compared with the exact method."""
         one = proof(step, ascending(guess))
-        if one is not None and (wrong := differing(one, form_optimum(form, guess))):
+        if one is not None and (wrong := differing_fields(one, form_optimum(form, guess))):
             faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
         return one
 
@@ -130,18 +130,18 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
         if (near := proof(step, ascending(guess), nearby=True)) is not None:
             found["nearby"] += 1
             may = NEARBY if near.multipliers_unique else OTHERS
-            if wrong := sorted(set(differing(near, truth)) - may):
+            if wrong := sorted(set(differing_fields(near, truth)) - may):
                 faults.append(f"{kind}, step {seed}, near {guess}: {', '.join(wrong)}")
     return kind, found, faults
 
 
 def main() -> int:
     """Check, print and write the table; exit status 1 if a bit differs."""
-    options = asked(__doc__, random=5000, out=Path)
+    options = script_options(__doc__, random=5000, out=Path)
     found: dict[str, Counter[str]] = {}
     faults = []
     with ProcessPoolExecutor() as pool:
-        outcomes = pool.map(checked, range(options.random), chunksize=16)
+        outcomes = pool.map(seed_outcome, range(options.random), chunksize=16)
         for kind, counts, wrong in tqdm(outcomes, total=options.random):
             found.setdefault(kind, Counter()).update(counts)
             faults += wrong
@@ -150,7 +150,7 @@ def main() -> int:
     for kind in sorted(found, key=lambda kind: (kind == "all", kind)):
         lines.append(f"{kind:24}" + "".join(f"{found[kind][name]:>12}" for name in COLUMNS))
     lines += faults or ["What was proved has the bits of the exact method, in every field."]
-    shown("\n".join(lines), options.out)
+    show_page("\n".join(lines), options.out)
     return int(bool(faults))
 
 

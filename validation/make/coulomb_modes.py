@@ -32,7 +32,7 @@ from quasistatic_ref.optional.coulomb.fixed_point import MOST, longest_slips, sl
 from quasistatic_ref.tolerances import COULOMB_RESIDUAL
 from tests.oracles.planar_coulomb import planar_solutions
 from tests.oracles.planar_steps import KINDS, planar_step
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 NEAR = 1e-9
 """Distance of a step from a solution, over the longest of all [-]: s is its own to within 1e-12 of
@@ -50,7 +50,7 @@ that is not taken to one of its solutions.
 """
 
 
-def judged(step: StepData) -> tuple[str, str]:
+def step_verdict(step: StepData) -> tuple[str, str]:
     """How many solutions a step has by the enumeration, and what is said of it that is wrong."""
     points, sets = planar_solutions(step)
     count = "a set" if sets else ("none", "one")[len(points)] if len(points) < 2 else "several"
@@ -88,7 +88,7 @@ def _near(x: np.ndarray, place: list[Any]) -> bool:
     return bool(((low - off <= x) & (x <= high + off)).all())
 
 
-def iterated(step: StepData) -> bool:
+def iteration_ends(step: StepData) -> bool:
     """Whether the iteration alone finds a fixed point."""
     s = np.zeros(step.contacts.n_c)
     for _ in range(MOST):
@@ -107,14 +107,14 @@ def iterated(step: StepData) -> bool:
 def step_record(i: int) -> Record:
     """A step by its number: its count, whether the iteration misses it, and what is wrong."""
     step = planar_step(np.random.default_rng([0, i]), KINDS[i % len(KINDS)])
-    count, wrong = judged(step)
-    missed = count != "none" and not iterated(step)
+    count, wrong = step_verdict(step)
+    missed = count != "none" and not iteration_ends(step)
     return {"step": i, "count": count, "missed": missed, "wrong": wrong}
 
 
 def main() -> int:
     """Write the page; exit status 1 if anything is wrong."""
-    options = asked(__doc__, steps=2500, jobs=2, log=Path, out=Path)
+    options = script_options(__doc__, steps=2500, jobs=2, log=Path, out=Path)
     log = Log(options.log, lambda record: record["step"])
     tasks = [(i,) for i in range(options.steps) if i not in log.found]
     with workers(options.jobs) as executor:
@@ -136,7 +136,7 @@ def main() -> int:
         for kind, row in rows.items()
     ]
     table = markdown_table(("contacts", "steps", *COLUMNS), cells, left=1)
-    shown("\n".join([INTRODUCTION, *table, *found]), options.out)
+    show_page("\n".join([INTRODUCTION, *table, *found]), options.out)
     return int(bool(found))
 
 

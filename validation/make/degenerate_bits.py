@@ -26,8 +26,8 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, Z, contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.contacts import repeated as some_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from validation.make.confirmed_bits import CONES, differing, proof
-from validation.tools.scripts import asked, shown
+from validation.make.confirmed_bits import CONES, differing_fields, proof
+from validation.tools.scripts import script_options, show_page
 
 CORNERS = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)], dtype=np.float64)
 UP, RIGHT, LEFT = (X, Y, Z), (Y, Z, X), (Z, Y, -X)
@@ -95,7 +95,7 @@ def faults(seed: int) -> tuple[Counter[str], list[str]]:
             found["left open"] += working is right
             continue
         found["proved" if working is right else "one less"] += 1
-        names = set(differing(answer, form_optimum(form, working)))
+        names = set(differing_fields(answer, form_optimum(form, working)))
         if names:
             wrong.append(f"step {seed}, from {working}: {', '.join(sorted(names))}")
     return found, wrong
@@ -118,7 +118,7 @@ def before(page: str) -> tuple[dict[str, int], list[str]]:
 
 def main() -> int:
     """Compare, print and write the table; exit status 1 if anything differs."""
-    options = asked(__doc__, first=0, random=100_000, out=Path)
+    options = script_options(__doc__, first=0, random=100_000, out=Path)
     found = Counter[str]()
     wrong = list[str]()
     if options.first:
@@ -129,7 +129,7 @@ def main() -> int:
         wrong += words
     lines = [f"{name:16}{found[name]:>8}" for name in COLUMNS]
     lines += wrong or [SAME]
-    shown("\n".join(lines), options.out)
+    show_page("\n".join(lines), options.out)
     return int(bool(wrong))
 
 

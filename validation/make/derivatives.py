@@ -12,7 +12,7 @@ from pathlib import Path
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.layers import layer
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 LAYERS = ("derivative",)
 NO_CLAIM = ("LimitExceeded", "the answer says it has none")
@@ -29,7 +29,7 @@ or of a thousandth of what the field would be without contacts. At a kink there 
 """
 
 
-def challenged(count: int) -> Outcome:
+def challenge_outcome(count: int) -> Outcome:
     """What came of so many cases."""
     (name,) = LAYERS
     own = layer(name).own
@@ -45,11 +45,11 @@ def page(verdicts: dict[str, int], titles: list[str]) -> str:
 
 def main() -> int:
     """Challenge, and write the page."""
-    options = asked(__doc__, count=300, out=Path)
-    found = challenged(options.count)
+    options = script_options(__doc__, count=300, out=Path)
+    found = challenge_outcome(options.count)
     verdicts = {verdict: count for (_, verdict), count in sorted(found.verdicts.items())}
     titles = [finding.title for finding in found.findings]
-    shown(page(verdicts, titles), options.out)
+    show_page(page(verdicts, titles), options.out)
     return int(not all(any(words in title for words in NO_CLAIM) for title in titles))
 
 

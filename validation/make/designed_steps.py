@@ -21,9 +21,9 @@ from quasistatic_ref.optional.fast.rechecked import DETERMINED
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.tolerances import ACCURACY
 from tests.oracles.random_steps import designed_step
-from tests.oracles.rational_kkt import exact, proved
-from tests.oracles.solution_truth import program, proof, rounded
-from validation.tools.scripts import asked, shown
+from tests.oracles.rational_kkt import exact, proved_optimum
+from tests.oracles.solution_truth import nearest_float, program, proof
+from validation.tools.scripts import script_options, show_page
 
 FAMILIES = ("any step", "equal groups with own rows", "ties in integers", "divided, with own rows")
 OUTCOMES = ("same optimum", "no solution", "ill-posed", "wrong")
@@ -71,13 +71,13 @@ def outcome(step: StepData) -> str:
             return f"wrong: {name} differs"
     of = program(step)
     try:
-        x, lam, slack = proved(of, fast.working_set)
+        x, lam, slack = proved_optimum(of, fast.working_set)
     except ArithmeticError as failure:
         return f"wrong: {failure}"
     net = lam @ of[2][list(fast.working_set)]
     pairs = (fast.delta_q, x), (fast.net, net), (fast.slack, slack)
-    right = all([rounded(v) for v in truth] == list(numbers) for numbers, truth in pairs)
-    positive = [rounded(v) for v in lam] == fast.lam[list(fast.working_set)].tolist()
+    right = all([nearest_float(v) for v in truth] == list(numbers) for numbers, truth in pairs)
+    positive = [nearest_float(v) for v in lam] == fast.lam[list(fast.working_set)].tolist()
     return "same optimum" if right and positive and all(v > 0 for v in lam) else "wrong: a number"
 
 
@@ -94,7 +94,7 @@ def counts_before(out: Path | None, first: int) -> list[Counter[str]]:
 
 def main() -> int:
     """Compare all; exit status 1 if one is wrong."""
-    options = asked(__doc__, count=20000, first=0, out=Path)
+    options = script_options(__doc__, count=20000, first=0, out=Path)
     counts = counts_before(options.out, options.first)
     for seed in range(options.first, options.first + options.count):
         words = outcome(designed_step(seed))
@@ -110,7 +110,7 @@ def main() -> int:
     page = PAGE.format(
         columns=columns, lines="|".join("---" for _ in OUTCOMES), rows="\n".join(rows)
     )
-    shown(page, options.out)
+    show_page(page, options.out)
     return int(any(count["wrong"] for count in counts))
 
 

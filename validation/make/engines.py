@@ -18,25 +18,27 @@ import tempfile
 from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
-from validation.programs.engines.judge import ENGINES, RESULTS, judged, python_of
-from validation.programs.engines.reproduce import missing, reproduced, unlike
+from validation.programs.engines.judge import ENGINES, RESULTS, python_of, write_answers
+from validation.programs.engines.reproduce import cells_without_program, printed_lines, unlike
 from validation.programs.engines.tables import phenomena_page
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import record_written, script_options
 
 
 def main() -> int:
     """Judge, and write the tables."""
-    given = asked(__doc__, ENGINES, out=RESULTS, environments=Path, tables=False, resume=False)
+    given = script_options(
+        __doc__, ENGINES, out=RESULTS, environments=Path, tables=False, resume=False
+    )
     results = given.out
     results.mkdir(parents=True, exist_ok=True)
     wrong = 0
     with tempfile.TemporaryDirectory() as temporary:
         folder = (given.environments or Path(temporary)).absolute()
         for name in () if given.tables else given.names or ENGINES:
-            judged(name, folder, results, given.resume)
+            write_answers(name, folder, results, given.resume)
             path = results / f"{name}.json"
             record = json.loads(path.read_text("utf-8"))
-            record["printed"] = reproduced(name, python_of(name, folder))
+            record["printed"] = printed_lines(name, python_of(name, folder))
             record_written(path, record)
             wrong += sum(text.startswith("status") for text in record["printed"].values())
     records = {
@@ -45,7 +47,7 @@ def main() -> int:
         if (path := results / f"{name}.json").exists()
     }
     text_written(results / "phenomena.md", phenomena_page(records))
-    for cell in missing(records):
+    for cell in cells_without_program(records):
         wrong += 1
         print(f"without a reproduction: {', '.join(cell)}")
     for cell in unlike(records):

@@ -33,7 +33,7 @@ from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solver import solver_for
 from tests.oracles.random_steps import mixed_step
 from validation.make.broken_compilers import compiler_lines
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 PAGE = """# What surrounds a proof, made hostile
 
@@ -271,14 +271,14 @@ def count_line(name: str, words: Counter[str]) -> str:
 
 def main() -> int:
     """Try all; exit status 1 if anything broke."""
-    options = asked(__doc__, count=20, out=Path)
+    options = script_options(__doc__, count=20, out=Path)
     counts = {}
     for name, trial in TRIED.items():
         counts[name] = trial(options.count)
         print(name, dict(counts[name]), file=sys.stderr, flush=True)
     lines = [count_line(*one) for one in counts.items()]
     page = PAGE.format(counts="\n".join(lines), compilers="\n".join(compiler_lines()))
-    shown(page, options.out)
+    show_page(page, options.out)
     broke = any(key not in COLUMNS for words in counts.values() for key in words)
     return int(broke or "BROKE" in page)
 

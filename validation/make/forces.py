@@ -43,7 +43,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.scenes.contacts import repeated
-from quasistatic_ref.lab.scenes.loads import loaded
+from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
@@ -52,7 +52,7 @@ from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import SURE
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import ROOT, asked, shown
+from validation.tools.scripts import ROOT, script_options, show_page
 
 VECTORS = ROOT / "validation" / "vectors"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
@@ -132,14 +132,14 @@ def loads(seed: int) -> Record:
     args: Record = {"h": 10.0 ** rng.uniform(-4, -1)}
     if seed % 2:
         args |= {"spring": 10.0 ** rng.uniform(2, 9), "press": 10.0 ** rng.uniform(-1, 4)}
-    scene = loaded(masses.tolist(), **args)
+    scene = loaded_pile(masses.tolist(), **args)
     step = scene.step
     first = solve_step(step, "none")
     levels = first.forces[:, 2].reshape(-1, 4)
     off = np.abs(levels.sum(axis=1) - scene.borne).max() / scene.borne.max()
     noise, bound = noise_of_rounding(step, first)
     unit = UNITS[seed % 7 % 3]
-    scaled = contact_forces(loaded(masses.tolist(), **args, unit=unit).step)
+    scaled = contact_forces(loaded_pile(masses.tolist(), **args, unit=unit).step)
     apart = np.abs(scaled.wrench[:, 2] * unit - first.forces[:, 2]).max() / levels.sum()
     held = {
         "load": off < LOST,
@@ -190,7 +190,7 @@ def scenario_steps(every: int) -> Iterator[tuple[str, StepData]]:
 
 def main() -> int:
     """Write the table; exit status 1 if anything fails."""
-    given = asked(__doc__, random=2000, oracle=300, every=1, piles=300, log=Path, out=Path)
+    given = script_options(__doc__, random=2000, oracle=300, every=1, piles=300, log=Path, out=Path)
     log = Log(given.log, lambda record: record["step"])
     families = {
         "random": random_steps(given.random),
@@ -235,7 +235,7 @@ def main() -> int:
         "",
         *markdown_table(["steps", "number", *LOADS], [["piles", len(piles), *cells]], 1),
     ]
-    shown("\n".join(lines), given.out)
+    show_page("\n".join(lines), given.out)
     return int(failed > 0)
 
 

@@ -45,7 +45,7 @@ from quasistatic_ref import (
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import CLOSED_FORM
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 Array = np.ndarray
 H = 0.01
@@ -247,12 +247,12 @@ def on_top(low: str, top: str, inset: float, depth: float, aside: float = 0.0) -
     return Scene(bodies, {(1, 0): UP}, depth * RISE[None], tips=tips)
 
 
-def overhanging(low: str, inset: float, depth: float) -> Scene:
+def overhang(low: str, inset: float, depth: float) -> Scene:
     """A box that overhangs another body along one side and is flush along the other."""
     return on_top(low, "box", 0.0, depth, aside=inset or OVERHANG)
 
 
-def pressed(low: str, top: str, inset: float, depth: float) -> Scene:
+def pressed_bodies(low: str, top: str, inset: float, depth: float) -> Scene:
     """Two free bodies, whose motion in one place is that in all."""
     load = np.stack([PRESS, 0 * PRESS])
     scene = on_top(low, top, inset, depth)._replace(motion=np.zeros((2, 6)), load=load)
@@ -334,14 +334,15 @@ FAMILIES = {
     "a flush wall": partial(wall, FLUSH),
     "a box in a corner": partial(corner, 0.0),
     "an edge on an edge": lambda _, depth: on_edge(depth),
-    **{f"box over the edge of {low}": partial(overhanging, low) for low in ("box", "hull")},
+    **{f"box over the edge of {low}": partial(overhang, low) for low in ("box", "hull")},
     **{
         f"{top} on {low}": partial(on_top, low, top)
         for low, top in product((*SOLIDS, *ROUND), (*FLAT, *ROUND))
         if low in FLAT or top != "cloud"  # the points of a cloud touch what is flat above
     },
     **{
-        f"free {top} on {low}": partial(pressed, low, top) for low, top in product(SOLIDS, repeat=2)
+        f"free {top} on {low}": partial(pressed_bodies, low, top)
+        for low, top in product(SOLIDS, repeat=2)
     },
 }
 
@@ -365,7 +366,7 @@ def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:
 
 def main() -> int:
     """Write the page; exit status 1 if anything is wrong."""
-    options = asked(__doc__, places=4, out=Path)
+    options = script_options(__doc__, places=4, out=Path)
     rng = np.random.default_rng(0)
     rows = []
     found = []
@@ -377,7 +378,7 @@ def main() -> int:
     rows.append(("all", sum(row[1] for row in rows), len(found)))
     table = markdown_table(("bodies", "scenes", "wrong"), rows, left=1)
     introduction = INTRODUCTION.format(places=options.places)
-    shown("\n".join([introduction, *table, *found]), options.out)
+    show_page("\n".join([introduction, *table, *found]), options.out)
     return int(bool(found))
 
 

@@ -24,7 +24,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 SAME = (
     "delta_q",
@@ -68,7 +68,7 @@ def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
 
 
-def compared(random: int, every: int) -> tuple[list[str], list[str]]:
+def comparison(random: int, every: int) -> tuple[list[str], list[str]]:
     """The table of how many steps were compared, whole and by group; what differs, in words."""
     found = Counter()
     wrong = []
@@ -86,8 +86,8 @@ def compared(random: int, every: int) -> tuple[list[str], list[str]]:
 
 def main() -> int:
     """Compare, and write the page."""
-    options = asked(__doc__, random=1000, every=30, out=Path)
-    steps, wrong = compared(options.random, options.every)
+    options = script_options(__doc__, random=1000, every=30, out=Path)
+    steps, wrong = comparison(options.random, options.every)
     lines = [
         "# The same bits, proved whole and by group",
         "",
@@ -96,7 +96,7 @@ def main() -> int:
         "",
         *steps,
     ]
-    shown("\n".join(lines), options.out)
+    show_page("\n".join(lines), options.out)
     print(*wrong, sep="\n", file=sys.stderr)
     return int(bool(wrong))
 

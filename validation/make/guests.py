@@ -34,7 +34,7 @@ from quasistatic_ref.optional.guests.still import still
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 mujoco = import_module("mujoco")
 PACKAGES = (
@@ -134,7 +134,7 @@ class Found:
         return bool(not self.refused and self.contacts and self.fastest < AT_REST)
 
 
-def settled(model: Any) -> Any:
+def settled_state(model: Any) -> Any:
     """The state of a model after a while, from its first keyframe if it has one."""
     data = mujoco.MjData(model)
     if model.nkey:
@@ -237,7 +237,7 @@ def census(path: Path, root: Path) -> Found | None:
     if not model.nv:
         return None
     found = Found(path.relative_to(root).as_posix(), model.nv)
-    data = settled(model)
+    data = settled_state(model)
     mujoco.mj_forward(model, data)  # of the state after its last step
     found.contacts = int(data.ncon)
     found.fastest = float(np.abs(data.qvel).max())
@@ -331,14 +331,14 @@ def install(folder: Path) -> None:
 
 def main() -> int:
     """Ask all models, write the page, and return the exit status."""
-    options = asked(__doc__, folder=Path, out=Path)
+    options = script_options(__doc__, folder=Path, out=Path)
     with tempfile.TemporaryDirectory() as own, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated
         folder = options.folder or Path(own)
         install(folder)
         all_of_them = (census(path, folder) for path in sorted(folder.rglob("*.xml")))
         every = [found for found in all_of_them if found is not None]
-    shown(page(every), options.out)
+    show_page(page(every), options.out)
     refused = sum(bool(found.refused) for found in every)
     unbalanced = sum(found.off > BALANCED for found in every)
     ill = [found.path for found in every if found.path in HEALTHY and found.opinion]

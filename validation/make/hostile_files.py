@@ -29,7 +29,7 @@ from quasistatic_ref import QuasistaticError
 from quasistatic_ref.lab import processes
 from tests.errors.readers import FAMILIES, Reader
 from tests.oracles.bombs import BOMBS, PLACES, outside
-from validation.tools.scripts import ROOT, asked, shown
+from validation.tools.scripts import ROOT, script_options, show_page
 
 SECONDS = 10.0
 """Of the processor, of a process and its children, that a file may take [s]."""
@@ -264,7 +264,7 @@ def table(title: str, rows: dict[str, Row]) -> str:
 
 def main() -> int:
     """Read all; exit status 1 if one has a fault."""
-    options = asked(__doc__, count=50000, first=0, out=Path, worker=Path)
+    options = script_options(__doc__, count=50000, first=0, out=Path, worker=Path)
     first = options.first
     if options.worker:
         read(first, first + options.count, options.worker)
@@ -284,7 +284,7 @@ def main() -> int:
     bombs = {name: row for name, row in rows.items() if ": " in name}
     spoilt = {name: row for name, row in rows.items() if name not in bombs}
     tables = [table(*one) for one in (("reader", spoilt), ("bomb", bombs)) if one[1]]
-    shown(PAGE.format(tables="\n\n".join(tables)), options.out)
+    show_page(PAGE.format(tables="\n\n".join(tables)), options.out)
     return int(any(row.faults for row in rows.values()))
 
 

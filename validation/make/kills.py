@@ -35,7 +35,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.study.store.rows import MACHINE_DEPENDENT
 from quasistatic_ref.lab.study.store.store import STORE, contents
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 COLUMNS = ("killed", "interrupted", "ended before", "resumed", "second ones refused", "lost")
 MOST = 5
@@ -220,7 +220,7 @@ def main() -> int:
     tqdm.monitor_interval = 0  # which is a thread
     tqdm.set_lock(RLock())  # its own is shared by copies: one that is killed would hold it for ever
     names = ("run", "run --sweep", "study run", "vectors generate", "demo")
-    options = asked(__doc__, count=500, only="", out=Path)
+    options = script_options(__doc__, count=500, only="", out=Path)
     rows = rows_before(options.out)
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "inputs").mkdir()
@@ -232,7 +232,7 @@ def main() -> int:
                 row.update(folders)
                 if options.out:  # what is known if this is killed, too
                     text_written(options.out, page_of(rows))
-    shown(page_of(rows), options.out)
+    show_page(page_of(rows), options.out)
     return int(any(row["lost"] for row in rows.values()))
 
 

@@ -45,7 +45,7 @@ from tests.oracles.rows_given import (
     without_slack,
 )
 from validation.make.degenerate_bits import degenerate_step
-from validation.tools.scripts import asked
+from validation.tools.scripts import script_options
 
 SEEDS = 3000
 EACH = 3
@@ -106,7 +106,7 @@ def chosen() -> Iterator[StepData]:
 
 def main() -> int:
     """Write the file."""
-    options = asked(__doc__, out=Path)
+    options = script_options(__doc__, out=Path)
     folder = tempfile.TemporaryDirectory()
     untested = Path(folder.name) / "untested.so"  # the file is what would test it
     subprocess.run(library.compiling(library.compiler(), untested), check=True)

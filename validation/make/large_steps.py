@@ -20,7 +20,7 @@ from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.lab.sweep_numbers import slope
 from quasistatic_ref.optional.fast import simulator as fast
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 Shape = tuple[int, int, int]
 ROWS = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
@@ -171,7 +171,7 @@ def in_contacts() -> dict[str, float]:
 
 def main() -> int:
     """Measure, and write the page."""
-    options = asked(__doc__, out=Path)
+    options = script_options(__doc__, out=Path)
     m = machine()
     words = (
         f"Written by `python -m validation.make.large_steps` on {m['processor']}, {m['cores']} "
@@ -192,7 +192,7 @@ def main() -> int:
         "", "## Sparse steps", "", *sparse,
         "", "## Promises", "", *table,
     ]  # fmt: skip
-    shown("\n".join(lines), options.out)
+    show_page("\n".join(lines), options.out)
     return int(not kept)
 
 

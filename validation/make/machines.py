@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from validation.tools.check_installs import LOWEST
-from validation.tools.scripts import ROOT, asked, environment, shown
+from validation.tools.scripts import ROOT, environment, script_options, show_page
 
 HEAD = """# README's tests, as other machines run them
 
@@ -81,7 +81,7 @@ VECTORS = " ".join(np.show_config(mode="dicts")["SIMD Extensions"].get("found", 
 PLAIN = kernel("Prescott") | {"NPY_DISABLE_CPU_FEATURES": VECTORS}
 
 
-def shuffled(seed: int) -> tuple[str, ...]:
+def random_order_options(seed: int) -> tuple[str, ...]:
     """The options of pytest for a random order of files, and of the tests within each."""
     return ("--random-order", f"--random-order-seed={seed}")
 
@@ -89,10 +89,10 @@ def shuffled(seed: int) -> tuple[str, ...]:
 MACHINES = {
     "lowest versions, kernel Zen": Machine(lowest=True, settings=kernel("Zen")),
     "Python 3.12, kernel Haswell, shuffled with seed 1": Machine(
-        "python3.12", settings=kernel("Haswell"), options=shuffled(1)
+        "python3.12", settings=kernel("Haswell"), options=random_order_options(1)
     ),
     "Python 3.13, kernel Prescott, no vector code, shuffled with seed 2": Machine(
-        "python3.13", settings=PLAIN, options=shuffled(2)
+        "python3.13", settings=PLAIN, options=random_order_options(2)
     ),
     "core, Python 3.14": Machine("python3.14", options=CORE),
 }
@@ -151,7 +151,7 @@ def row(name: str, folder: Path) -> tuple[str, bool]:
 
 def main() -> int:
     """Run what was named, or all; exit status 1 if a test failed."""
-    options = asked(__doc__, MACHINES, out=Path)
+    options = script_options(__doc__, MACHINES, out=Path)
     rows = {}
     if options.out is not None and options.out.exists():
         lines = options.out.read_text("utf-8").splitlines()
@@ -162,7 +162,7 @@ def main() -> int:
             rows[name], passed = row(name, Path(folder))
             print(rows[name], file=sys.stderr, flush=True)
             good &= passed
-    shown(HEAD + "\n".join(rows[name] for name in MACHINES if name in rows), options.out)
+    show_page(HEAD + "\n".join(rows[name] for name in MACHINES if name in rows), options.out)
     return int(not good)
 
 

@@ -58,7 +58,7 @@ def scenes_written(folder):
     return folder
 
 
-def found(scene, edits=()):
+def findings_after(scene, edits=()):
     """What is found in a run of a scene, after edits: file, old text, new text."""
     with tempfile.TemporaryDirectory() as name:
         folder = scenes_written(Path(name))
@@ -76,7 +76,7 @@ def found(scene, edits=()):
             return (Finding("refused", True, str(error), "", {}),)
 
 
-def named(mistake, findings):
+def is_named(mistake, findings):
     """Whether the first finding is one that the mistake asks for, with its words."""
     return (
         bool(findings)
@@ -97,16 +97,16 @@ def main(arguments=None):
     for one in mistakes():
         if (options.seen and one["held_out"]) or (options.held_out and not one["held_out"]):
             continue
-        findings = found(one["scene"], one["edits"])
-        good = named(one, findings)
+        findings = findings_after(one["scene"], one["edits"])
+        good = is_named(one, findings)
         right[one["held_out"]].append(good)
         sentence = findings[0].sentence if findings else "none"
         words = "yes" if good else "**no**"
         held = "yes" if one["held_out"] else ""
         rows.append(f"| {one['scene']} | {one['what']} | {held} | {words} | {sentence} |")
         print(rows[-1], flush=True)
-    plain = {scene: found(scene) for scene in SCENES}
-    changed = {one["what"]: found(one["scene"], one["edits"]) for one in healthy()}
+    plain = {scene: findings_after(scene) for scene in SCENES}
+    changed = {one["what"]: findings_after(one["scene"], one["edits"]) for one in healthy()}
     slow = [what for what, findings in changed.items() if [x.name for x in findings] == ["drag"]]
     wrong = {what: x for what, x in {**plain, **changed}.items() if x and what not in slow}
     counts = [f"{sum(x)} of {len(x)} {name}" for name, x in

@@ -25,7 +25,7 @@ from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.data import Array
 from tests.oracles.random_mjcf import random_model
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
 GYMNASIUM = "gymnasium/envs/mujoco/assets"
@@ -98,7 +98,7 @@ def system_of(path: Path) -> tuple[System, Any]:
     return System([body]), model
 
 
-def placed(system: System, model: Any, q: Array) -> tuple[Array, Array]:
+def mujoco_qpos(system: System, model: Any, q: Array) -> tuple[Array, Array]:
     """MuJoCo's qpos of a configuration q, and T with its qvel = T delta_q."""
     qpos = model.qpos0.copy()
     T = np.zeros((model.nv, system.n_v))
@@ -134,7 +134,7 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
     worst = np.zeros(5)
     for _ in range(count):
         q = system.integrate(system.q_start, rng.normal(scale=0.5, size=system.n_v))
-        qpos, T = placed(system, model, q)
+        qpos, T = mujoco_qpos(system, model, q)
         data.qpos[:] = qpos
         mujoco.mj_forward(model, data)
         kinematics = system.kinematics(q)
@@ -260,7 +260,7 @@ def shape_pairs(
 
 def main() -> int:
     """Compare, write the page, and return the exit status."""
-    options = asked(__doc__, count=100, out=Path)
+    options = script_options(__doc__, count=100, out=Path)
     rows = []
     status = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -284,7 +284,7 @@ def main() -> int:
         kinds=", ".join(f"{kind} {number}" for kind, number in sorted(tried.kinds.items())),
     )  # fmt: skip
     print("\n".join(tried.refused), file=sys.stderr)
-    shown(page, options.out)
+    show_page(page, options.out)
     return status
 
 

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.figures.grasp import HALF, SHOWN
 from quasistatic_ref.lab.grasp import CASES, rotations
 from quasistatic_ref.optional.show.figures import draw_scene, figure_style, moment
 from quasistatic_ref.optional.show.figures.draw import force_scale
-from validation.tools.scripts import asked
+from validation.tools.scripts import script_options
 
 FRAMES_PER_SECOND = 8
 DOTS_PER_INCH = 70
@@ -60,7 +60,7 @@ def grasps(path: Path, every: int = 10) -> None:
 
 def main() -> None:
     """Write both."""
-    out = asked(__doc__, out=Path("moving_figures")).out
+    out = script_options(__doc__, out=Path("moving_figures")).out
     grasps(out / "grasp.gif")
     steps = range(0, len(sliding_block.PUSHES) + 1, 2)
     film(out / "sliding_block.gif", (4.6, 2.6), 1, len(steps),

@@ -44,7 +44,7 @@ from quasistatic_ref.optional.guests.scene import MujocoScenario, mujoco_scenari
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.step.cones import cone
 from validation.make.guests import PACKAGES, install
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 mujoco = import_module("mujoco")
 SAWYER = "metaworld/assets/sawyer_xyz"
@@ -110,7 +110,7 @@ class Ran:
     same: bool = True
 
 
-def driven(model: Any, data: Any) -> MujocoScenario:
+def driven_scene(model: Any, data: Any) -> MujocoScenario:
     """A scene whose servos and joints with motors are driven."""
     stiffness: dict[str, Any] = {}
     servos = set()
@@ -143,7 +143,7 @@ def driven(model: Any, data: Any) -> MujocoScenario:
     return mujoco_scenario(model, data, targets, stiffness | cone, steps=STEPS)
 
 
-def lifting(model: Any) -> MujocoScenario:
+def lifting_scene(model: Any) -> MujocoScenario:
     """A robot that grasps its block and lifts it, by springs of its joints.
 
     MuJoCo brings the hand above the block and over it by its body with ``mocap``; the joints there
@@ -260,7 +260,7 @@ class Stop(Observer):
             raise KeyboardInterrupt
 
 
-def resumed(scene: MujocoScenario, run: Trajectory) -> bool:
+def same_after_resuming(scene: MujocoScenario, run: Trajectory) -> bool:
     """Whether the run, interrupted and resumed, has the same bits."""
     with tempfile.TemporaryDirectory() as folder:
         saving: dict[str, Any] = {"save": Path(folder) / "run.npz", "save_every": 0.0}
@@ -271,13 +271,13 @@ def resumed(scene: MujocoScenario, run: Trajectory) -> bool:
     return all(np.array_equal(run[name], again[name]) for name in ("q", "lam", "phi", "delta_q"))
 
 
-def ran(path: str, folder: Path) -> Ran:
+def run_record(path: str, folder: Path) -> Ran:
     """A scene, run."""
     model = mujoco.MjModel.from_xml_path(str(folder / path))
     data = mujoco.MjData(model)
     if model.nkey:
         mujoco.mj_resetDataKeyframe(model, data, 0)
-    scene = lifting(model) if path == LIFT else driven(model, copy.copy(data))
+    scene = lifting_scene(model) if path == LIFT else driven_scene(model, copy.copy(data))
     try:
         run = scene.run(progress=False)
     except RunFailed as failed:
@@ -296,7 +296,7 @@ def ran(path: str, folder: Path) -> Ran:
     if path == LIFT:
         height = system.of(run["q"], "obj.z")
         found.rise = float(height[-1] - height[0])
-        found.same = resumed(scene, run)
+        found.same = same_after_resuming(scene, run)
     return found
 
 
@@ -338,14 +338,14 @@ def page(every: list[Ran]) -> str:
 
 def main() -> int:
     """Run all scenes, write the page, and return the exit status."""
-    options = asked(__doc__, SCENES, folder=Path, out=Path)
+    options = script_options(__doc__, SCENES, folder=Path, out=Path)
     mujoco.set_mju_user_warning(lambda text: None)
     with tempfile.TemporaryDirectory() as own, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # MuJoCo's, of what is deprecated
         folder = options.folder or Path(own)
         install(folder)
-        every = [ran(path, folder) for path in options.names or SCENES]
-    shown(page(every), options.out)
+        every = [run_record(path, folder) for path in options.names or SCENES]
+    show_page(page(every), options.out)
     good = all(r.failed is None and not r.kinds.get("none") and r.same for r in every)
     dear = sum(r.ratio > MOST for r in every)
     lifted = all(r.rise > HIGH / 2 for r in every if r.path == LIFT)

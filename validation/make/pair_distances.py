@@ -23,7 +23,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
@@ -82,7 +82,7 @@ def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], i
 
 def main() -> None:
     """Write the table."""
-    options = asked(__doc__, count=1000, out=Path)
+    options = script_options(__doc__, count=1000, out=Path)
     solids = closest.solids()
     rows = []
     for first, second in closest.pairs():
@@ -100,7 +100,7 @@ def main() -> None:
         cells = [f"{worst[name]:.1g}" if name in worst else "-" for name in COLUMNS]
         rows.append([f"{first} - {second}", *cells, inside, refused, f"{cost:.0f}"])
     table = markdown_table(("pair", *COLUMNS, "in penetration", "refused", "us"), rows)
-    shown("\n".join([WORDS.format(count=options.count), *table]), options.out)
+    show_page("\n".join([WORDS.format(count=options.count), *table]), options.out)
 
 
 if __name__ == "__main__":

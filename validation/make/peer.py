@@ -29,7 +29,7 @@ import numpy as np
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.claims.engines.peer import gradients, held, in_plane
+from quasistatic_ref.lab.claims.engines.peer import data_rates, gradients, in_plane
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_rates, barrier_step
 from quasistatic_ref.optional.guests.drake import drake_step, scoped
@@ -37,7 +37,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData, no_rows
 from quasistatic_ref.step.files import step_sha256
-from validation.tools.scripts import ROOT, asked, environment, shown
+from validation.tools.scripts import ROOT, environment, script_options, show_page
 
 drake = import_module("pydrake.all")
 SOURCE, COMMIT = "https://github.com/pangtao22/quasistatic_simulator", "c917755"
@@ -384,13 +384,13 @@ def of_smoothing(model: Model, barriers: list[dict[str, Any]]) -> Iterator[str]:
             found = barrier_step(rows, step.h / float(weight))
             theirs = barrier["by weight"][weight]
             q = model.onward(T @ found.x)
-            B = T @ barrier_rates(rows, found, held(rows))[:, : step.n_a]
+            B = T @ barrier_rates(rows, found, data_rates(rows))[:, : step.n_a]
             off = (q - theirs["q"], B - theirs["B"], q - exact)
             largest = np.maximum(largest, [np.abs(one).max() for one in off])
         yield from map(number, largest)
 
 
-def cloned(folder: Path) -> Path:
+def peer_source(folder: Path) -> Path:
     """The peer's source at its commit."""
     subprocess.run(["git", "clone", "-q", SOURCE, str(folder)], check=True)
     for words in (("checkout", "-q", COMMIT), ("submodule", "update", "-q", "--init")):
@@ -409,19 +409,19 @@ def bare(source: Path, folder: Path) -> Path:
 
 def main() -> int:
     """Run both, write the page, and return the exit status."""
-    options = asked(__doc__, source=Path, python=str, out=Path)
+    options = script_options(__doc__, source=Path, python=str, out=Path)
     with tempfile.TemporaryDirectory() as own:
         folder = Path(own)
-        source = bare(options.source or cloned(folder / "source"), folder / "bare")
+        source = bare(options.source or peer_source(folder / "source"), folder / "bare")
         python = options.python or str(environment(folder / "environment", *PACKAGES))
         out = folder / "peer.json"
         command = [python, str(ADAPTER), str(source), str(out)]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         found = json.loads(out.read_text("utf-8"))
-        return compared(source, found, options.out)
+        return compare(source, found, options.out)
 
 
-def compared(source: Path, found: dict[str, Any], out: Path | None) -> int:
+def compare(source: Path, found: dict[str, Any], out: Path | None) -> int:
     """Compare all models, write the page, and return the exit status."""
     rows: dict[str, list[tuple[Any, ...]]] = {key: [] for key in HEADS}
     far = []
@@ -444,7 +444,7 @@ def compared(source: Path, found: dict[str, Any], out: Path | None) -> int:
         rows["gradients"].append((name, *of_gradients(model, states, theirs["gradients"])))
         rows["smoothing"].append((name, *of_smoothing(model, theirs["barriers"])))
     texts = {key: "\n".join(markdown_table(HEADS[key], own, 1)) for key, own in rows.items()}
-    shown(PAGE.format(apart=APART, every=EVERY, **texts), out)
+    show_page(PAGE.format(apart=APART, every=EVERY, **texts), out)
     if out is not None:
         hand = found[HAND]
         del hand["barriers"]

@@ -50,8 +50,8 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.port_changes import Change, changes, switched
-from validation.tools.ports import PORTS, built, texts
-from validation.tools.scripts import ROOT, asked, shown
+from validation.tools.ports import PORTS, compiler_errors, texts
+from validation.tools.scripts import ROOT, script_options, show_page
 
 VECTORS = ROOT / "validation" / "vectors"
 CAUSES = PORTS / "causes.toml"
@@ -182,7 +182,7 @@ class Port:
         self._judged: dict[str, Failed] = {}
         self.false_alarms: list[str] = []
         self.program = Program(work / name)
-        if said := built(name, self.program.path):
+        if said := compiler_errors(name, self.program.path):
             raise SystemExit(said)
 
     def within(self, questions: Sequence[Question]) -> list[Question]:
@@ -198,7 +198,7 @@ class Port:
             lines = texts(self.name)[change.file].splitlines(keepends=True)
             lines[change.line] = change.new
             path = self._work / "mutant"
-            said = built(self.name, path, {change.file: "".join(lines)})
+            said = compiler_errors(self.name, path, {change.file: "".join(lines)})
             yield change, None if said else Program(path)
 
     def _switched(self, most: int) -> Iterator[tuple[Change, Program]]:
@@ -215,7 +215,7 @@ class Port:
                 lines[file][line] = text
             changed = {file: "\n".join(text) + "\n" for file, text in lines.items()}
             changed["main.cpp"] = SWITCH + changed["main.cpp"]
-            said = built(self.name, path, changed)
+            said = compiler_errors(self.name, path, changed)
             if not said:
                 break
             places = re.findall(r"(\w+\.hpp):(\d+)[:,]", said)
@@ -433,7 +433,7 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
 def main() -> int:
     """Try mutants, and print the page."""
     numbers = {"each": EACH, "cases": CASES, "part": 0, "parts": 1}
-    options = asked(__doc__, ("go", "cpp"), out=Path, records=Path, **numbers)
+    options = script_options(__doc__, ("go", "cpp"), out=Path, records=Path, **numbers)
     done: dict[str, Json] = {}
     if options.records and options.records.exists():
         lines = options.records.read_text("utf-8").splitlines()
@@ -453,7 +453,7 @@ def main() -> int:
                 if kept >= options.each:
                     break
             alarms += port.false_alarms
-    shown("\n".join(page(list(done.values()))), options.out)
+    show_page("\n".join(page(list(done.values()))), options.out)
     for alarm in alarms:
         print(f"a right port is found wrong: {alarm}", file=sys.stderr)
     lost = [

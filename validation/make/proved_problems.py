@@ -18,7 +18,7 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from tests.oracles import rational_kkt
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 SHARE = 9
 """One of so many problems of a family, from its first on, is proved in fractions: a tenth and more.
@@ -50,7 +50,7 @@ def refuted_in_fractions(one: Read) -> str | None:
     return rational_kkt.refutation(numbers["H"].toarray(), numbers["g"], A, numbers["b"], *answer)
 
 
-def judged(judge: Callable[[Any], str | None], some: Sequence[Any]) -> tuple[int, str]:
+def refuted_and_time(judge: Callable[[Any], str | None], some: Sequence[Any]) -> tuple[int, str]:
     """How many are refuted, and the processor time that it takes [s]."""
     begin = time.process_time()
     refuted = [why for one in some if (why := judge(one)) is not None]
@@ -66,8 +66,8 @@ def lines(every: int) -> Iterator[tuple[str, ...]]:
         own = [one for one in members if one.facts["family"] == family][::every]
         small = [one for one in read(folder, family) if one[0]["n"] <= LARGEST]
         share = small[:: SHARE * every]
-        wrong, seconds = judged(refutation, own)
-        wrong_again, seconds_again = judged(refuted_in_fractions, share)
+        wrong, seconds = refuted_and_time(refutation, own)
+        wrong_again, seconds_again = refuted_and_time(refuted_in_fractions, share)
         largest = max(one.facts["n"] for one in own)
         largest_again = max(facts["n"] for facts, _ in share)
         yield (f"`{family}`", str(len(own)), f"{largest}", str(wrong), seconds,
@@ -76,7 +76,7 @@ def lines(every: int) -> Iterator[tuple[str, ...]]:
 
 def main() -> None:
     """Write the page; exit status 1 if an answer is refuted."""
-    options = asked(__doc__, every=1, out=Path)
+    options = script_options(__doc__, every=1, out=Path)
     found = list(lines(options.every))
     proved, refuted, again, refuted_again = (
         sum(int(line[i]) for line in found) for i in (1, 3, 5, 7)
@@ -88,7 +88,7 @@ def main() -> None:
         f"lines of the set's README: {refuted_again} refuted. Processor time; the number of "
         "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found))
     )
-    shown(text, options.out)
+    show_page(text, options.out)
     raise SystemExit(int(refuted + refuted_again > 0))
 
 

@@ -29,7 +29,7 @@ from typing import NamedTuple
 
 from quasistatic_ref.optional.fast.compiled import library, selftest
 from quasistatic_ref.optional.fast.compiled.known_steps import known_steps
-from validation.tools.scripts import ROOT, asked, shown
+from validation.tools.scripts import ROOT, script_options, show_page
 
 FILES = (
     "fixed_point.h", "rounding.c", "span.c", "kkt.c", "certificate.c", "groups.c", "contraction.c",
@@ -301,7 +301,7 @@ def of_file(
 
 def main() -> int:
     """Try all; exit status 1 if a wrong library passes without a reason."""
-    options = asked(__doc__, every=1, compilers=False, known=False, kept=Path, out=Path)
+    options = script_options(__doc__, every=1, compilers=False, known=False, kept=Path, out=Path)
     known_steps()  # once, for all that are forked
     with tempfile.TemporaryDirectory() as folder:
         builder = Builder(Path(folder), "-O0" if options.compilers else "-O1")
@@ -324,7 +324,7 @@ def main() -> int:
         ),
         left="\n".join(line for _, left, _ in rows for line in left),
     )
-    shown(page, options.out)
+    show_page(page, options.out)
     return int(passed > 0)
 
 

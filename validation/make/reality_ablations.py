@@ -16,14 +16,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
-from quasistatic_ref.lab.reality.identify import identified
+from quasistatic_ref.lab.reality.errors import bootstrap_estimate, errors_of
+from quasistatic_ref.lab.reality.identify import identified_ratio
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predictions import poses, predicted_pushes
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from validation.tools.scripts import RESULTS, asked, record_written
+from validation.tools.scripts import RESULTS, record_written, script_options
 
 OUT = RESULTS / "reality_ablations.json"
 PYRAMID = {"cone": "pyramid"}
@@ -88,7 +88,7 @@ def predictions(every: int, work: Path, jobs: int) -> Iterator[tuple[str, dict[s
         ratios = {}
         for pair in pairs:
             cone = source if source not in ("published", "reverse") else "ellipsoid"
-            found = identified(loads[pair.name], pair.outline.gyration, cone)
+            found = identified_ratio(loads[pair.name], pair.outline.gyration, cone)
             other = {"published": pair.published, "reverse": found.reverse}
             ratios[pair.name] = other.get(source, found.ratio)
         file = work / f"{name.replace(' ', '_').replace('/', '_per_')}.jsonl"
@@ -106,8 +106,8 @@ def predictions(every: int, work: Path, jobs: int) -> Iterator[tuple[str, dict[s
             {
                 "pushes": sum(len(e.model) for e in errors),
                 "steps": kinds,
-                "error": plain(bootstrapped([e.model for e in errors])),
-                "more": plain(bootstrapped(more)),
+                "error": plain(bootstrap_estimate([e.model for e in errors])),
+                "more": plain(bootstrap_estimate(more)),
                 "poses": np.concatenate([poses(rows[pair.name]) for pair in pairs]),
             },
         )
@@ -118,7 +118,7 @@ def plain(estimate: Any) -> dict[str, list[float]]:
     return {key: [float(f"{x:.4g}") for x in value] for key, value in vars(estimate).items()}
 
 
-def spread(found: dict[str, dict[str, Any]], names: list[str]) -> dict[str, float]:
+def pose_spread(found: dict[str, dict[str, Any]], names: list[str]) -> dict[str, float]:
     """How far final poses of the same push lie apart, over variants that break ties otherwise."""
     ends = np.array([found[name]["poses"] for name in names])
     across = ends.max(0) - ends.min(0)
@@ -138,13 +138,13 @@ def summary(found: dict[str, dict[str, Any]], every: int) -> dict[str, Any]:
     record = {"every": every, "variants": shown}
     if ties:
         among = ["pyramid, axes at 0 degrees", *ties]
-        record["spread over the pyramid's ties"] = spread(found, among) | {"among": len(among)}
+        record["spread over the pyramid's ties"] = pose_spread(found, among) | {"among": len(among)}
     return record
 
 
 def main() -> None:
     """Predict what is left, and write the summary."""
-    options = asked(__doc__, work=Path("reality_work"), every=10, jobs=2, out=OUT)
+    options = script_options(__doc__, work=Path("reality_work"), every=10, jobs=2, out=OUT)
     found: dict[str, dict[str, Any]] = {}
     for name, entry in predictions(options.every, options.work, options.jobs):
         found[name] = entry

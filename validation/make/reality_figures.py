@@ -10,14 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.lab.examples.gallery import figure_of
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
-from validation.tools.scripts import RESULTS, asked
+from validation.tools.scripts import RESULTS, script_options
 
 Record = Mapping[str, Any]
 
 
-def _named(axes: Axes, names: Sequence[str]) -> None:
+def _name_rows(axes: Axes, names: Sequence[str]) -> None:
     """Names at the left, the first at the top."""
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.4, -0.6)
@@ -51,9 +51,9 @@ def identified_ratios(record: Record) -> Figure:
            "published")  # fmt: skip
     _marks(axes, 1e3 * np.array([e["uniform"] for e in record.values()]), rows, "|", 8,
            "uniform")  # fmt: skip
-    _named(axes, list(record))
+    _name_rows(axes, list(record))
     axes.set_xlim(left=0)
-    labelled(axes, r"$\mu_\omega / \mu_v$ [mm]")
+    label_axes(axes, r"$\mu_\omega / \mu_v$ [mm]")
     return figure
 
 
@@ -66,9 +66,9 @@ def lost_shares(record: Record) -> Figure:
         _marks(axes, lost, np.full(len(lost), row), "o", 4, "a pair" if row == 0 else "")
         axes.plot([lost.mean()] * 2, [row - 0.3, row + 0.3], color="black", linewidth=scaled(1.6),
                   label="mean" if row == 0 else "")  # fmt: skip
-    _named(axes, cones)
+    _name_rows(axes, cones)
     axes.set_xlim(left=0)
-    labelled(axes, "share of the dissipation that is lost [%]")
+    label_axes(axes, "share of the dissipation that is lost [%]")
     return figure
 
 
@@ -82,9 +82,9 @@ def errors_by_pair(record: Record) -> Figure:
         _spans(axes, [e["published"] for e in entries], k, 0.15, marker="s", markerfacecolor="none",
                label="published simulator")  # fmt: skip
         shown = ["mean over pairs" if name == "all" else name for name in names]
-        _named(axes, [""] * len(shown) if k else shown)
+        _name_rows(axes, [""] * len(shown) if k else shown)
         axes.set_xlim(left=0)
-        labelled(axes, f"mean error of {unit}", key=False)
+        label_axes(axes, f"mean error of {unit}", key=False)
     legend_below(both, both[0].get_legend_handles_labels()[0])
     return figure
 
@@ -95,9 +95,9 @@ def ablations(record: Record, names: Sequence[str]) -> Figure:
     entries = [record["variants"][name]["error"] for name in names]
     for k, (axes, unit) in enumerate(zip(both, ("position [mm]", "rotation [deg]"), strict=True)):
         _spans(axes, entries, k, 0.0, marker="o")
-        _named(axes, [""] * len(names) if k else names)
+        _name_rows(axes, [""] * len(names) if k else names)
         axes.set_xlim(left=0)
-        labelled(axes, f"error of {unit}", key=False)
+        label_axes(axes, f"error of {unit}", key=False)
     return figure
 
 
@@ -117,9 +117,11 @@ def tripods(record: Record) -> Figure:
             shares = [100 * record["variants"][name][s]["median error over median turn"]
                       for s in sets]  # fmt: skip
             _marks(axes, shares, range(len(sets)), mark, 5, label if name == own[0] else "")
-    _named(axes, [f"{name}{', identification' if k == 0 else ''}" for k, name in enumerate(sets)])
+    _name_rows(
+        axes, [f"{name}{', identification' if k == 0 else ''}" for k, name in enumerate(sets)]
+    )
     axes.set_xlim(left=0)
-    labelled(axes, "median error of rotation over median rotation [%]")
+    label_axes(axes, "median error of rotation over median rotation [%]")
     return figure
 
 
@@ -137,7 +139,7 @@ def result(name: str) -> Any:
 
 def main() -> None:
     """Draw all."""
-    options = asked(__doc__, out=Path("reality_figures"))
+    options = script_options(__doc__, out=Path("reality_figures"))
     identified = result("reality_identified")
     variants = result("reality_ablations")
     shown = [name for name in SHOWN if name in variants["variants"]]

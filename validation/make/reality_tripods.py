@@ -14,16 +14,16 @@ from scipy.optimize import least_squares
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
+from quasistatic_ref.lab.reality.errors import bootstrap_estimate, errors_of
 from quasistatic_ref.lab.reality.outline import Outline, rotation
-from quasistatic_ref.lab.reality.predict import Prediction, predicted
+from quasistatic_ref.lab.reality.predict import Prediction, prediction
 from quasistatic_ref.lab.reality.push import Pushed
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import ADVANCE, Settings
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
-from validation.tools.scripts import RESULTS, asked, record_written
+from validation.tools.scripts import RESULTS, record_written, script_options
 
 LEG, MASS = 0.15, 1.518
 """Of the right triangle, the corner at the origin of its frame [m], [kg]."""
@@ -195,7 +195,7 @@ def tripod_prediction(
         Of the finger [m].
     certify : str
     """
-    found = predicted(scene, frozen.object_pose(before), path, certify)
+    found = prediction(scene, frozen.object_pose(before), path, certify)
     return frozen.measured_pose(found.pose), found
 
 
@@ -221,7 +221,7 @@ def medians(values: np.ndarray) -> list[float]:
 
 def main() -> None:
     """Predict all sets, and write the summary."""
-    options = asked(__doc__, out=OUT)
+    options = script_options(__doc__, out=OUT)
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
     record = {
@@ -245,7 +245,7 @@ def main() -> None:
                 ends.append(end)
                 kinds.update(steps.kinds)
             found = errors_of(np.array(ends), own.pushes)
-            mean = bootstrapped([found.model])
+            mean = bootstrap_estimate([found.model])
             entry[own.name] = {
                 "pushes": len(ends),
                 "steps": kinds,

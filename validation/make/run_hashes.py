@@ -30,7 +30,7 @@ from tqdm import tqdm
 from quasistatic_ref import load_scenario
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
-from validation.tools.scripts import ROOT, asked, environment, shown
+from validation.tools.scripts import ROOT, environment, script_options, show_page
 
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
 """Processors with AVX-512, with FMA, and with neither."""
@@ -151,9 +151,9 @@ def report(steps: int | None, python: str | None, path: Path | None) -> tuple[st
 
 def main() -> int:
     """Write the result."""
-    options = asked(__doc__, steps=int, python=str, log=Path, out=Path)
+    options = script_options(__doc__, steps=int, python=str, log=Path, out=Path)
     text, equal = report(options.steps, options.python, options.log)
-    shown(text, options.out)
+    show_page(text, options.out)
     return int(not equal)
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from quasistatic_ref import load_scenario
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.formats.resources import scenario_names
-from validation.tools.scripts import RESULTS, asked, record_written
+from validation.tools.scripts import RESULTS, record_written, script_options
 
 RESULT = RESULTS / "same_bits.json"
 WITHOUT_TORSION = "contacts.grip.mu_omega=0"
@@ -53,7 +53,7 @@ def run_record(name: str, settings: list[str]) -> dict[str, Any]:
 
 def main() -> int:
     """Write hashes, or compare them; exit status 1 if a run differs."""
-    options = asked(__doc__, set=str, out=Path)
+    options = script_options(__doc__, set=str, out=Path)
     settings = [options.set] if options.set else []
     found = {name: run_record(name, settings) for name in scenario_names()}
     bunny = run_record("bunny_grasp", [WITHOUT_TORSION, *settings])

@@ -24,7 +24,7 @@ from quasistatic_ref.optional.scans.solid import solid_of_mesh
 from quasistatic_ref.scenario.scenario import scenario_path
 from quasistatic_ref.step.arrays import Array
 from tests.oracles.scanned import SCANS, SOLIDS, Exact
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 POINTS, MASS = 8000, 0.35
 WITHIN, WITH_HOLES = 0.05, 0.10
@@ -78,7 +78,7 @@ def errors(made: ScannedBody, exact: Exact) -> tuple[float, float]:
     return float(np.linalg.norm(made.centre - centre)) / extent, float(off)
 
 
-def lifted(made: ScannedBody, width: float, folder: Path) -> tuple[float, float]:
+def lift_and_turn(made: ScannedBody, width: float, folder: Path) -> tuple[float, float]:
     """How far two fingers lift a body [m], and how far it turns meanwhile [deg]."""
     x, y, z = made.centre.tolist()
     z += made.height
@@ -136,7 +136,7 @@ def lifted(made: ScannedBody, width: float, folder: Path) -> tuple[float, float]
 
 def main() -> int:
     """Write the page."""
-    options = asked(__doc__, out=Path)
+    options = script_options(__doc__, out=Path)
     rows: list[list[str]] = []
     failed = 0
     with tempfile.TemporaryDirectory() as given:
@@ -145,7 +145,7 @@ def main() -> int:
             drawn, exact = scans(name)
             own = drawn["clean"][thinned(drawn["clean"], 1000)]
             solid = ScannedBody(name, own, MASS, exact[1], MASS * exact[2], 8, ())
-            rise, turn = lifted(solid, width, folder)
+            rise, turn = lift_and_turn(solid, width, folder)
             held = rise >= RISE and turn <= TURN
             rows.append([name, "the solid", "", "", f"{1e3 * rise:.1f}", f"{turn:.2f}", str(held)])
             for scan, points in {**drawn, "in millimetres": 1e3 * drawn["clean"]}.items():
@@ -153,7 +153,7 @@ def main() -> int:
                 unit = "mm" if scan == "in millimetres" else None
                 made = scanned_body(folder / "scan.npy", mass=MASS, unit=unit, name=name)
                 off = errors(made, exact)
-                rise, turn = lifted(made, width, folder)
+                rise, turn = lift_and_turn(made, width, folder)
                 same = (rise >= RISE and turn <= TURN) == held
                 failed += max(off) > (WITH_HOLES if scan == "holed" else WITHIN) or not same
                 numbers = [f"{100 * off[0]:.1f}", f"{100 * off[1]:.1f}", f"{1e3 * rise:.1f}"]
@@ -161,7 +161,7 @@ def main() -> int:
                 print(*rows[-1], file=sys.stderr, flush=True)
     head = ["solid", "scan", "centre [%]", "inertia [%]", "rise [mm]", "turn [deg]", "held"]
     table = "\n".join(markdown_table(head, rows, 2))
-    shown(PAGE.format(points=POINTS, mass=MASS, table=table), options.out)
+    show_page(PAGE.format(points=POINTS, mass=MASS, table=table), options.out)
     return int(failed > 0)
 
 

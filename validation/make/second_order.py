@@ -17,20 +17,20 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.programs.engines.judge import program_of
-from validation.programs.engines.phenomena import answered
+from validation.programs.engines.phenomena import engine_answer
 from validation.programs.engines.second_order import (
     STUDY,
     Motion,
     Run,
     closed_form,
-    expected,
-    measured,
+    expected_motion,
+    measures,
     motion,
     runs,
     scene_of,
 )
 from validation.programs.engines.second_order_page import ROWS, rows, tables
-from validation.tools.scripts import asked
+from validation.tools.scripts import script_options
 
 TIMEOUT = 1200.0
 """For one run [s]."""
@@ -58,12 +58,12 @@ class Engines:
             self.programs[run.engine] = self.started.enter_context(program)
         setting = {"h": run.h, **STUDY["engines"][run.engine][run.setting]}
         program = self.programs[run.engine]
-        return answered(program, scene_of(run.scene, run.speed), setting)
+        return engine_answer(program, scene_of(run.scene, run.speed), setting)
 
     def reference(self, scene: str, speed: float) -> Motion:
         """What a run is compared with."""
         if closed_form(scene):
-            return expected(scene, scene_of(scene, speed))
+            return expected_motion(scene, scene_of(scene, speed))
         if (scene, speed) not in self.references:
             of = STUDY["reference"]
             poses = self.answer(Run(scene, speed, of["engine"], of["setting"], of["h"]))["poses"]
@@ -75,7 +75,7 @@ class Engines:
         scene = scene_of(run.scene, run.speed)
         try:
             answer = self.answer(run)
-            found = measured(scene, answer["poses"], self.reference(run.scene, run.speed))
+            found = measures(scene, answer["poses"], self.reference(run.scene, run.speed))
         except ValueError as failed:
             return {**run._asdict(), "holds": False, "right": False, "failed": str(failed)}
         cost = 1e3 * answer["seconds"] / scene["times"][-1]
@@ -84,7 +84,7 @@ class Engines:
 
 def main() -> None:
     """Take what was not yet taken."""
-    given = asked(__doc__, count=int, environments=Path)
+    given = script_options(__doc__, count=int, environments=Path)
     wanted = runs()
     if given.count:
         wanted = [

@@ -29,7 +29,7 @@ from quasistatic_ref.optional.fast.compiled.solids import measured
 from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
 from tests.oracles.posed_pairs import PosedPairs
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 Array = np.ndarray
 GAPS = (0.0, 1e-16, 1e-13, -1e-13, 1e-9, -1e-9, 1e-6, -1e-3)
@@ -90,7 +90,7 @@ def poses(a: Shape, b: Shape, count: int, seed: int) -> Iterator[tuple[Array, Ar
         yield np.stack([W, W @ R]), np.stack([shift, W @ t + shift])
 
 
-def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
+def pose_counts(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
     """How many poses were tried, decided in C and refused, how many differ, and times [s]."""
     pairs = [pair_of(*sides, k) for sides in ((a, b), (b, a)) for k in KEPT]
     by_c = [PosedPairs([pair], 2) for pair in pairs]
@@ -119,19 +119,19 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
 
 def main() -> int:
     """Try all pairs, and write the page; exit status 1 if a bit differs."""
-    options = asked(__doc__, count=10_000, out=Path)
+    options = script_options(__doc__, count=10_000, out=Path)
     shapes = solids()
     rows = []
     different = 0
     for seed, (first, second) in enumerate(compiled_pairs()):
-        tally = tried(shapes[first], shapes[second], options.count, seed)
+        tally = pose_counts(shapes[first], shapes[second], options.count, seed)
         numbers = [tally[name] for name in COLUMNS[:4]]
         us = [f"{1e6 * tally[name] / tally['poses']:.0f}" for name in ("compiled", "plain")]
         rows.append((f"{first} - {second}", *numbers, *us))
         different += tally["different"]
         print(*rows[-1], flush=True)
     table = markdown_table(("pair", *COLUMNS), rows)
-    shown("\n".join([INTRODUCTION, *table]), options.out)
+    show_page("\n".join([INTRODUCTION, *table]), options.out)
     return int(different > 0)
 
 

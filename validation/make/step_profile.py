@@ -9,12 +9,12 @@ from pathlib import Path
 from quasistatic_ref.lab.bench.profile import PARTS, SOLVE, Microseconds, share, step_profiles
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.measuring.environment import machine
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import script_options, show_page
 
 
 def main() -> None:
     """Measure, and write the page."""
-    options = asked(__doc__, out=Path)
+    options = script_options(__doc__, out=Path)
     found = step_profiles()
     m = machine()
     words = (
@@ -30,7 +30,7 @@ def main() -> None:
         profiles = found["profiles"].all
         rows = [(profile.name, *_row(getattr(profile, of_profile))) for profile in profiles]
         lines += ["", f"## {title}", "", *markdown_table(names, rows)]
-    shown("\n".join(lines), options.out)
+    show_page("\n".join(lines), options.out)
 
 
 def _row(times: Microseconds) -> list[str]:

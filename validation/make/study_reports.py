@@ -24,7 +24,7 @@ from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 FOLDER = ROOT / "validation" / "studies"
 GRIP = "bunny_torsion"
@@ -60,7 +60,7 @@ def summary(report: Report) -> str:
     return markdown_page(Report(report.title, tuple(sections)))
 
 
-def made(name: str, run: bool) -> None:
+def make(name: str, run: bool) -> None:
     """Run and pack one study, or judge the claims of its rows again; report it."""
     out = str(FOLDER / name)
     with tempfile.TemporaryDirectory() as store:
@@ -84,6 +84,6 @@ def made(name: str, run: bool) -> None:
 
 
 if __name__ == "__main__":
-    options = asked(__doc__, NAMES, report=False)
+    options = script_options(__doc__, NAMES, report=False)
     for name in options.names or NAMES:
-        made(name, not options.report)
+        make(name, not options.report)

@@ -7,10 +7,10 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from quasistatic_ref.lab.vectors.features import counted
+from quasistatic_ref.lab.vectors.features import feature_counts
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from validation.tools.scripts import ROOT, asked, shown
+from validation.tools.scripts import ROOT, script_options, show_page
 
 VECTORS = ROOT / "validation" / "vectors"
 
@@ -21,7 +21,7 @@ def page() -> Iterator[str]:
     for name in LAYERS:
         expected = expected_read(VECTORS, name)
         cases = ((one.input, expected[one.id]["output"]) for one in inputs_read(VECTORS, name))
-        counts[name] = counted(cases)
+        counts[name] = feature_counts(cases)
     yield ",".join(("feature", *LAYERS))
     for feature in sorted({feature for found in counts.values() for feature in found}):
         yield ",".join((feature, *(str(counts[name][feature]) for name in LAYERS)))
@@ -29,8 +29,8 @@ def page() -> Iterator[str]:
 
 def main() -> int:
     """Count, and write the table."""
-    options = asked(__doc__, out=Path)
-    shown("\n".join(page()), options.out)
+    options = script_options(__doc__, out=Path)
+    show_page("\n".join(page()), options.out)
     return 0
 
 

@@ -27,7 +27,7 @@ SETTLED = 200
 """Steps after which the gap no longer changes: it loses a fourth at least in each."""
 
 
-def slid(browser: Browser, **values: float) -> dict:
+def answer_after_sliding(browser: Browser, **values: float) -> dict:
     """What the page answers after its sliders have been moved."""
     for name, value in values.items():
         browser.value(
@@ -36,7 +36,7 @@ def slid(browser: Browser, **values: float) -> dict:
     return dict(browser.value("answers"))
 
 
-def dragged(browser: Browser, figure: str, *places: tuple[float, float]) -> None:
+def drag(browser: Browser, figure: str, *places: tuple[float, float]) -> None:
     """Press the pointer at the first place of a figure, in its own pixels, and move to the last."""
     browser.value(f"at('{figure}').scrollIntoView()")
     left, top, width = browser.value(
@@ -59,7 +59,7 @@ def dragged(browser: Browser, figure: str, *places: tuple[float, float]) -> None
 def check_bowl(browser: Browser) -> None:
     """The answer of a point, at pushes on both sides of the threshold."""
     for push, mu_v in ((3.0, 0.5), (8.0, 0.5), (-8.0, 0.5), (4.0, 0.25), (12.0, 1.0), (5.0, 0.0)):
-        dx, dz = slid(browser, push=push, mu_v=mu_v)["bowl"]
+        dx, dz = answer_after_sliding(browser, push=push, mu_v=mu_v)["bowl"]
         step = point_step(1.0, (push, 0.0, -GRAVITY), mu_v, 0.0, H)
         found = solve_step(step).delta_q[[0, 2]]
         far = float(np.abs(found - [dx, dz]).max())
@@ -69,7 +69,7 @@ def check_bowl(browser: Browser) -> None:
 def check_section(browser: Browser) -> None:
     """Loads that some cones hold: by their sliders, then by the pointer."""
     for f_1, tau in ((0.3, 0.4), (0.6, 0.6), (0.9, 0.9), (1.2, 0.0), (-0.5, 0.49), (0.5, 0.51)):
-        held = slid(browser, f_1=f_1, tau=tau)["section"]
+        held = answer_after_sliding(browser, f_1=f_1, tau=tau)["section"]
         for cone, says in held.items():
             wrench = (0.5 * f_1, 0.0, -1.0, 0.0, 0.0, 0.02 * tau)  # on 1 N
             step = sphere_step(
@@ -77,7 +77,7 @@ def check_section(browser: Browser) -> None:
             ).replace(cone=cone)
             still = bool(np.abs(solve_step(step).delta_q).max() < 1e-12)
             check(still != says, f"{cone} at {f_1, tau}: {says}, not {still}")
-    dragged(
+    drag(
         browser, "section", *((240 + 130 * f, 200 - 130 * t) for f, t in ((0.6, 0.6), (-0.3, 0.2)))
     )
     found = browser.value("[value('f_1'), value('tau')]")
@@ -88,7 +88,7 @@ def check_section(browser: Browser) -> None:
 def check_lift(browser: Browser) -> None:
     """The layer on which a sphere settles, step after step."""
     for h, share in ((10.0, 2.0), (5.0, 2.0), (10.0, 5.0), (20.0, 0.9)):
-        gap = slid(browser, h=h, share=share)["lift"]
+        gap = answer_after_sliding(browser, h=h, share=share)["lift"]
         phi = 0.0
         for _ in range(SETTLED):
             wrench = (0, 0, -0.3 * GRAVITY, 0, 0, share * 0.01 * 0.3 * GRAVITY)
@@ -129,7 +129,7 @@ def check_bar(browser: Browser) -> None:
         (40, 4, 20, 0.5), (42, 4, 20, 0.5), (-42, 4, 20, 0.5), (-70, 8, 30, 1), (10, 1.9, 20, 0.5),
         (0, 2, 0, 0.5), (0, 1.95, 20, 0.5),
     ):  # fmt: skip
-        slid(browser, **dict(zip(names, values, strict=True)))
+        answer_after_sliding(browser, **dict(zip(names, values, strict=True)))
         verb = check_said(browser)
         seen.add(verb)
         lever, squeeze, mu_omega, mu_v = values
@@ -142,13 +142,13 @@ def check_bar(browser: Browser) -> None:
         check(verb == "turns" and not both.all(), f"{values}: not spin and slip at once, {moves}")
     check(seen != {"holds", "turns", "slips"}, f"only {seen} were seen")
 
-    slid(browser, lever=40, squeeze=4, mu_omega=20, mu_v_bar=0.5)
+    answer_after_sliding(browser, lever=40, squeeze=4, mu_omega=20, mu_v_bar=0.5)
     for name, start, end, becomes, verb in (
         ("lever", (340, 62), (390, 62), 60, "turns"),
         ("squeeze", (340, 335), (380, 335), 5.6, "holds"),
         ("mu_omega", (240, 177), (240, 275), 7.1, "turns"),
     ):
-        dragged(browser, "bar", start, end)
+        drag(browser, "bar", start, end)
         found = browser.value(f"value('{name}')")
         check(abs(found - becomes) > 0.2, f"{name} is {found} after a drag, not {becomes}")
         check(

@@ -39,7 +39,7 @@ from validation.tools.installs import (
     REFUSED,
     WALK_FILES,
 )
-from validation.tools.scripts import ROOT, asked, environment
+from validation.tools.scripts import ROOT, environment, script_options
 
 HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
@@ -81,7 +81,7 @@ class Environment:
         )  # fmt: skip
 
 
-def built(folder: Path) -> Path:
+def built_wheel(folder: Path) -> Path:
     """The wheel of this checkout."""
     command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", folder, ROOT]
     subprocess.run([str(word) for word in command], check=True, cwd=folder)
@@ -89,7 +89,9 @@ def built(folder: Path) -> Path:
     return wheel
 
 
-def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) -> Environment:
+def environment_with(
+    wheel: Path, extra: str, python: str, lowest: bool, folder: Path
+) -> Environment:
     """A fresh environment with the wheel and an extra."""
     home = folder / "environment"
     empty = folder / "empty"
@@ -178,7 +180,7 @@ def places(at: Environment, line: str) -> set[str]:
     return {part for word in re.findall(r"[\w./-]+", said) for part in Path(word).parts}
 
 
-def skipped(at: Environment, wheel: Path, extra: str) -> list[str]:
+def failed_or_skipped(at: Environment, wheel: Path, extra: str) -> list[str]:
     """With `test` beside the extra: the tests of the extra that fail, or that are skipped."""
     uv = wheel.parent / "uv" / "bin" / "uv"
     python = at.home / "bin" / "python"
@@ -195,7 +197,7 @@ def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], 
     folder = Path(tempfile.mkdtemp(prefix="installs-"))
     try:
         start = time.perf_counter()
-        at = installed(wheel, extra, python, lowest, folder)
+        at = environment_with(wheel, extra, python, lowest, folder)
         took = time.perf_counter() - start
         size = mebibytes(at.home.rglob("*"))
         parts = largest(at.home)
@@ -204,7 +206,7 @@ def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], 
         start = time.perf_counter()
         wrong = faults(at, extra)
         if extra in MARKED:
-            wrong += skipped(at, wheel, extra)
+            wrong += failed_or_skipped(at, wheel, extra)
         ran = time.perf_counter() - start
     except subprocess.CalledProcessError as error:
         return [extra, python, _versions(lowest), *"-----", "cannot be installed"], [str(error)]
@@ -220,7 +222,7 @@ def _versions(lowest: bool) -> str:
     return "lowest" if lowest else "newest"
 
 
-def written(path: Path, rows: list[list[str]]) -> None:
+def write_table(path: Path, rows: list[list[str]]) -> None:
     """The table with these rows; other rows of a table that is there stay."""
     kept: dict[tuple[str, ...], list[str]] = {}
     for line in path.read_text("utf-8").splitlines() if path.exists() else []:
@@ -239,15 +241,15 @@ def written(path: Path, rows: list[list[str]]) -> None:
 
 def main() -> int:
     """Try what was named; 1 if something is wrong."""
-    options = asked(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
+    options = script_options(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
     wrong = []
     with tempfile.TemporaryDirectory() as temporary:
-        wheel = built(Path(temporary))
+        wheel = built_wheel(Path(temporary))
         for extra in options.names or COMMANDS:
             cells, faulty = row(wheel, extra, options.python, options.lowest)
             print("| " + " | ".join(cells) + " |", flush=True)
             if options.out is not None:
-                written(options.out, [cells])
+                write_table(options.out, [cells])
             wrong += [f"{extra}: {fault}" for fault in faulty]
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0

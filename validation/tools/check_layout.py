@@ -77,7 +77,7 @@ EXCHANGED = """
 """JavaScript: what another page has in the frame of the page that is open."""
 
 
-def resized(browser: Browser, width: int) -> None:
+def resize(browser: Browser, width: int) -> None:
     """Give the window a width [px], without scroll bars, which a phone has not."""
     browser.ask(
         "Emulation.setDeviceMetricsOverride",
@@ -86,7 +86,7 @@ def resized(browser: Browser, width: int) -> None:
     browser.ask("Emulation.setScrollbarsHidden", hidden=True)
 
 
-def opened(browser: Browser, page: Path) -> None:
+def open_unfolded(browser: Browser, page: Path) -> None:
     """Load a page, with all formulas made and all boxes unfolded."""
     browser.open(page)
     browser.value("void window.MathJax?.startup?.promise.then(() => { window.typeset = true })")
@@ -100,7 +100,7 @@ def opened(browser: Browser, page: Path) -> None:
 def page_faults(browser: Browser, page: Path, pictures: Path | None) -> Iterator[str]:
     """One sentence for each fault of the page that is shown, with the width at which it is one."""
     for width in WIDTHS:
-        resized(browser, width)
+        resize(browser, width)
         for fault in browser.value(f"{FAULTS}({str(width == WIDTHS[-1]).lower()})"):
             yield f"at {width} px: {fault}"
         if pictures:
@@ -124,7 +124,7 @@ def main() -> None:
             if framed and LISTINGS in page.parts:
                 browser.value(f"{EXCHANGED}({json.dumps(page.read_text('utf-8'))})")
             else:
-                opened(browser, page)
+                open_unfolded(browser, page)
             framed = LISTINGS in page.parts
             where = page.relative_to(site)
             faults += [f"{where} {fault}" for fault in page_faults(browser, page, pictures)]

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 SCENARIO = "bunny_grasp"
 PARTS = {
@@ -53,7 +53,9 @@ def package_copied(folder: Path, *without: str) -> Path:
     return folder
 
 
-def ended(folder: Path, out: Path, steps: int, *options: str) -> subprocess.CompletedProcess[str]:
+def run_of_package(
+    folder: Path, out: Path, steps: int, *options: str
+) -> subprocess.CompletedProcess[str]:
     """What ``quasistatic-ref run`` came to with the package in a folder, its run in `out`."""
     command = [sys.executable, "-m", "quasistatic_ref", "run", SCENARIO, "--set", f"steps={steps}"]
     return subprocess.run(
@@ -70,7 +72,7 @@ def arrays(folder: Path, steps: int) -> dict[str, bytes]:
     RuntimeError
         If the run fails.
     """
-    done = ended(folder, folder, steps)
+    done = run_of_package(folder, folder, steps)
     if done.returncode:
         raise RuntimeError(done.stderr)
     with np.load(folder / f"{SCENARIO}.npz") as file:
@@ -90,7 +92,7 @@ def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
             options, word = PARTS[name]
             if not options:
                 continue
-            refused = ended(folder, folder / "refused", 0, *options)
+            refused = run_of_package(folder, folder / "refused", 0, *options)
             sentence = f"{word} needs quasistatic_ref/optional/{name}"
             if refused.returncode != 2 or sentence not in refused.stderr:
                 wrong.append(f"{word} is not refused in a sentence: {refused.stderr}")
@@ -99,7 +101,7 @@ def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
 
 def main() -> int:
     """Delete and compare; the exit status."""
-    options = asked(__doc__, PARTS, steps=40)
+    options = script_options(__doc__, PARTS, steps=40)
     with tempfile.TemporaryDirectory() as made:
         expected = arrays(package_copied(Path(made)), options.steps)
     status = 0

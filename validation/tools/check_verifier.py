@@ -27,7 +27,7 @@ from quasistatic_ref.step.files import step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser, check
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 from validation.tools.verifier_files import Case, Cases, all_cases
 
 VERIFIER = ROOT / "validation" / "programs" / "verifier" / "verify.js"
@@ -104,7 +104,7 @@ def check_page(site: Path) -> None:
 
 def main() -> int:
     """Print the table; exit status 1 if the two checkers disagree."""
-    options = asked(__doc__, site=Path, all=False, out=Path)
+    options = script_options(__doc__, site=Path, all=False, out=Path)
     if options.site:
         check_page(options.site)
     with TemporaryDirectory() as folder:

@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 FOLDER = ROOT / "docs" / "lectures"
 LECTURES = (
@@ -102,9 +102,9 @@ def notebook(name: str, answers: bool, *last: str) -> dict[str, Any]:
 
 def fault(name: str) -> str:
     """What is wrong with a notebook that has its answers, or nothing."""
-    from validation.tools.notebooks import executed
+    from validation.tools.notebooks import executed_notebook
 
-    made = executed(notebook(name, True, SPENT))
+    made = executed_notebook(notebook(name, True, SPENT))
     said, seconds = (cell.outputs[0]["text"].strip() for cell in made.cells[-2:])
     took = float(seconds)
     print(f"{name}: {said}, {took:.1f} s", flush=True)
@@ -114,7 +114,7 @@ def fault(name: str) -> str:
 
 def main() -> int:
     """Write, and run."""
-    options = asked(__doc__, out=Path("lectures"), answers=False, run=False)
+    options = script_options(__doc__, out=Path("lectures"), answers=False, run=False)
     options.out.mkdir(parents=True, exist_ok=True)
     for name in LECTURES:
         text = json.dumps(notebook(name, options.answers), indent=1) + "\n"

@@ -27,7 +27,7 @@ from quasistatic_ref.lab.parallel import Log, results, workers
 from validation.tools.mutating.mutants import Mutant, mutants
 from validation.tools.mutating.mutated import TESTS
 from validation.tools.mutating.tried import PACKAGE, ROOT, said_of
-from validation.tools.scripts import asked
+from validation.tools.scripts import script_options
 
 SURVIVORS = ROOT / "validation" / "results" / "mutation_survivors.md"
 RESULTS = ROOT / "validation" / "results" / "mutations.md"
@@ -113,7 +113,7 @@ def table_written(files: Iterable[str], found: Mapping[str, str]) -> None:
 
 def main() -> int:
     """Try mutants, and list the survivors."""
-    options = asked(__doc__, TESTS, sample=int, stale=False, log=Path)
+    options = script_options(__doc__, TESTS, sample=int, stale=False, log=Path)
     known_rows = tried_files() if options.stale else {}
     files = [f for f in options.names or TESTS if known_rows.get(f, ("",))[0] != code_hash(f)]
     chosen = all_mutants(files)

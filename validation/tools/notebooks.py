@@ -15,7 +15,7 @@ from typing import Any
 
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
 from validation.tools.lectures import book
-from validation.tools.scripts import asked
+from validation.tools.scripts import script_options
 
 try:
     import nbformat
@@ -50,7 +50,7 @@ with figure_style():
     page = figure()"""
 
 
-def executed(content: dict[str, Any]) -> nbformat.NotebookNode:
+def executed_notebook(content: dict[str, Any]) -> nbformat.NotebookNode:
     """A notebook that has run, spoken to through files of its own: no ports."""
     made = nbformat.from_dict(content)
     with TemporaryDirectory() as folder:
@@ -70,7 +70,7 @@ def run(name: str, out: Path) -> str:
     """Run a notebook, and write it; what is wrong with it, or nothing."""
     start = time.perf_counter()
     try:
-        made = executed(notebook(name))
+        made = executed_notebook(notebook(name))
     except CellExecutionError as error:
         return f"{name}: {error}"
     nbformat.write(made, out / f"{name}.ipynb")
@@ -85,7 +85,7 @@ def run(name: str, out: Path) -> str:
 
 def main() -> int:
     """Every notebook, or those that are named."""
-    options = asked(__doc__, EXAMPLES, out=Path("notebooks"))
+    options = script_options(__doc__, EXAMPLES, out=Path("notebooks"))
     options.out.mkdir(parents=True, exist_ok=True)
     names = options.names or EXAMPLES
     with ThreadPoolExecutor(KERNELS) as pool:

@@ -32,7 +32,7 @@ def texts(name: str) -> dict[str, str]:
     return {path.name: path.read_text("utf-8") for path in sorted((PORTS / name).iterdir())}
 
 
-def built(name: str, out: Path, changed: Mapping[str, str] | None = None) -> str:
+def compiler_errors(name: str, out: Path, changed: Mapping[str, str] | None = None) -> str:
     """Compile a port, with files in the place of its own; what the compiler complains of.
 
     Parameters
@@ -60,7 +60,7 @@ def main() -> int:
     for name in BUILDS:
         answers = folder / f"{name}_answers"
         answers.mkdir(parents=True)
-        if said := built(name, folder / name):
+        if said := compiler_errors(name, folder / name):
             raise SystemExit(said)
         subprocess.run([folder / name, VECTORS, answers], check=True)
         scope = scope_read(PORTS / name / "scope.toml")

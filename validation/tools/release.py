@@ -16,7 +16,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 CLI = "quasistatic_ref"
 FIGURES = (
@@ -165,7 +165,7 @@ RESULTS = (
 )
 
 
-def made(result: Result) -> bool:
+def is_made(result: Result) -> bool:
     """Run a result's command, and put what it made where it belongs; False if it failed."""
     with tempfile.TemporaryDirectory() as temporary:
         command = [sys.executable, "-m", *shlex.split(result.command.format(temporary=temporary))]
@@ -181,7 +181,7 @@ def made(result: Result) -> bool:
 def main() -> None:
     """Make the results that are named, then print what changed."""
     known = {result.name: result for result in RESULTS}
-    options = asked(__doc__, known, list=False)
+    options = script_options(__doc__, known, list=False)
     if options.list:
         for result in RESULTS:
             print(f"{result.name}: {', '.join(result.writes)}")
@@ -190,7 +190,7 @@ def main() -> None:
     failed = []
     for result in chosen:
         print(f"== {result.name}", flush=True)
-        if not made(result):
+        if not is_made(result):
             failed.append(result.name)
     print("== what changed since the last commit", flush=True)
     paths = [path for result in chosen for path in result.writes]

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from tests.legible import faults
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"
 GRID = (PAGE, 6.3)
@@ -86,7 +86,7 @@ def every_figure(names: Collection[str]) -> Iterator[tuple[str, str, Figure, lis
 
 def main() -> int:
     """Draw, read, keep."""
-    options = asked(__doc__, (*EXAMPLES, *FIGURES), out=Path)
+    options = script_options(__doc__, (*EXAMPLES, *FIGURES), out=Path)
     wrong = []
     for name, style, page, found in every_figure(options.names):
         wrong += [f"{name}, {style}: {fault}" for fault in found]

@@ -15,7 +15,9 @@ ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "validation" / "results"
 
 
-def asked(doc: str | None, names: Collection[str] = (), **options: Any) -> argparse.Namespace:
+def script_options(
+    doc: str | None, names: Collection[str] = (), **options: Any
+) -> argparse.Namespace:
     """The options that a script was called with; its docstring is its help.
 
     Parameters
@@ -44,7 +46,7 @@ def asked(doc: str | None, names: Collection[str] = (), **options: Any) -> argpa
     return given
 
 
-def shown(text: str, out: Path | None) -> None:
+def show_page(text: str, out: Path | None) -> None:
     """Print a page, and write it to a file where one was asked for."""
     print(text, end="" if text.endswith("\n") else "\n")
     if out is not None:

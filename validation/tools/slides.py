@@ -18,12 +18,12 @@ from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 
 from quasistatic_ref.formats.files import written_whole
-from quasistatic_ref.lab.figures.labels import broken
+from quasistatic_ref.lab.figures.labels import wrapped
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import METADATA
 from tests.legible import faults
 from validation.tools.restyled import drawer
-from validation.tools.scripts import ROOT, asked
+from validation.tools.scripts import ROOT, script_options
 
 FOLDER = ROOT / "docs" / "slides"
 SETS = ("a", "b")
@@ -47,7 +47,7 @@ def slides(name: str) -> list[dict[str, Any]]:
     return list(content["slides"])
 
 
-def drawn(slide: dict[str, Any], mark: str) -> Figure:
+def slide_figure(slide: dict[str, Any], mark: str) -> Figure:
     """A slide in the present style, with a mark in its lower corner."""
     page = plt.figure(figsize=SIZE, layout="constrained")
     width, height = SIZE
@@ -71,7 +71,7 @@ def _below(page: Figure, top: float, text: str, share: float, **look: Any) -> fl
     width, height = SIZE
     centred = text.startswith("$") and text.endswith("$")
     size = (EQUATION if centred else share) * float(plt.rcParams["font.size"])
-    lines = text if centred else broken(text, (width - 2 * EDGE) * 72 / size / SLIM)
+    lines = text if centred else wrapped(text, (width - 2 * EDGE) * 72 / size / SLIM)
     across, side = (0.5, "center") if centred else (EDGE / width, "left")
     shown = page.text(across, top / height, lines, size=size, va="top", ha=side, **look)
     return top - float(shown.get_window_extent().height) / page.dpi
@@ -82,12 +82,12 @@ def pages(name: str) -> Iterator[Figure]:
     made = slides(name)
     with figure_style(STYLE), plt.rc_context(PAGES):
         for k, slide in enumerate(made, 1):
-            page = drawn(slide, f"{k} of {len(made)}, minute {slide['minute']}")
+            page = slide_figure(slide, f"{k} of {len(made)}, minute {slide['minute']}")
             yield page
             plt.close(page)
 
 
-def written(name: str, folder: Path) -> list[str]:
+def write_slides(name: str, folder: Path) -> list[str]:
     """Write the slides of a lecture as ``lecture_NAME.pdf``; what of them cannot be read."""
     wrong = []
 
@@ -103,8 +103,8 @@ def written(name: str, folder: Path) -> list[str]:
 
 def main() -> int:
     """Write, and read."""
-    options = asked(__doc__, SETS, out=Path("slides"))
-    wrong = [fault for name in options.names or SETS for fault in written(name, options.out)]
+    options = script_options(__doc__, SETS, out=Path("slides"))
+    wrong = [fault for name in options.names or SETS for fault in write_slides(name, options.out)]
     print("\n".join(wrong) or f"every slide in {options.out} is legible")
     return 1 if wrong else 0
 

@@ -87,8 +87,8 @@ class GraspSteps:
         """Take all steps `repeat` times."""
         self.parts.append(in_turn(self.rounds, repeat) | in_turn(self.certified, repeat))
 
-    def found(self) -> dict[str, float]:
-        """What the parts have come to.
+    def costs(self) -> dict[str, float]:
+        """What the steps cost.
 
         Returns
         -------

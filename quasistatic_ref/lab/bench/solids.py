@@ -84,8 +84,8 @@ def costs(scene: Scene, steps: int, repeat: int, *, large: bool = False) -> dict
     large : bool
         Leaves out forces, the plain path and DAQP alone.
     """
-    times = least(in_turn([_uncertified(scene, large)] * steps) for _ in range(repeat))
-    certified = least(in_turn([_certified(scene)] * steps) for _ in range(repeat))
+    times = least(in_turn([_uncertified_jobs(scene, large)] * steps) for _ in range(repeat))
+    certified = least(in_turn([_certified_jobs(scene)] * steps) for _ in range(repeat))
     each: dict[str, Array] = {**certified, **times, FIRST: first_steps(scene)}
     if not large:
         forces = _Run(scene, PROVED, forces=True)
@@ -116,7 +116,7 @@ def first_steps(scene: Scene) -> Array:
     return in_turn(jobs, clock=time.process_time)[FIRST]
 
 
-def _uncertified(scene: Scene, large: bool) -> dict[str, Job]:
+def _uncertified_jobs(scene: Scene, large: bool) -> dict[str, Job]:
     """Uncertified steps from the scene's start, the bare solver, and MuJoCo where it is there."""
     off = _Run(scene, UNCERTIFIED)
     jobs: dict[str, Job] = {UNCERTIFIED: off.step}
@@ -132,7 +132,7 @@ def _uncertified(scene: Scene, large: bool) -> dict[str, Job]:
     return jobs
 
 
-def _certified(scene: Scene) -> dict[str, Job]:
+def _certified_jobs(scene: Scene) -> dict[str, Job]:
     """Steps from the scene's start with each certificate."""
     return {kind: _Run(scene, kind).step for kind in (UNCERTIFIED, "residual", PROVED)}
 

@@ -75,7 +75,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
         tell(name)
         found[name] = measured()
         grasp.take(repeat)
-    found["grasp"] = grasp.found()
+    found["grasp"] = grasp.costs()
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found

@@ -151,7 +151,7 @@ class Claim:
     setting: str = ""
 
     @property
-    def installed(self) -> str | None:
+    def engine_version(self) -> str | None:
         """The engine's name, version and setting: "" if it needs none, None if there is none."""
         if self.engine is None:
             return ""
@@ -194,7 +194,7 @@ class Finding:
 
 def finding(claim: Claim) -> Finding:
     """Measure a claim, or say that its engine is missing."""
-    if claim.installed is None:
+    if claim.engine_version is None:
         return Finding(claim, None)
     start = time.perf_counter()
     evidence = None

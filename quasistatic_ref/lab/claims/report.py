@@ -25,7 +25,7 @@ def finding_record(finding: Finding) -> dict[str, Any]:
         "claim": claim.sentence,
         "where": claim.where,
         "sweep": claim.sweep,
-        "engine": claim.installed,
+        "engine": claim.engine_version,
         "reason": claim.reason,
         "verdict": finding.verdict,
         "trouble": finding.trouble,
@@ -108,11 +108,11 @@ def _chapter(finding: Finding) -> list[str]:
         lines += [f"It could not be measured: {record['trouble']}.", ""]
     if record["comparisons"]:
         names = ("quantity", "points", "measured", "expected", "error", "tolerance", "verdict")
-        lines += [*markdown_table(names, map(_compared, record["comparisons"])), ""]
+        lines += [*markdown_table(names, map(_comparison_row, record["comparisons"])), ""]
     return lines
 
 
-def _compared(comparison: Mapping[str, Any]) -> tuple[str, ...]:
+def _comparison_row(comparison: Mapping[str, Any]) -> tuple[str, ...]:
     """The line of a comparison."""
     expected = comparison["expected"]
     return (

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.lab.grasp import CLOSED, TOP, lifted
+from quasistatic_ref.lab.grasp import CLOSED, TOP, lift_motion
 from quasistatic_ref.lab.parallel import Record
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -52,7 +52,7 @@ class Grip:
     needed: float
 
 
-def grasped(cloud: Array, settings: Mapping[str, Any]) -> Record:
+def grasp_record(cloud: Array, settings: Mapping[str, Any]) -> Record:
     """Run ``bunny_grasp`` to the end of the lift with another cloud.
 
     Parameters
@@ -81,7 +81,7 @@ def grasped(cloud: Array, settings: Mapping[str, Any]) -> Record:
     except RunFailed as failure:
         failed = True
         run = failure.trajectory
-    motion, steps = lifted(scenario, run)
+    motion, steps = lift_motion(scenario, run)
     z = motion.t[steps, 2]
     grip = _grip(scenario, run, steps.start)
     return {

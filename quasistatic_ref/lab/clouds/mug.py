@@ -66,7 +66,7 @@ def handle_cloud(spacing: float, rng: np.random.Generator) -> Array:
     return np.stack([OFF + x, TUBE * np.sin(about), z], axis=-1).reshape(-1, 3)
 
 
-def hung(handle: Shape) -> Hung:
+def hung_mug(handle: Shape) -> Hung:
     """Hang a mug with that handle on the hook.
 
     It starts where one with a smooth handle hangs, 1 micrometre higher.

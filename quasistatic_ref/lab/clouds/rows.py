@@ -18,7 +18,7 @@ def rows() -> tuple[Record, ...]:
     return tuple(records_read(clouds_file())[1:])
 
 
-def chosen(**fields: Any) -> list[Record]:
+def rows_with(**fields: Any) -> list[Record]:
     """Rows with these values of their fields.
 
     Parameters
@@ -34,7 +34,7 @@ def with_torsion(row: Record) -> bool:
     return bool(row["mu_omega"] > 0.0)
 
 
-def held(row: Record) -> bool:
+def is_held(row: Record) -> bool:
     """Whether the bunny was lifted and did not turn."""
     limits = grid()["held"]
     rises = row["lift"] >= limits["lift"]
@@ -54,14 +54,14 @@ def rotations(found: Sequence[Record]) -> Array:
     return np.array([row["rotation"] for row in found])
 
 
-def spread() -> dict[str, Array]:
+def rotations_by_case() -> dict[str, Array]:
     """Rotations of all clouds of 992 points in the scene as it is [deg], by its two cases.
 
     Returns
     -------
     dict of str to ndarray, shape (120,)
     """
-    own = chosen(count=992, change=NONE)
+    own = rows_with(count=992, change=NONE)
     return {
         case: rotations([row for row in own if with_torsion(row) == bool(mu_omega)])
         for case, mu_omega in (("with torsion", TORSION), ("without torsion", 0.0))

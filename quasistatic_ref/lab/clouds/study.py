@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab import clouds
-from quasistatic_ref.lab.clouds.held import grasped
+from quasistatic_ref.lab.clouds.held import grasp_record
 from quasistatic_ref.lab.clouds.samplings import SAMPLINGS, Mesh
 from quasistatic_ref.lab.parallel import Record
 from quasistatic_ref.step.data import Array
@@ -70,10 +70,10 @@ class Cell:
         if self.change == "k":
             settings["contacts.grip.k"] = int(self.value)
         elif self.change == "squeeze":
-            settings |= _closed(grip["opening"] - self.value / STIFFNESS)
+            settings |= _closing_targets(grip["opening"] - self.value / STIFFNESS)
         elif self.change == "stiffness":
             settings["bodies.gripper.K_q.width"] = self.value
-            settings |= _closed(grip["opening"] - grip["squeeze"] / self.value)
+            settings |= _closing_targets(grip["opening"] - grip["squeeze"] / self.value)
         elif self.change == "arm":
             settings["bodies.gripper.K_q.base"] = [self.value * K for K in ARM]
         return settings
@@ -85,7 +85,7 @@ class Cell:
         return SAMPLINGS[self.sampling](bunny_mesh(), self.count, rng)
 
 
-def _closed(width: float) -> dict[str, Any]:
+def _closing_targets(width: float) -> dict[str, Any]:
     """Targets whose fingers close to a width [m]."""
     first, closed, top = TARGETS
     return {"bodies.gripper.targets": [first, closed | {"width": width}, top]}
@@ -132,7 +132,7 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
     cloud : ndarray, shape (count, 3), optional
         Its cloud, where it is there already [m].
     """
-    found = grasped(cell.cloud() if cloud is None else cloud, cell.settings())
+    found = grasp_record(cell.cloud() if cloud is None else cloud, cell.settings())
     written: Record = {
         name: value if isinstance(value, bool) else float(f"{value:.6g}")
         for name, value in found.items()

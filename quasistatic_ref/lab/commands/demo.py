@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.lab.clouds.rows import spread
+from quasistatic_ref.lab.clouds.rows import rotations_by_case
 from quasistatic_ref.lab.grasp import (
     CLOSED,
     INSTANTS,
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({"cases": report, "figures": written})
         return 0
     shared.print_rows(_table(report))
-    for case, turned in spread().items():
+    for case, turned in rotations_by_case().items():
         least, middle, most = np.quantile(turned, (0.0, 0.5, 1.0))
         print(
             f"{len(turned)} other clouds of 992 points {case} (committed study): "
@@ -66,7 +66,7 @@ def _figures(
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     with figure_style():
-        strip = grasp_strip(scenario, runs, INSTANTS, spread())
+        strip = grasp_strip(scenario, runs, INSTANTS, rotations_by_case())
         rotation = PICTURES["grasp"](rotations(scenario, runs))
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")

@@ -64,15 +64,15 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("must be greater than 0, at most 1", field="--fraction", value=fraction)
     shared.check_at_least_one(options, "jobs")
     try:
-        return _measured(options, name, round(1 / fraction))
+        return _exit_status(options, name, round(1 / fraction))
     except KeyboardInterrupt:
         kept = f"what was predicted is in {options.out}; the same command goes on from there"
         print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
         return 130
 
 
-def _measured(options: argparse.Namespace, name: str, step: int) -> int:
-    from quasistatic_ref.lab.reality.identify import identified
+def _exit_status(options: argparse.Namespace, name: str, step: int) -> int:
+    from quasistatic_ref.lab.reality.identify import identified_ratio
     from quasistatic_ref.lab.reality.loads import loads_read
     from quasistatic_ref.lab.reality.pairs import pairs_read
     from quasistatic_ref.lab.reality.predictions import predicted_pushes
@@ -90,7 +90,7 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
     data = options.data or reality_folder()
     pairs = pairs_read(data, options.sets.split(",") if options.sets else ())
     loads = loads_read(data, pairs)
-    found = {p.name: identified(loads[p.name], p.outline.gyration, name) for p in pairs}
+    found = {p.name: identified_ratio(loads[p.name], p.outline.gyration, name) for p in pairs}
     known = [p for p in pairs if found[p.name] is not None]
     ratios = {key: own.ratio for key, own in found.items() if own is not None}
     if not known:

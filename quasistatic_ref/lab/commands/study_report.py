@@ -7,7 +7,7 @@ def run_report(options: argparse.Namespace) -> int:
     """Write ``report.html``, ``report.md`` and ``figures``."""
     from quasistatic_ref.formats.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.lab.figures.study_images import images
-    from quasistatic_ref.lab.page.html import html_page, sorting
+    from quasistatic_ref.lab.page.html import html_page, sorting_script
     from quasistatic_ref.lab.page.markdown import markdown_page
     from quasistatic_ref.lab.study.report.report import study_report
 
@@ -21,7 +21,7 @@ def run_report(options: argparse.Namespace) -> int:
         print(f"wrote {bytes_written(folder / f'{picture.name}.png', found['png'])}")
     pages = {
         "report.md": markdown_page(report),
-        "report.html": html_page(report, inside, sorting()),
+        "report.html": html_page(report, inside, sorting_script()),
     }
     for name, text in pages.items():
         print(f"wrote {text_written(out / name, text)}")

@@ -159,9 +159,9 @@ def _report(options: argparse.Namespace) -> int:
 
 
 def _pack(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.pack import packed
+    from quasistatic_ref.lab.vectors.pack import write_zip
 
-    path, code = packed(_vectors(options), options.out)
+    path, code = write_zip(_vectors(options), options.out)
     if not options.quiet:
         print(f"wrote {path}")
         print(f"SHA-256 {code}")
@@ -169,9 +169,9 @@ def _pack(options: argparse.Namespace) -> int:
 
 
 def _generate(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.generate import generated
+    from quasistatic_ref.lab.vectors.generate import generate_folder
 
-    counts = generated(_vectors(options), options.out, not options.quiet)
+    counts = generate_folder(_vectors(options), options.out, not options.quiet)
     shared.print_rows([("layer", "cases"), *((name, str(n)) for name, n in counts.items())])
     print(f"wrote {sum(counts.values())} cases to {options.out}")
     return 0

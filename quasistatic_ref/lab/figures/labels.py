@@ -17,7 +17,7 @@ QUIET = re.compile(r"\\(?:mathrm|[,;!])|[\\${}_^]")
 """Signs of a formula that take no room."""
 
 
-def labelled(axes: Any, x: str = "", y: str = "", title: str = "", key: bool = True) -> None:
+def label_axes(axes: Any, x: str = "", y: str = "", title: str = "", key: bool = True) -> None:
     """Label axes that have been drawn into, with their title and legend above them.
 
     Lines are broken where they are full, and the legend never covers what is drawn.
@@ -32,16 +32,16 @@ def labelled(axes: Any, x: str = "", y: str = "", title: str = "", key: bool = T
     """
     width, height = (LABEL * size * 72 / axes.get_figure(root=True).dpi for size in room(axes))
     size = axes.xaxis.label.get_fontsize()
-    axes.set(xlabel=broken(x, width / size), ylabel=broken(y, height / size))
+    axes.set(xlabel=wrapped(x, width / size), ylabel=wrapped(y, height / size))
     handles = axes.get_legend_handles_labels()[0] if key else []
-    title = broken(title, width / axes.title.get_fontsize())
+    title = wrapped(title, width / axes.title.get_fontsize())
     if handles:
         legend_above(axes, handles, title)
     elif title:
         axes.set_title(title, loc="right")
 
 
-def broken(text: str, width: float) -> str:
+def wrapped(text: str, width: float) -> str:
     """A text in lines no wider than `width` [sizes of the font], where words allow."""
     lines: list[str] = []
     for word in WORD.findall(text):
@@ -92,4 +92,4 @@ def note_below(grid: Sequence[Any], text: str) -> None:
 
 def _fitted(text: str, part: Any, size: float) -> str:
     """A text in lines that fit a figure or part of one, in a font of a size [pt]."""
-    return broken(text, part.bbox.width / (size * part.get_figure(root=True).dpi / 72))
+    return wrapped(text, part.bbox.width / (size * part.get_figure(root=True).dpi / 72))

@@ -15,7 +15,7 @@ KINDS: dict[str, Callable[[Mapping[str, Any]], Figure]] = {
 }
 
 
-def drawn(kind: str, data: Mapping[str, Any]) -> Figure:
+def figure_of(kind: str, data: Mapping[str, Any]) -> Figure:
     """A figure of some kind, in the common style."""
     with figure_style("paper"):
         return KINDS[kind](data)
@@ -25,7 +25,7 @@ def images(kind: str, data: Mapping[str, Any]) -> dict[str, bytes]:
     """``"png"`` and ``"svg"`` of a figure: equal bytes for equal data."""
     found = {}
     with figure_style("paper"):
-        figure = drawn(kind, data)
+        figure = figure_of(kind, data)
         for suffix, metadata in (("png", None), ("svg", {"Date": None})):
             stream = BytesIO()
             figure.savefig(stream, format=suffix, metadata=metadata)

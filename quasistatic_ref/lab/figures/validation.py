@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
+from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 
@@ -18,7 +18,7 @@ DOTTED: dict[str, Any] = {**THIN, "linestyle": ":"}
 GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
 
 
-def _open(mark: str) -> dict[str, Any]:
+def _hollow_marks(mark: str) -> dict[str, Any]:
     """Hollow marks, each kind of another size: equal values stay visible."""
     size = scaled(9 - 2.75 * MARKS.index(mark))
     return {"linestyle": "", "marker": mark, "markersize": size, "fillstyle": "none"}
@@ -29,7 +29,7 @@ def grasp(picture: Picture) -> Figure:
     figure, (axes,) = panels(4.6, 2.8)
     for case, angle in picture["angles"].items():
         axes.plot(picture["times"], angle, label=case)
-    labelled(axes, "time t [s]", "rotation since the grip closed [deg]", caption(picture["h"]))
+    label_axes(axes, "time t [s]", "rotation since the grip closed [deg]", caption(picture["h"]))
     return figure
 
 
@@ -55,7 +55,7 @@ def contact_geometry(picture: Picture) -> Figure:
     axes.set_aspect("equal")
     gap = 1e3 * data["phi"][0]
     title = rf"a capsule and a box, $\phi$ = {gap:.1f} mm; $d_1$ is normal to the page"
-    labelled(axes, "x [mm]", "z [mm]", title)
+    label_axes(axes, "x [mm]", "z [mm]", title)
     return figure
 
 
@@ -105,7 +105,7 @@ def step_time(picture: Picture) -> Figure:
         f"upper bars: {picture['tracked']:.0f} distances by the tracker, lower bars: all "
         f"{picture['all']}; right: share of the solve"
     )
-    labelled(
+    label_axes(
         axes, "share of the time of a step, medians [%]", title=caption(picture["h"]), key=False
     )
     legend_below([axes], axes.get_legend_handles_labels()[0], bars)
@@ -125,7 +125,7 @@ def sliding_threshold(picture: Picture) -> Figure:
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
     axes.plot(degrees, exact, label="(R7)", **THIN)
     for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
-        axes.plot(degrees, found, **_open(mark), label=rf"$\mu_v$ = {mu:g}")
+        axes.plot(degrees, found, **_hollow_marks(mark), label=rf"$\mu_v$ = {mu:g}")
     axes.set_xlabel("direction of the force from $d_1$ [deg]")
     axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
     axes.set_title(caption(picture["h"]), loc="right")
@@ -143,7 +143,7 @@ def pushed_block(picture: Picture) -> Figure:
     for h, mark in zip(np.unique(picture["h"]), MARKS, strict=False):
         at = picture["h"] == h
         force = picture["force"][at] / friction[at]
-        axes.plot(pi[at], force, **_open(mark), label=f"h = {1e3 * h:g} ms")
+        axes.plot(pi[at], force, **_hollow_marks(mark), label=f"h = {1e3 * h:g} ms")
     axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
     axes.set(xscale="log", yscale="log", ylabel=r"push / ($\mu_v m g$) [-]")
     axes.set_xlabel(r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]")
@@ -160,10 +160,10 @@ def planar_push(picture: Picture) -> Figure:
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
         axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), **THIN)
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
-        axes.plot(picture["Pi"], ratio, **_open(mark), label=label)
+        axes.plot(picture["Pi"], ratio, **_hollow_marks(mark), label=label)
     axes.set_xscale("log")
     title = f"{caption(picture['h'], 'ellipsoid')}; lines: (R28)"
-    labelled(axes, r"quasi-dynamic number $\Pi$ [-]", "turn / Lynch's turn [-]", title)
+    label_axes(axes, r"quasi-dynamic number $\Pi$ [-]", "turn / Lynch's turn [-]", title)
     return figure
 
 
@@ -205,7 +205,7 @@ def peg_wedging(picture: Picture) -> Figure:
         at = picture["width"] == width
         ratio = picture["found"][at] / width
         label = f"d = {1e3 * width:g} mm"
-        axes.plot(picture["mu"][at], ratio, **_open(mark), label=label)
+        axes.plot(picture["mu"][at], ratio, **_hollow_marks(mark), label=label)
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
     axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
@@ -238,15 +238,15 @@ def locked_guide(picture: Picture) -> Figure:
     figure, (left, right) = panels(6.3, 3.0, columns=2)
     forces = picture["forces"]
     left.plot(forces, np.minimum(forces, 1.0), label=r"slip / (c / $\mu_v$), (R38)")
-    left.plot(forces, picture["slips"], **_open("o"), label="of steps")
+    left.plot(forces, picture["slips"], **_hollow_marks("o"), label="of steps")
     left.plot(forces, picture["friction"], linestyle=":", label="friction of the walls")
     of_force = r"force / ($m\,c\,/\,\mu_v h^2$) [-]"
-    labelled(left, of_force, "slip and friction [-]", caption(picture["h"]))
+    label_axes(left, of_force, "slip and friction [-]", caption(picture["h"]))
     corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
     right.plot(*corners.T, label=r"$c / \mu_v$ along $d_1$ and $d_2$")
-    right.plot(*picture["reached"].T, **_open("s"), label="1 MN in 24 directions")
+    right.plot(*picture["reached"].T, **_hollow_marks("s"), label="1 MN in 24 directions")
     right.set(xlim=(-1.6, 1.6), ylim=(-1.6, 1.9), aspect="equal")
-    labelled(right, r"slip along $d_1$ / ($c / \mu_v$) [-]", r"along $d_2$ [-]", "one step")
+    label_axes(right, r"slip along $d_1$ / ($c / \mu_v$) [-]", r"along $d_2$ [-]", "one step")
     return figure
 
 

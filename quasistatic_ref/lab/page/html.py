@@ -9,7 +9,7 @@ from pathlib import Path
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
 
 
-def sorting() -> str:
+def sorting_script() -> str:
     """The script that sorts a table by the heading that is clicked; it loads nothing."""
     return (Path(__file__).parent / "sort.js").read_text("utf-8")
 
@@ -23,7 +23,7 @@ def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> 
     images : mapping of str to bytes
         Name of each picture -> its SVG.
     script : str
-        What the page runs, such as :func:`sorting`; else nothing.
+        What the page runs, such as :func:`sorting_script`; else nothing.
     """
     links = [f'<li><a href="#{_id(s.title)}">{escape(s.title)}</a></li>' for s in report.sections]
     style = (Path(__file__).parent / "page.css").read_text("utf-8")

@@ -40,7 +40,7 @@ class Estimate:
     high: Array
 
 
-def bootstrapped(groups: Sequence[Array]) -> Estimate:
+def bootstrap_estimate(groups: Sequence[Array]) -> Estimate:
     """The mean over groups of their means; drawn with replacement inside of each group.
 
     Parameters
@@ -105,6 +105,6 @@ def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
             parts["published"] = others
             parts["more"] = [e.model - o for e, o in zip(own, others, strict=True)]
         for key, values in parts.items():
-            entry[key] = {of: x.tolist() for of, x in vars(bootstrapped(values)).items()}
+            entry[key] = {of: x.tolist() for of, x in vars(bootstrap_estimate(values)).items()}
         table[name] = entry
     return table

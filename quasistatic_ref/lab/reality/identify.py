@@ -85,7 +85,7 @@ class Identified:
         return inside and all(high <= WIDEST * low for low, high in spans)
 
 
-def identified(loads: Loads, rho: float, cone: str = ELLIPSOID) -> Identified | None:
+def identified_ratio(loads: Loads, rho: float, cone: str = ELLIPSOID) -> Identified | None:
     """mu_omega / mu_v of the loads on one support; None of fewer than ``FEWEST`` loads.
 
     Parameters
@@ -101,16 +101,16 @@ def identified(loads: Loads, rho: float, cone: str = ELLIPSOID) -> Identified | 
         return None
     gauge, support = limit_surface(cone)
 
-    def lost(own: Loads, c: float) -> Array:
+    def lost_shares(own: Loads, c: float) -> Array:
         return lost_share(own, c, gauge, support)
 
-    def missed(own: Loads, c: float) -> Array:
+    def misses(own: Loads, c: float) -> Array:
         return 1 - cosines(own, c, rho)
 
-    losses = missed if cone == ELLIPSOID else lost
+    losses = misses if cone == ELLIPSOID else lost_shares
     ratio = best_ratio(lambda c: float(losses(loads, c).mean()))
     low, high = np.quantile(drawn_ratios(loads, losses, ratio), [0.025, 0.975]).tolist()
-    misfit = min(float(lost(loads, c).mean()) for c in (ratio, *GRID))
+    misfit = min(float(lost_shares(loads, c).mean()) for c in (ratio, *GRID))
     friction = float(np.median(gauge(loads.wrench * [1.0, 1.0, 1 / ratio])))
     if cone != ELLIPSOID:
         return Identified(ratio, low, high, low, high, None, None, misfit, friction, count)

@@ -41,7 +41,7 @@ class Prediction:
     slides: int
 
 
-def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Prediction:
+def prediction(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Prediction:
     """A push from a pose, with the finger along a path of straight pieces.
 
     Until the finger touches the body lies still: the steps begin where the path first touches. A
@@ -66,11 +66,11 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     sticks = 0
     slides = 0
     solver: Solver | None = None
-    targets = touching(of, pose, path)
+    targets = finger_waypoints(of, pose, path)
     finger = next(targets)
     for target in targets:
         step = of.step(finger, body, target)
-        solver = fitting(step, solver)
+        solver = solver_for_step(step, solver)
         if of.by.law == COULOMB:
             found: StepSolution = simulated_solution(step, solver, ACCURACY)
         else:
@@ -88,7 +88,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     return Prediction(end, kinds, error, sticks, slides)
 
 
-def fitting(step: StepData, solver: Solver | None) -> Solver:
+def solver_for_step(step: StepData, solver: Solver | None) -> Solver:
     """A solver that takes the step: the one before, where it does."""
     if solver is None or not solver.fits(step):
         return solver_for(step, fast=True)
@@ -107,7 +107,7 @@ def grip(step: StepData, found: StepSolution) -> tuple[bool, bool]:
     return bool(found.wrench[-1, 2] > 0), abs(slip) > SLIPS * advance
 
 
-def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
+def finger_waypoints(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
     """Where the finger starts, and its targets from there to the end of its path.
 
     Each is of shape (2,) [m]. Steps of each straight piece are of equal length, at most

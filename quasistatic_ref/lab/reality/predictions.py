@@ -13,8 +13,8 @@ import numpy as np
 
 from quasistatic_ref.lab.parallel import Log, results, workers
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import Pushed, pushed
+from quasistatic_ref.lab.reality.predict import prediction
+from quasistatic_ref.lab.reality.push import Pushed, pushed_scene
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.simulate.progress import progress_bar
@@ -68,7 +68,7 @@ def predicted_pushes(
     StepNotSolved
         If a step has no answer that can be trusted.
     """
-    scenes = {pair.name: pushed(settings, pair, ratios[pair.name]) for pair in pairs}
+    scenes = {pair.name: pushed_scene(settings, pair, ratios[pair.name]) for pair in pairs}
     header = FORMAT | {
         "settings": settings.record(),
         "certify": certify,
@@ -123,7 +123,7 @@ def rows_of(
     """
     rows = []
     for number, pose, path in tasks:
-        found = predicted(scene, pose, path, certify)
+        found = prediction(scene, pose, path, certify)
         rows.append({
             "pair": name, "push": number, "pose": found.pose, "steps": found.kinds,
             "error_bound": found.error_bound, "sticks": found.sticks, "slides": found.slides,

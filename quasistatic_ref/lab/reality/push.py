@@ -122,7 +122,7 @@ class Pushed:
         )  # fmt: skip
 
 
-def pushed(by: Settings, pair: Pair, ratio: float) -> Pushed:
+def pushed_scene(by: Settings, pair: Pair, ratio: float) -> Pushed:
     """The scene of a pair with an identified `ratio` mu_omega / mu_v [m].
 
     Raises

@@ -56,7 +56,7 @@ def grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
         else:
             n[j], at[j] = Z, [*(0.04 * rng.standard_normal(2)), -0.04]
         n[j] /= np.linalg.norm(n[j])
-    return _step(M_u, target, _held(rng, side, n, at))
+    return _step(M_u, target, _contacts_of_side(rng, side, n, at))
 
 
 def aligned_grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
@@ -85,7 +85,7 @@ def aligned_grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
     M_u = np.diag([mass, mass, mass, 2e-4, 3e-4, 4e-4])
     target = 1e-5 * rng.standard_normal(7)
     target[[2, 6]] += rng.choice([0.0, 2e-4]), -rng.uniform(0, 2e-3)
-    return _step(M_u, target, _held(rng, side, n, at))
+    return _step(M_u, target, _contacts_of_side(rng, side, n, at))
 
 
 def _sides(grip: int, n_c: int) -> Array:
@@ -94,7 +94,7 @@ def _sides(grip: int, n_c: int) -> Array:
     return np.where(j < grip, np.where(j % 2, 1.0, -1.0), 0.0)
 
 
-def _held(rng: Rng, side: Array, n: Array, at: Array) -> Contacts:
+def _contacts_of_side(rng: Rng, side: Array, n: Array, at: Array) -> Contacts:
     """Contacts at points of the body, gaps and friction at random."""
     n_c = len(n)
     gripped = side != 0

@@ -28,7 +28,7 @@ class Loaded:
     borne: Array
 
 
-def loaded(
+def loaded_pile(
     masses: Sequence[float],
     h: float,
     *,

@@ -14,7 +14,7 @@ RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
 """Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""
 
 
-def resting(shape: Shape, height: float) -> tuple[Simulator, Array]:
+def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
     """A free body on the floor, and its configuration with the origin at a height [m], (7,).
 
     Parameters
@@ -30,7 +30,7 @@ def resting(shape: Shape, height: float) -> tuple[Simulator, Array]:
     return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 
-def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
+def nudged_ball(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
     """A ball at the origin and a finger next to it, at some x and y [m]; q has shape (14,).
 
     Parameters

@@ -74,7 +74,7 @@ def _of_shapes(case: Json) -> Iterator[str]:
         yield f"{alpha['kind']} on {beta['kind']}"
 
 
-def counted(cases: Iterable[tuple[Json, Json]]) -> Counter[str]:
+def feature_counts(cases: Iterable[tuple[Json, Json]]) -> Counter[str]:
     """How many of a layer's cases have each feature.
 
     Parameters

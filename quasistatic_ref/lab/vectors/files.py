@@ -70,7 +70,7 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     """
     path = Path(folder) / "inputs" / f"{layer}.json"
     try:
-        top = opened(path, INPUTS, layer)
+        top = fields_after_head(path, INPUTS, layer)
         shapes = top.take("shapes", {})
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
@@ -94,7 +94,7 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
     """What a layer is expected to answer, by the id of the case."""
     path = Path(folder) / "expected" / f"{layer}.json"
     try:
-        top = opened(path, EXPECTED, layer)
+        top = fields_after_head(path, EXPECTED, layer)
         records = top.sequence("cases")
         top.close()
         ids = [TableReader(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
@@ -121,7 +121,7 @@ def check_layer(name: str) -> str:
     return name
 
 
-def opened(path: Path, wanted: str, layer: str) -> TableReader:
+def fields_after_head(path: Path, wanted: str, layer: str) -> TableReader:
     """The fields of a file after its head, which says its format, version and layer."""
     top = TableReader(json_read(path))
     top.check_format(wanted, VERSION)

@@ -32,7 +32,7 @@ def expected_record(name: str, case: Case) -> dict[str, Json]:
         raise
 
 
-def generated(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
+def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
     """Compute every output of the inputs in a folder, and write the whole folder.
 
     Parameters
@@ -58,7 +58,7 @@ def generated(source: Path, out: Path, progress: bool = True) -> dict[str, int]:
     counts = {}
     for name in LAYERS:
         cases = inputs_read(source, name)
-        records = [expected_record(name, case) for case in _shown(cases, name, progress)]
+        records = [expected_record(name, case) for case in _with_progress(cases, name, progress)]
         files[f"expected/{name}.json"] = expected_text(name, records).encode()
         counts[name] = len(cases)
     for path, content in files.items():
@@ -84,13 +84,13 @@ def own_written(source: Path, out: Path, names: Sequence[str], progress: bool = 
     writable_folder(out)
     paths = []
     for name in names:
-        cases = _shown(inputs_read(source, name), name, progress)
+        cases = _with_progress(inputs_read(source, name), name, progress)
         outputs = {case.id: layer(name).own(case.input) for case in cases}
         paths.append(answers_written(out, name, f"quasistatic_ref {__version__}", outputs))
     return paths
 
 
-def _shown(cases: list[Case], name: str, progress: bool) -> Iterable[Case]:
+def _with_progress(cases: list[Case], name: str, progress: bool) -> Iterable[Case]:
     bar: Iterable[Case] = progress_bar(cases, words=name, unit="case", shown=progress)
     return bar
 

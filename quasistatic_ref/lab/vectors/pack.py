@@ -18,7 +18,7 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 SUMS = "SHA256SUMS"
 
 
-def packed(vectors: Path, out: Path) -> tuple[Path, str]:
+def write_zip(vectors: Path, out: Path) -> tuple[Path, str]:
     """Write ``quasi-dynamic-vectors-N.zip``, and next to it its SHA-256; return both.
 
     Parameters
@@ -34,9 +34,9 @@ def packed(vectors: Path, out: Path) -> tuple[Path, str]:
     """
     release, listed = manifest(vectors)
     found = edition(vectors)
-    if found.changed:
+    if found.changed_layers:
         problem = f"is not as version {release} has it; other cases are another version"
-        raise InputError(problem, file=vectors, field=found.changed[0])
+        raise InputError(problem, file=vectors, field=found.changed_layers[0])
     name = found.name.replace(" ", "-")
     files = {MANIFEST: bytes_read(vectors / MANIFEST)}
     for path, code in listed.items():

@@ -50,7 +50,7 @@ class Edition:
         return f"{NAME} {'of no version' if self.release is None else self.release}"
 
 
-def frozen(release: int | None) -> dict[str, str]:
+def frozen_hashes(release: int | None) -> dict[str, str]:
     """SHA-256 of each layer of a version; none of one that is not known."""
     text = (Path(__file__).parent / "versions.toml").read_text("utf-8")
     found: dict[str, str] = tomllib.loads(text).get(str(release), {})
@@ -74,7 +74,7 @@ def edition(folder: Path) -> Edition:
     known = [name for name in LAYERS if (folder / "expected" / f"{name}.json").exists()]
     hashes = {name: layer_hash(folder, name) for name in known}
     release = manifest(folder)[0] if (folder / MANIFEST).exists() else None
-    wanted = frozen(release)
+    wanted = frozen_hashes(release)
     return Edition(
         release, hashes, tuple(name for name in known if hashes[name] != wanted.get(name))
     )

@@ -64,7 +64,7 @@ FEATURES = {
 OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
 
 
-def put(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]:
+def solid_next_to(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]:
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
@@ -80,7 +80,7 @@ def put(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]
 @pytest.mark.parametrize("feature", FEATURES)
 def test_closest_points_are_found_at_every_feature(feature, other):
     for distance in (0.02, 1e-6):
-        here, there, expected = put(feature, other, distance)
+        here, there, expected = solid_next_to(feature, other, distance)
         for found in (solid_pair("p", here, there), solid_pair("p", there, here).swapped()):
             assert_within(found.phi, distance, ROUNDING)
             for one, two in zip(found[1:], expected[1:], strict=True):

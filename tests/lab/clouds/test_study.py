@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.lab.clouds.rows import chosen, margin, rows
+from quasistatic_ref.lab.clouds.rows import margin, rows, rows_with
 from quasistatic_ref.lab.clouds.study import NONE, Cell, cells, row
 from tests.closeness import assert_relative
 
@@ -27,5 +27,5 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
 
 @pytest.mark.parametrize("change", [NONE, "squeeze"])
 def test_a_row_is_made_again_to_the_last_digit(change):
-    known = chosen(change=change, sampling="random", count=992, seed=3)[-1]
+    known = rows_with(change=change, sampling="random", count=992, seed=3)[-1]
     assert row(Cell(*(known[name] for name in NAMES))) == known

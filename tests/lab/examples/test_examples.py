@@ -19,7 +19,7 @@ from quasistatic_ref.lab.examples.one_step import solver_digits
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.tolerances import FITTED
 from tests.closeness import assert_relative
-from tests.extras import GALLERY, missing
+from tests.extras import GALLERY, is_missing
 from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
@@ -43,7 +43,7 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(flat_patch, "DRAWN", 0.25)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
-    if not missing("jax"):  # which the example imports
+    if not is_missing("jax"):  # which the example imports
         plan = import_module("quasistatic_ref.lab.examples.gradients.plan_a_push")
         monkeypatch.setattr(plan, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
     monkeypatch.setattr(profile, "STEPS", 20)

@@ -44,7 +44,7 @@ def test_every_decimal_number_of_a_slide_stands_in_the_course(name):
 def test_slides_are_legible_and_one_page_each_of_a_pdf(name, tmp_path, monkeypatch):
     shown = first_slides(name)
     monkeypatch.setattr(slides, "slides", lambda name: shown)
-    assert slides.written(name, tmp_path) == []
+    assert slides.write_slides(name, tmp_path) == []
     content = (tmp_path / f"lecture_{name}.pdf").read_bytes()
     assert content.count(b"/MediaBox") == len(shown)
 
@@ -52,4 +52,4 @@ def test_slides_are_legible_and_one_page_each_of_a_pdf(name, tmp_path, monkeypat
 def test_what_reaches_out_of_a_slide_is_said(tmp_path, monkeypatch):
     wide = {"title": "Wide", "minute": 0, "text": [r"$" + r"\lambda + " * 40 + r"\lambda$"]}
     monkeypatch.setattr(slides, "slides", lambda name: [wide])
-    assert any("pixels across" in fault for fault in slides.written("a", tmp_path))
+    assert any("pixels across" in fault for fault in slides.write_slides("a", tmp_path))

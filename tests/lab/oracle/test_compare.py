@@ -14,8 +14,8 @@ from quasistatic_ref.lab.oracle.comparison import compared
 from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.vectors.check.patched import program
-from tests.extras import marked
-from tests.quoted import ROOT, flat, printed
+from tests.extras import marked_parameters
+from tests.quoted import ROOT, flat, printed_blocks
 
 PUSHED = "block_push"
 
@@ -41,7 +41,7 @@ def comparison(tmp_path, scene, patch, steps):
     return compared(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
 
 
-OF_ALL_KINDS = marked(["bunny_grasp", "stack", "panda_push"], {"panda_push": "robots"})
+OF_ALL_KINDS = marked_parameters(["bunny_grasp", "stack", "panda_push"], {"panda_push": "robots"})
 
 
 @pytest.mark.parametrize("name", OF_ALL_KINDS)
@@ -67,7 +67,7 @@ def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys)
     patch = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
     run = run_with(tmp_path, PUSHED, patch, 40)
     assert main(["compare", PUSHED, str(run), "--quiet"]) == 1
-    (shown,) = printed((ROOT / "docs" / "guides" / "ask_step_by_step.md").read_text())
+    (shown,) = printed_blocks((ROOT / "docs" / "guides" / "ask_step_by_step.md").read_text())
     assert flat(capsys.readouterr().out) == flat(shown)
 
 

@@ -9,10 +9,10 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import pushed
+from quasistatic_ref.lab.reality.predict import prediction
+from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
-from tests.lab.reality.test_identify import planted
+from tests.lab.reality.test_identify import planted_loads
 
 RATIO = 0.03
 RADIUS = 0.01
@@ -32,7 +32,7 @@ def folder(tmp_path_factory):
     pair = Pair("glass/tile", Outline(SIDES), 0.3, None, RADIUS, None)
     columns = "surface,shape,mu_pusher_used,finger_radius"
     written(folder / "patches.csv", columns, [["glass", "tile", 0.3, RADIUS]])
-    loads = planted(60, 0.0, 0, RATIO)
+    loads = planted_loads(60, 0.0, 0, RATIO)
     rows = np.hstack([loads.wrench, loads.twist])
     written(folder / "loads.csv", "surface,shape,f_x,f_y,tau,v_x,v_y,omega",
             [["glass", "tile", *row] for row in rows])  # fmt: skip
@@ -40,7 +40,7 @@ def folder(tmp_path_factory):
     for k, across in enumerate((-0.02, 0.0, 0.03)):
         before = np.array([0.1, 0.2, 0.4])
         tip = np.array([[0.1 + across, 0.11], [0.1 + across, 0.15]])
-        after = predicted(pushed(Settings(), pair, RATIO), before, tip, "off").pose
+        after = prediction(pushed_scene(Settings(), pair, RATIO), before, tip, "off").pose
         rows.append(["glass", "tile", k, *before, *after, *tip.ravel()])
     head = "surface,shape,push,x0,y0,theta0,x1,y1,theta1,tip_x0,tip_y0,tip_x1,tip_y1"
     written(folder / "pushes.csv", head, rows)

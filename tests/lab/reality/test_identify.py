@@ -10,7 +10,7 @@ from quasistatic_ref.lab.reality.identify import (
     concentration,
     cosines,
     fisher_information,
-    identified,
+    identified_ratio,
     limit_surface,
     lost_share,
 )
@@ -21,7 +21,7 @@ RHO = 0.04
 RATIO = 0.03
 
 
-def planted(count, noise, seed, ratio=RATIO):
+def planted_loads(count, noise, seed, ratio=RATIO):
     """Loads of all directions, and twists along (f, tau / ratio^2) in a scatter of an angle."""
     rng = np.random.default_rng(seed)
     angle = rng.uniform(0, 2 * np.pi, count)
@@ -37,13 +37,13 @@ def planted(count, noise, seed, ratio=RATIO):
 
 @pytest.mark.parametrize("ratio", [0.005, RATIO, 0.2])
 def test_loads_without_scatter_give_the_planted_ratio(ratio):
-    found = identified(planted(50, 0.0, 1, ratio), RHO)
+    found = identified_ratio(planted_loads(50, 0.0, 1, ratio), RHO)
     assert found.ratio == pytest.approx(ratio, rel=1e-6)
     assert found.reverse == pytest.approx(ratio, rel=1e-6)
 
 
 def test_intervals_hold_the_planted_ratio_as_often_as_they_say():
-    runs = [identified(planted(300, 0.2, seed), RHO) for seed in range(20)]
+    runs = [identified_ratio(planted_loads(300, 0.2, seed), RHO) for seed in range(20)]
     by_fisher = sum(run.low < RATIO < run.high for run in runs)
     by_draws = sum(run.drawn_low < RATIO < run.drawn_high for run in runs)
     # Of 20 intervals of 95 % fewer than 16 hold it once in 400 times: a binomial sum.
@@ -52,26 +52,26 @@ def test_intervals_hold_the_planted_ratio_as_often_as_they_say():
 
 
 def test_loads_through_the_centre_do_not_decide_the_ratio():
-    loads = planted(200, 0.1, 3)
+    loads = planted_loads(200, 0.1, 3)
     loads.wrench[:, 2] = 0.0
     loads.twist[:, 2] *= 0.1
-    assert not identified(loads, RHO).identifiable
+    assert not identified_ratio(loads, RHO).identifiable
 
 
 def test_few_loads_identify_nothing():
-    assert identified(planted(9, 0.0, 0), RHO) is None
+    assert identified_ratio(planted_loads(9, 0.0, 0), RHO) is None
 
 
 def test_the_information_is_the_curvature_of_the_likelihood():
     # In a scatter without bias, u = A(kappa) m on average: the curvature of kappa sum u . m.
-    loads = planted(100, 0.0, 5)
+    loads = planted_loads(100, 0.0, 5)
     step = 1e-3
     wrench = loads.wrench
     law = wrench * [1, 1, RHO / RATIO**2]
     own = Loads(wrench, law / [1, 1, RHO])
     total = [cosines(own, RATIO * np.exp(d), RHO).sum() for d in (-step, 0.0, step)]
     curvature = -(total[0] - 2 * total[1] + total[2]) / step**2
-    scattered = Loads(wrench, planted(100, 0.1, 5).twist)
+    scattered = Loads(wrench, planted_loads(100, 0.1, 5).twist)
     mean = cosines(scattered, RATIO, RHO).mean()
     expected = concentration(mean) * mean * curvature
     assert fisher_information(scattered, RATIO, RHO) == pytest.approx(expected, rel=1e-5)
@@ -121,7 +121,7 @@ def test_ratios_are_the_same_where_there_are_no_pushes(tmp_path):
     for folder in (own, tmp_path):
         (pair,) = pairs_read(folder, ["abs/rect1"])
         loads = loads_read(folder, [pair])["abs/rect1"]
-        ratios.append(identified(loads, pair.outline.gyration))
+        ratios.append(identified_ratio(loads, pair.outline.gyration))
     assert ratios[0] == ratios[1]
     # The published ellipsoid was fitted to the same loads by another loss.
     assert ratios[0].ratio == pytest.approx(pair.published, rel=0.2)

@@ -6,8 +6,8 @@ import pytest
 from quasistatic_ref import InputError, solve_step
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.predict import predicted, touching
-from quasistatic_ref.lab.reality.push import pushed
+from quasistatic_ref.lab.reality.predict import finger_waypoints, prediction
+from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
 from tests.tolerances import QUASI_STATIC
@@ -25,7 +25,7 @@ PATH = np.array([BELOW, BELOW + 0.02 * UP])
 
 @pytest.mark.parametrize("mu_finger", ["0.9", "0.0"])
 def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
-    scene = pushed(Settings(finger=mu_finger, h=20.0, advance=1e-4), PAIR, RATIO)
+    scene = pushed_scene(Settings(finger=mu_finger, h=20.0, advance=1e-4), PAIR, RATIO)
     body = np.append(START[:2], [0.0, 0.0])
     found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
     point = np.array([0.015, -0.04])
@@ -42,20 +42,20 @@ def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
 
 def test_steps_are_refused_whose_drag_is_not_small():
     with pytest.raises(InputError, match="quasi-dynamic"):
-        pushed(Settings(h=0.01), PAIR, RATIO)
+        pushed_scene(Settings(h=0.01), PAIR, RATIO)
 
 
 def test_a_finger_that_passes_by_moves_nothing():
     path = np.array([[0.0, 0.0], [0.4, 0.0]])  # 55 mm below the side that is nearest
-    found = predicted(pushed(Settings(), PAIR, RATIO), START, path)
+    found = prediction(pushed_scene(Settings(), PAIR, RATIO), START, path)
     assert (found.pose == START).all()
     assert found.kinds == {}
 
 
 def test_steps_begin_where_the_finger_first_touches():
-    scene = pushed(Settings(), PAIR, RATIO)
+    scene = pushed_scene(Settings(), PAIR, RATIO)
     ahead = np.array([BELOW - 0.03 * UP, BELOW + 0.01 * UP])
-    first, *targets = touching(scene, START, ahead)
+    first, *targets = finger_waypoints(scene, START, ahead)
     assert first == pytest.approx(BELOW, abs=2e-6)
     assert len(targets) == 10 + (first[1] < BELOW[1])  # 10 mm, and what is left of the gap
     assert (targets[-1] == ahead[1]).all()
@@ -63,11 +63,11 @@ def test_steps_begin_where_the_finger_first_touches():
 
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
 def test_steps_in_polyhedral_cones_are_exact(cone):
-    found = predicted(pushed(Settings(cone=cone), PAIR, RATIO), START, PATH)
+    found = prediction(pushed_scene(Settings(cone=cone), PAIR, RATIO), START, PATH)
     assert set(found.kinds) == {"exact"}
     assert found.error_bound == 0.0
 
 
 def test_a_push_whose_steps_have_no_bound_has_none():
-    found = predicted(pushed(Settings(), PAIR, RATIO), START, PATH, certify="off")
+    found = prediction(pushed_scene(Settings(), PAIR, RATIO), START, PATH, certify="off")
     assert found.error_bound == np.inf

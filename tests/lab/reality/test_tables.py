@@ -9,7 +9,7 @@ import pytest
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality import loads, pairs, pushes
-from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
+from quasistatic_ref.lab.reality.errors import bootstrap_estimate, pose_errors
 
 HEAD = "surface,shape,push,x0,y0,theta0,x1,y1,theta1,tip_x0,tip_y0,tip_x1,tip_y1"
 SCHEMA = {
@@ -85,7 +85,7 @@ def test_a_bootstrap_interval_is_that_of_the_mean():
     # The mean of n numbers of standard deviation s has that of s / sqrt(n).
     rng = np.random.default_rng(1)
     groups = [rng.normal(2.0, 1.0, size=(400, 1)), rng.normal(4.0, 1.0, size=(400, 1))]
-    found = bootstrapped(groups)
+    found = bootstrap_estimate(groups)
     width = 2 * 1.96 / np.sqrt(800)
     assert found.mean[0] == pytest.approx(3.0, abs=0.15)
     assert found.high[0] - found.low[0] == pytest.approx(width, rel=0.15)

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.lab.study.file.solver_lists import solvers_named
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.step.standard_form import StandardForm
-from tests.extras import marked, missing
+from tests.extras import is_missing, marked_parameters
 
 # min x^2 - g x, x >= b: x* = max(g / 2, b), and its multiplier is 2 x* - g.
 G = 3.0
@@ -28,7 +28,7 @@ X = max(G / 2, B)
 LAM = 2 * X - G
 FORM = StandardForm(np.array([[2.0]]), np.array([G]), np.array([[1.0]]), np.array([B]))
 
-CALLED = marked(["qoco", "qpax", "mpax"], {"qpax": "jax", "mpax": "jax"})
+CALLED = marked_parameters(["qoco", "qpax", "mpax"], {"qpax": "jax", "mpax": "jax"})
 """Guests that have a native interface; two are called with JAX."""
 
 
@@ -41,7 +41,7 @@ def only(monkeypatch):
 @pytest.fixture
 def float64():
     """JAX, where it is installed, is left in the precision that it was in."""
-    if missing("jax"):
+    if is_missing("jax"):
         yield
         return
     import jax

@@ -246,7 +246,7 @@ def test_a_process_that_is_being_started_is_known_by_its_token(tmp_path, monkeyp
     environment.touch()
     started = threading.Timer(0.02, environment.write_text, [f"A=b\0{processes.TOKEN}=mine\0"])
     started.start()
-    assert processes.marked("mine") == [7]
+    assert processes.marked_processes("mine") == [7]
     started.join()
 
 

@@ -12,8 +12,8 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study import profile
-from quasistatic_ref.lab.figures.study_images import KINDS, drawn
-from quasistatic_ref.lab.page.html import html_page, sorting
+from quasistatic_ref.lab.figures.study_images import KINDS, figure_of
+from quasistatic_ref.lab.page.html import html_page, sorting_script
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Code, Report, Section, Table
 from quasistatic_ref.lab.study.report.comparison import noise_of
@@ -258,7 +258,7 @@ def test_ratios_of_a_profile_are_those_to_the_least_time(times, right, ratios):
 
 
 def test_the_html_page_shows_the_same_tables_without_network(report, tables):
-    text = html_page(report, {p.name: b"<svg/>" for p in report.pictures}, sorting())
+    text = html_page(report, {p.name: b"<svg/>" for p in report.pictures}, sorting_script())
     found = [
         unescape(re.sub("<.*?>", "", cell)) for cell in re.findall("<t[dh].*?>(.*?)</t[dh]>", text)
     ]
@@ -267,7 +267,7 @@ def test_the_html_page_shows_the_same_tables_without_network(report, tables):
     ]
     assert not re.search("<(link|iframe|object)|url\\(|@import", text)
     assert re.findall("<script.*?>", text) == ["<script>"]  # inline: loads nothing
-    assert not re.search("fetch|import|XMLHttp|http|eval|innerHTML", sorting())
+    assert not re.search("fetch|import|XMLHttp|http|eval|innerHTML", sorting_script())
     links = re.findall(r'(?:src|href)="(.*?)"', text)
     assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in links)
 
@@ -277,7 +277,7 @@ def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
     every = (*report.pictures, *study_report(tmp_path / "store").pictures)
     assert [picture.kind for picture in every] == list(KINDS)
     for picture in every:
-        figure = drawn(picture.kind, picture.data)
+        figure = figure_of(picture.kind, picture.data)
         assert faults(figure) == []
         plt.close(figure)
 

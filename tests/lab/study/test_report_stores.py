@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.figures.study_images import drawn
+from quasistatic_ref.lab.figures.study_images import figure_of
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.pack import shorter
@@ -66,7 +66,7 @@ def test_a_study_that_has_hardly_begun_is_reported_too(rows, tmp_path, keep):
     first = [row for row in kept if row["repetition"] == 0]
     assert sum(int(line[1]) for line in counts[0][3]) == len(first)
     for picture in report.pictures:
-        plt.close(drawn(picture.kind, picture.data))
+        plt.close(figure_of(picture.kind, picture.data))
 
 
 def test_nothing_is_drawn_of_calls_that_were_not_made(rows, tmp_path):

@@ -37,7 +37,7 @@ def pushed(table, force):
     return {**table, "wrenches": [wrench]}
 
 
-def squeezed(push, cone="frictionless"):
+def squeezed_ball(push, cone="frictionless"):
     """A free ball of 1/2 kg between two fixed ones: a kink that no single coordinate shows.
 
     Moved across by eps it is free of both, by gaps of second order; a force across of the order eps

@@ -21,7 +21,7 @@ SIZE = {layer: len(cases(layer)) for layer in LAYERS}
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def answered(folder, layers, change=lambda layer, output: output, name="my_sim 0.3"):
+def answer_folder(folder, layers, change=lambda layer, output: output, name="my_sim 0.3"):
     """A folder of right answers, changed."""
     for layer in layers:
         outputs = {id: change(layer, output) for id, output in right_answers(layer).items()}
@@ -39,7 +39,7 @@ def made(answers, digits=None, vectors=VECTORS):
 def whole(tmp_path_factory):
     """All layers, right."""
     folder = tmp_path_factory.mktemp("whole")
-    return made(answered(folder / "answers", LAYERS))
+    return made(answer_folder(folder / "answers", LAYERS))
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,7 @@ def two(tmp_path_factory):
     """Two layers, one of them with lam for force."""
     folder = tmp_path_factory.mktemp("two")
 
-    answers = answered(folder / "answers", ("rows", "wrench"))
+    answers = answer_folder(folder / "answers", ("rows", "wrench"))
     h = {case.id: case.input["h"] for case in cases("wrench")}
     forgotten = {
         id: {
@@ -107,7 +107,7 @@ def test_answers_in_part_are_not_counted_as_passed(digits, number, tmp_path):
     def up_to_A_and_b(layer, output):
         return {name: number(output[name]).tolist() for name in ("H", "g", "A", "b")}
 
-    found, svg = made(answered(tmp_path / "answers", ["step"], up_to_A_and_b), digits)
+    found, svg = made(answer_folder(tmp_path / "answers", ["step"], up_to_A_and_b), digits)
     assert found.report.ok
     assert found.message == f"1 of 9 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
     assert badge.AMBER in words_of(svg)[1]
@@ -118,7 +118,7 @@ def test_fewer_digits_are_in_the_badge_only_where_they_were_needed(tmp_path):
     def rounded(layer, output):  # as a program in float32 does; `integrate` is answered in float64
         return {k: np.float32(v).tolist() for k, v in output.items()} if layer == "rows" else output
 
-    answers = answered(tmp_path / "answers", ("rows", "integrate"), rounded)
+    answers = answer_folder(tmp_path / "answers", ("rows", "integrate"), rounded)
     found, svg = made(answers, digits=6)
     sizes = f"rows {SIZE['rows']}/{SIZE['rows']} to 6 digits, integrate {SIZE['integrate']}"
     assert found.message == f"2 of 9 layers: {sizes}/{SIZE['integrate']}"
@@ -131,7 +131,7 @@ def test_fewer_digits_are_in_the_badge_only_where_they_were_needed(tmp_path):
 
 
 def test_a_layer_whose_file_is_not_as_it_should_be_is_said_to_be_that(tmp_path):
-    answers = answered(tmp_path / "answers", ["rows"])
+    answers = answer_folder(tmp_path / "answers", ["rows"])
     content = json.loads((answers / "rows.json").read_text())
     content["answers"].append({"id": "rows/of/another", "output": {}})
     (answers / "rows.json").write_text(json.dumps(content))
@@ -144,7 +144,7 @@ def test_changed_cases_are_no_version(tmp_path):
     vectors = shutil.copytree(VECTORS, tmp_path / "vectors")
     text = (vectors / "expected" / "rows.json").read_text()
     (vectors / "expected" / "rows.json").write_text(text + "\n")
-    answers = answered(tmp_path / "answers", ("rows", "selection"))
+    answers = answer_folder(tmp_path / "answers", ("rows", "selection"))
     _, svg = made(answers, vectors=vectors)
     texts, colours = words_of(svg)
     assert texts[0] == f"{LABEL}, changed"
@@ -158,11 +158,11 @@ def test_changed_cases_are_no_version(tmp_path):
 
 def test_names_are_escaped_and_two_programs_are_said_to_be_two(tmp_path):
     name = '<script>alert("1")</script> & "x" | `y`'
-    _, svg = made(answered(tmp_path / "answers", ["selection"], name=name))
+    _, svg = made(answer_folder(tmp_path / "answers", ["selection"], name=name))
     assert ElementTree.fromstring(svg).find(f"{SVG}title").text.startswith(name)
     assert "<script" not in svg
-    answers = answered(tmp_path / "two", ["rows"], name="one")
-    answered(answers, ["selection"], name="other")
+    answers = answer_folder(tmp_path / "two", ["rows"], name="one")
+    answer_folder(answers, ["selection"], name="other")
     assert made(answers)[0].implementation == "other and one"
 
 
@@ -172,7 +172,7 @@ def test_the_same_answers_give_the_same_bytes(whole):
 
 
 def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, capsys):
-    answers = answered(tmp_path / "answers", ["selection"])
+    answers = answer_folder(tmp_path / "answers", ["selection"])
     out = tmp_path / "badge.svg"
     given = ["vectors", "report", str(answers), "--out", str(out)]
     assert main([*given, "--implementation", "other 2"]) == 0

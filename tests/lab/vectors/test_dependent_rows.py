@@ -27,7 +27,7 @@ from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
 )
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND
 from tests.lab.vectors import kinks
-from tests.lab.vectors.kinks import squeezed
+from tests.lab.vectors.kinks import squeezed_ball
 
 Y = 1
 """Of delta_q of the ball."""
@@ -55,7 +55,7 @@ def step_of(case):
 
 @pytest.mark.parametrize("push", [1, 0])
 def test_between_two_balls_the_slope_is_no_sum_of_two_slopes(push):
-    one = step_of(squeezed(float(push)))
+    one = step_of(squeezed_ball(float(push)))
     still = way(Y, 0)
     for c in (-32, 32, 0):
         found = along(one, way(Y), way(Y, c))
@@ -71,7 +71,7 @@ def test_between_two_balls_the_slope_is_no_sum_of_two_slopes(push):
 
 @pytest.mark.parametrize("push", [1.0, 0.0])
 def test_a_squeezed_ball_has_no_derivative_and_both_contacts_are_named(push):
-    case = squeezed(push)
+    case = squeezed_ball(push)
     output = layer("derivative").expected(case).output
     named = [(reason["kind"], reason["pair"]) for reason in output["reasons"]]
     assert output["differentiable"] is False
@@ -85,12 +85,12 @@ def box(cone, push=0.5):
     return kinks.pushed(kinks.onto(table, "floor", FLOOR, k=4), [push, 0.25, -4.0])
 
 
-def sliding(cone):
+def sliding_ball(cone):
     """The same pushed with 6 N, two more than friction holds."""
     return box(cone, 6.0)
 
 
-def walled(cone):
+def ball_between_walls(cone):
     """A ball between two walls."""
     table = kinks.free({"kind": "sphere", "radius": 0.25}, [0.0] * 3, cone=cone)
     for name, side in (("left", 1.0), ("right", -1.0)):
@@ -101,10 +101,10 @@ def walled(cone):
 
 def stuck(cone):
     """A ball between two balls on which it cannot slide, however it is pushed."""
-    return squeezed(1.0, cone=cone)
+    return squeezed_ball(1.0, cone=cone)
 
 
-SMOOTH = [(scene, cone) for scene in (box, sliding, walled) for cone in CONES]
+SMOOTH = [(scene, cone) for scene in (box, sliding_ball, ball_between_walls) for cone in CONES]
 SMOOTH += [(stuck, cone) for cone in CONES[1:]]
 
 
@@ -128,7 +128,7 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
 
 
 def test_a_contact_that_is_replaced_is_compared_with_nothing():
-    one = step_of(squeezed(1.0))
+    one = step_of(squeezed_ball(1.0))
     found = along(one, way(Y), way(Y, 0))
     assert dependence_breaks(one, [found])
     sides = [(step, [_another(contact) for contact in others]) for step, others in found.sides]

@@ -9,12 +9,12 @@ from flint import fmpq
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.program.rotation import turn
-from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.shapes import placed_shape
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
 from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, at
-from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
 from tests.closeness import assert_within
 from tests.lab.vectors.material import cases, expected
 
@@ -65,11 +65,11 @@ def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
     # A tetrahedron's tip 0.1 m below the top of a cube, both turned by one radian: the cosine is
     # rounded, and the matrix no rotation beyond the 96th digit.
     axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
-    with working():
+    with working_precision():
         R = on_grid(turn(axis, *cos_sin(fmpq(1))))
         tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
         solids = [
-            replace(placed(shape, ORIGIN), R=R, t=R @ vector([0, 0, z]))
+            replace(placed_shape(shape, ORIGIN), R=R, t=R @ vector([0, 0, z]))
             for shape, z in ((CUBE, fmpq(0)), (convex(tips), number(0.65)))
         ]
         found = pair_witness(*solids)

@@ -13,9 +13,9 @@ from quasistatic_ref import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
-from quasistatic_ref.lab.vectors.generate import expected_record, generated, own_written
+from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, own_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.lab.vectors.layers.qp import claimed, cone_step, step_of
+from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from tests.lab.vectors.material import ROOT, VECTORS, by_size, cases, expected, inputs_file
 
 MEBIBYTES = 25
@@ -102,7 +102,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
         if "farkas" in output:
             refused[case.id] = farkas_refutation(step, output["certificate"]["farkas"])
             continue
-        claims = claimed(case.input, output, step)
+        claims = claimed_certificate(case.input, output, step)
         lam = np.array(output["lam"])
         delta_q = np.array(output["delta_q"])
         refused[case.id] = verify(step, delta_q, claims.active, lam, claims).reason
@@ -114,9 +114,9 @@ def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
         inputs_file(tmp_path / "a", layer, by_size(layer)[:3])
     for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
-    counts = generated(tmp_path / "a", tmp_path / "b", progress=False)
+    counts = generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
     assert counts == dict.fromkeys(LAYERS, 3)
-    generated(tmp_path / "a", tmp_path / "a", progress=False)
+    generate_folder(tmp_path / "a", tmp_path / "a", progress=False)
     content = [
         {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
         for folder in (tmp_path / "a", tmp_path / "b")

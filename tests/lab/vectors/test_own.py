@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.own.system import own_system
 from quasistatic_ref.lab.vectors.tables import follower, free_body, link
@@ -42,9 +42,9 @@ def test_the_package_undoes_its_own_step_to_the_last_digits():
 def test_a_mechanism_that_cannot_be_is_refused(change, says):
     drive, finger = follower("prismatic")
     with pytest.raises(InputError, match=says):
-        entered({"mechanism": {"bodies": [drive, finger | change]}})
+        exact_case({"mechanism": {"bodies": [drive, finger | change]}})
 
 
 def test_a_q_of_another_length_is_refused():
     with pytest.raises(InputError, match="q: must contain 7 numbers"):
-        entered({"mechanism": {"bodies": [free_body()]}, "q": [0.0] * 6})
+        exact_case({"mechanism": {"bodies": [free_body()]}, "q": [0.0] * 6})

@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 from flint import arb, fmpq
 
-from quasistatic_ref.lab.vectors.exact.precision import Undecided, number, root, rounded, sign
+from quasistatic_ref.lab.vectors.exact.precision import (
+    Undecided,
+    number,
+    root,
+    rounded_results,
+    sign,
+)
 
 NEXT = nextafter(1.0, 2.0)
 """1 + 2^-52."""
@@ -18,31 +24,33 @@ def test_midpoints_between_two_floats_go_to_the_even_one():
     # 1 + 2^-53 lies between 1 (even) and 1 + 2^-52 (odd); 1 + 3 2^-53 between that and 1 + 2^-51.
     below = fmpq(1) + fmpq(1, 1 << 53)
     above = fmpq(1) + fmpq(3, 1 << 53)
-    values, _ = rounded(lambda: [below, above])
+    values, _ = rounded_results(lambda: [below, above])
     assert values == [1.0, nextafter(NEXT, 2.0)]
 
 
 def test_a_hair_beside_a_midpoint_decides():
     hair = fmpq(1, 10**60)
-    values, _ = rounded(lambda: [fmpq(1) + fmpq(1, 1 << 53) + s * hair for s in (-1, 1)])
+    values, _ = rounded_results(lambda: [fmpq(1) + fmpq(1, 1 << 53) + s * hair for s in (-1, 1)])
     assert values == [1.0, NEXT]
 
 
 def test_a_ball_around_a_midpoint_is_the_midpoint():
     # sqrt(2)^2 / 2 is 1, which balls do not know.
-    values, _ = rounded(lambda: [arb(2).sqrt() ** 2 / 2 + fmpq(1, 1 << 53)])
+    values, _ = rounded_results(lambda: [arb(2).sqrt() ** 2 / 2 + fmpq(1, 1 << 53)])
     assert values == [1.0]
 
 
 def test_precision_is_raised_until_the_ball_decides():
     # 2^300 pi + 1 - 2^300 pi: at 320 bits nothing of the 1 is sure, at 640 it is.
     huge = fmpq(2) ** 300
-    values, _ = rounded(lambda: [(arb.pi() * huge + 1) - arb.pi() * huge])
+    values, _ = rounded_results(lambda: [(arb.pi() * huge + 1) - arb.pi() * huge])
     assert values == [1.0]
 
 
 def test_a_small_ball_around_zero_is_zero_and_never_minus_zero():
-    values, digits = rounded(lambda: [arb.pi() - arb.pi(), arb(0, 1) * arb(2) ** -201, fmpq(0)])
+    values, digits = rounded_results(
+        lambda: [arb.pi() - arb.pi(), arb(0, 1) * arb(2) ** -201, fmpq(0)]
+    )
     assert [str(value) for value in values] == ["0.0"] * 3
     assert digits == ["0." + "0" * 29 + "e+00"] * 3
 
@@ -61,7 +69,7 @@ def test_roots_of_squares_are_rational():
 def test_thirty_digits_are_those_of_another_library():
     with mpmath.workdps(60):
         known = mpmath.nstr(mpmath.sqrt(mpmath.mpf(0.1)) * mpmath.sin(3), 30, strip_zeros=False)
-    (value,), (text,) = rounded(lambda: [root(number(0.1)) * arb(3).sin()])
+    (value,), (text,) = rounded_results(lambda: [root(number(0.1)) * arb(3).sin()])
     assert Fraction(text) == Fraction(known)
     assert value == float(Fraction(text))
 
@@ -70,18 +78,18 @@ def test_rounding_is_that_of_exact_fractions():
     random = np.random.default_rng(5)
     tops, bottoms = random.integers(1, 10**17, (2, 200))
     fractions = [(int(p), int(q)) for p, q in zip(tops, bottoms, strict=True)]
-    values, _ = rounded(lambda: [fmpq(p, q) for p, q in fractions])
-    balls, _ = rounded(lambda: [arb(p) / q for p, q in fractions])
+    values, _ = rounded_results(lambda: [fmpq(p, q) for p, q in fractions])
+    balls, _ = rounded_results(lambda: [arb(p) / q for p, q in fractions])
     assert values == [p / q for p, q in fractions]
     assert balls == values
 
 
 def test_nothing_but_numbers_is_changed():
-    values, _ = rounded(lambda: {"a": [1, None, "x", True], "b": {"c": arb.pi()}})
+    values, _ = rounded_results(lambda: {"a": [1, None, "x", True], "b": {"c": arb.pi()}})
     assert values == {"a": [1, None, "x", True], "b": {"c": pi}}
 
 
 def test_a_ball_made_before_is_refused():
     early = arb.pi()  # at the precision of nobody's asking, 53 bits
     with pytest.raises(Undecided):
-        rounded(lambda: [early])
+        rounded_results(lambda: [early])

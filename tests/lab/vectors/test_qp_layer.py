@@ -9,7 +9,7 @@ from flint import fmpq
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds, floors
-from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
 from quasistatic_ref.lab.vectors.exact.precision import short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.layers import qp
@@ -66,13 +66,13 @@ def test_fields_of_more_than_200_numbers_have_no_digits():
 
 def test_the_plain_program_refuses_what_is_no_optimum():
     # A mass of 2 that is pushed by 1 against x >= 1: x = 1, lam = 2 - 1.
-    case = entered({"H": [[2.0]], "g": [1.0], "A": [[1.0]], "b": [1.0]})
+    case = exact_case({"H": [[2.0]], "g": [1.0], "A": [[1.0]], "b": [1.0]})
     one = fmpq(1)
     half = fmpq(1, 2)
     assert is_optimum(case, [one], [one])
     for x, lam in ((half, fmpq(0)), (one, half), (2 * one, 3 * one)):
         assert not is_optimum(case, [x], [lam])
-    assert not is_optimum(entered({**case, "g": [3.0]}), [one], [-one])
+    assert not is_optimum(exact_case({**case, "g": [3.0]}), [one], [-one])
 
 
 def test_a_body_held_fast_is_right_to_eight_roundings_of_its_free_step():

@@ -36,7 +36,7 @@ ALIKE = ["spin sign", "spin rows exchanged"]
 """Of a wrench: what the second gives is what the first gives, in all small cases."""
 
 
-def answered(layer, asked, patch):
+def patched_answers(layer, asked, patch):
     """The answers of the plain program with a patch, case by case."""
     for case in asked:
         try:
@@ -49,13 +49,13 @@ def answered(layer, asked, patch):
 def test_a_patch_is_caught_by_the_expected_answers(name, layer, patch):
     assert any(
         case_verdict(layer, case.input, expected(layer)[case.id], output).verdict == FAILED
-        for case, output in answered(layer, by_size(layer), patch)
+        for case, output in patched_answers(layer, by_size(layer), patch)
     )
 
 
 @pytest.mark.parametrize(("name", "layer"), NAMED)
 def test_a_patch_is_named(name, layer):
-    asked = answered(layer, small_cases(layer), NAMED[name, layer])
+    asked = patched_answers(layer, small_cases(layer), NAMED[name, layer])
     report = report_on(layer, {case.id: output for case, output in asked})
     assert report.count("failed") > 0
     wanted = ALIKE if (name, layer) == ("spin rows exchanged", "wrench") else [name]

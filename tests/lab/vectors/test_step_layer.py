@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import InputError, contact_forces, load_scenario
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.distances.candidates import chosen
+from quasistatic_ref.lab.vectors.distances.candidates import chosen_points
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
@@ -19,7 +19,7 @@ BOX = {"kind": "box", "size": [0.2, 0.2, 0.2]}
 
 def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
     pose = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.01, 0.02, 0.0, 1.0]}
-    found = chosen(FLOOR, BOX, ORIGIN, pose, 4)
+    found = chosen_points(FLOOR, BOX, ORIGIN, pose, 4)
     assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]  # z < 0; x first
     assert found.clear
     assert found.unique
@@ -27,23 +27,23 @@ def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
 
 def test_a_closest_pair_comes_after_corners_that_are_as_near():
     nearly_level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [1e-10, 0.0, 0.0, 1.0]}
-    found = chosen(FLOOR, BOX, ORIGIN, nearly_level, 4)  # the lower edge is 4e-11 m nearer
+    found = chosen_points(FLOOR, BOX, ORIGIN, nearly_level, 4)  # the lower edge is 4e-11 m nearer
     assert [contact["index"] for contact in found.contacts] == [0, 1, 2, 3]
     assert found.clear
 
 
 def test_where_rounding_decides_what_is_kept_it_is_said():
     level = {"xyz": [0.0, 0.0, 0.25], "quaternion": [0.0, 0.0, 0.0, 1.0]}
-    assert chosen(FLOOR, BOX, ORIGIN, level, 4).clear  # exact ties: by index
-    assert chosen(FLOOR, BOX, ORIGIN, level, 2).clear is False
+    assert chosen_points(FLOOR, BOX, ORIGIN, level, 4).clear  # exact ties: by index
+    assert chosen_points(FLOOR, BOX, ORIGIN, level, 2).clear is False
     tilted = {**level, "quaternion": [0.1, 0.0, 0.0, 1.0]}  # an edge is parallel to the floor
-    assert chosen(FLOOR, BOX, ORIGIN, tilted, 1).unique is False
-    assert chosen(FLOOR, BOX, ORIGIN, tilted, 3).clear is False
+    assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 1).unique is False
+    assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 3).clear is False
 
 
 def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
     with pytest.raises(InputError, match="use k = 1"):
-        chosen(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, ORIGIN, ORIGIN, 2)
+        chosen_points(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, ORIGIN, ORIGIN, 2)
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():

@@ -11,7 +11,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.lab.vectors.pack import packed
+from quasistatic_ref.lab.vectors.pack import write_zip
 from quasistatic_ref.lab.vectors.versions import RELEASE, edition, manifest
 from tests.lab.vectors.material import ROOT, VECTORS
 
@@ -62,11 +62,11 @@ def test_vectors_of_no_version_and_of_one_that_is_not_known_are_changed(copy):
 
 
 def test_the_archive_s_bytes_do_not_depend_on_times_and_modes(copy, tmp_path):
-    path, code = packed(VECTORS, tmp_path / "one")
+    path, code = write_zip(VECTORS, tmp_path / "one")
     for file in copy.rglob("*.json"):
         os.utime(file, (1e9, 1e9))
         file.chmod(0o600)
-    again, _ = packed(copy, tmp_path / "two")
+    again, _ = write_zip(copy, tmp_path / "two")
     assert path.name == f"quasi-dynamic-vectors-{RELEASE}.zip"
     assert path.read_bytes() == again.read_bytes()
     assert hashlib.sha256(path.read_bytes()).hexdigest() == code

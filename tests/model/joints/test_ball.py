@@ -52,7 +52,7 @@ def test_a_ball_turns_by_its_rotation_vector_in_its_own_frame(angle, rng):
     assert_within(back, w, 8 * ROUNDING)
 
 
-def hanging(base):
+def pendulum(base):
     """A pendulum on a ball joint: of its base, or between a hook that is fixed and its bob."""
     if base:
         return System([Body("arm", robot(BOB), "ball", xyz=(0.1, 0.2, 0.3), rpy=(0.4, 0.5, 0.6))])
@@ -62,7 +62,7 @@ def hanging(base):
 @pytest.mark.parametrize("base", [True, False])
 def test_a_link_on_a_ball_turns_about_its_point_with_its_inertia_there(base):
     # About the joint, in the link's frame: I + m (c'c 1 - c c'); gravity's torque is c x m R'g.
-    system = hanging(base)
+    system = pendulum(base)
     w = np.array([0.7, -1.1, 0.3])
     q = system.integrate(system.q_start, w)
     R, t = system.pose(q, "arm/bob")
@@ -170,7 +170,7 @@ def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ScenarioError, match="moves or turns by x, y, z"):
         scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
-        hanging(True).placed({"arm": {"xyz": [0, 0, 1]}})
+        pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
 
 
 def test_a_solid_turns_about_its_middle_as_a_base():

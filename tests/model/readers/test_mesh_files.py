@@ -13,7 +13,7 @@ from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.optional.readers.dae import check_dae
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import collision, link, robot, written
+from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
 from tests.tolerances import CLOSED_FORM
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -21,14 +21,14 @@ DENTED = TETRAHEDRON.replace("f 2 3 4", "v 0.2 0.2 0.2\nf 2 3 5\nf 3 4 5\nf 4 2 
 
 
 def test_a_convex_mesh_is_its_hull(tmp_path):
-    hull = mesh_hull(written(tmp_path, TETRAHEDRON, "a.obj"), np.array([1.0, -2.0, 3.0]))
+    hull = mesh_hull(urdf_of_text(tmp_path, TETRAHEDRON, "a.obj"), np.array([1.0, -2.0, 3.0]))
     assert_within(hull.volume, 1 * 2 * 3 / 6, CLOSED_FORM)
     assert hull.is_convex
     assert len(hull.vertices) == len(hull.triangles) == 4
 
 
 def test_a_dented_mesh_knows_by_how_much(tmp_path):
-    hull = mesh_hull(written(tmp_path, DENTED, "a.obj"), np.ones(3))
+    hull = mesh_hull(urdf_of_text(tmp_path, DENTED, "a.obj"), np.ones(3))
     # The dent is the tetrahedron over the outer face whose tip is at (0.2, 0.2, 0.2): with
     # x + y + z = 0.6 there instead of 1, it holds 0.4 of the volume.
     assert_within(hull.excess, 0.4, 1e-6)
@@ -36,9 +36,9 @@ def test_a_dented_mesh_knows_by_how_much(tmp_path):
 
 
 def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
-    written(tmp_path, DENTED, "a.obj")
+    urdf_of_text(tmp_path, DENTED, "a.obj")
     mesh = '<mesh filename="a.obj" scale="2 2 2"/>'
-    urdf = loaded_urdf(written(tmp_path, robot(link("a", collision(mesh)))))
+    urdf = loaded_urdf(urdf_of_text(tmp_path, robot(link("a", collision(mesh)))))
     shape = urdf.shapes[0].shape
     assert isinstance(shape, ConvexMesh)
     assert_within(shape.volume, 8 / 6, 1e-6)
@@ -50,7 +50,7 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
 
 def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
     (tmp_path / "arm" / "meshes").mkdir(parents=True)
-    expected = written(tmp_path / "arm" / "meshes", TETRAHEDRON, "a.obj")
+    expected = urdf_of_text(tmp_path / "arm" / "meshes", TETRAHEDRON, "a.obj")
     found = mesh_path("package://arm/meshes/a.obj", tmp_path / "arm", (tmp_path,))
     assert found == expected.resolve()
 
@@ -70,7 +70,7 @@ OUTSIDE = {
 def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address, words):
     home = tmp_path / "home"
     home.mkdir()
-    secret = written(tmp_path, TETRAHEDRON, "secret.obj")
+    secret = urdf_of_text(tmp_path, TETRAHEDRON, "secret.obj")
     (home / "link.obj").symlink_to(secret)
     with pytest.raises(ModelError, match=words):
         mesh_path(address.format(root=tmp_path), home, ())
@@ -82,7 +82,7 @@ def test_meshes_that_are_too_large_in_all_are_refused(tmp_path, count, size):
     os.truncate(tmp_path / "a.stl", size)
     meshes = collision('<mesh filename="a.stl"/>') * count
     with pytest.raises(ModelError, match=r"meshes to more than 16 MiB") as caught:
-        loaded_urdf(written(tmp_path, robot(link("a", meshes))))
+        loaded_urdf(urdf_of_text(tmp_path, robot(link("a", meshes))))
     assert caught.value.field == f"link[a].collision[{count - 1}].mesh.filename"
 
 
@@ -114,28 +114,28 @@ HOSTILE = {
 
 
 def test_a_collada_mesh_is_loaded(tmp_path):
-    written(tmp_path, COLLADA, "a.dae")
+    urdf_of_text(tmp_path, COLLADA, "a.dae")
     hull = mesh_hull(mesh_path("a.dae", tmp_path, ()), np.ones(3))
     assert len(hull.vertices) == len(hull.triangles) == 4
     assert_within(hull.volume, 1 / 6, CLOSED_FORM)
 
 
 def test_an_index_may_be_the_largest_of_31_bits(tmp_path):
-    check_dae(written(tmp_path, "<mesh><p>2147483647</p></mesh>", "a.dae"))
+    check_dae(urdf_of_text(tmp_path, "<mesh><p>2147483647</p></mesh>", "a.dae"))
 
 
 @pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)
 def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(tmp_path, right, wrong, words):
     assert COLLADA.count(right) == 1
-    written(tmp_path, COLLADA.replace(right, wrong), "a.dae")
+    urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
     with pytest.raises(ModelError, match=words) as caught:
         mesh_path("a.dae", tmp_path, ())
     assert "a.dae" in str(caught.value)
 
 
 def test_an_unreadable_mesh_is_named_without_places_in_a_library(tmp_path):
-    written(tmp_path, "solid\nendsolid\n", "a.stl")
-    body = written(tmp_path, robot(link("a", collision('<mesh filename="a.stl"/>'))))
+    urdf_of_text(tmp_path, "solid\nendsolid\n", "a.stl")
+    body = urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.stl"/>'))))
     with pytest.raises(ModelError, match=r"a\.stl") as caught:
         loaded_urdf(body)
     assert "line" not in str(caught.value)

@@ -14,7 +14,7 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.cli.ignored import ALWAYS
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written
+from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, urdf_of_text
 
 ROBOT = """<robot name="r" version="1.1">
 <material name="red"><color rgba="1 0 0 1"/><texture filename="red.png"/></material>
@@ -140,7 +140,7 @@ NAME = 'robot name="r"', 'robot name="s"'
 def facts(folder: Path, text: str) -> tuple[list[object], tuple[str, ...]] | str:
     """What of a file is in the model, and what is listed; or the sentence that refuses it."""
     try:
-        urdf = loaded_urdf(written(folder, text), actuated="all")
+        urdf = loaded_urdf(urdf_of_text(folder, text), actuated="all")
     except ModelError as error:
         return str(error)
     model = urdf.model
@@ -159,7 +159,7 @@ def facts(folder: Path, text: str) -> tuple[list[object], tuple[str, ...]] | str
 @pytest.mark.parametrize("name", CHANGES)
 def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path, name):
     for file, size in {"a.obj": 1.0, "b.obj": 2.0}.items():
-        written(tmp_path, OBJ.format(size), file)
+        urdf_of_text(tmp_path, OBJ.format(size), file)
     old, new, expected = CHANGES[name]
     assert old in ROBOT
     plain = facts(tmp_path, ROBOT)
@@ -177,7 +177,7 @@ def test_what_a_file_says_is_used_or_listed_or_refused(tmp_path, name):
 
 def test_the_name_of_a_robot_is_said_to_be_ignored(tmp_path):
     for file in ("a.obj", "b.obj"):
-        written(tmp_path, OBJ.format(1.0), file)
+        urdf_of_text(tmp_path, OBJ.format(1.0), file)
     assert facts(tmp_path, ROBOT) == facts(tmp_path, ROBOT.replace(*NAME))
     assert any(line.startswith("names of robots") for line in ALWAYS)
 

@@ -17,13 +17,13 @@ from tests.model.urdf.urdf_texts import (
     link,
     mimic,
     robot,
-    written,
+    urdf_of_text,
 )
 from tests.tolerances import ROUNDING
 
 
 def test_a_chain_is_loaded_as_written(tmp_path):
-    urdf = loaded_urdf(written(tmp_path, CHAIN), base="floating")
+    urdf = loaded_urdf(urdf_of_text(tmp_path, CHAIN), base="floating")
     assert urdf.links == ("base_link", "upper", "lower", "slider", "follower", "tool")
     assert [shape.name for shape in urdf.shapes] == ["base_link#0", "upper#0", "tool#0"]
     assert [shape.link for shape in urdf.shapes] == [0, 1, 5]
@@ -44,7 +44,7 @@ def test_every_primitive_keeps_its_sizes(tmp_path):
         '<capsule radius="0.2" length="3"/>',
     )
     text = robot(link("a", "".join(collision(shape) for shape in shapes)))
-    box, *others = (placed.shape for placed in loaded_urdf(written(tmp_path, text)).shapes)
+    box, *others = (placed.shape for placed in loaded_urdf(urdf_of_text(tmp_path, text)).shapes)
     assert isinstance(box, Box)
     assert np.array_equal(box.half_extents, np.array([0.1, 0.2, 0.3]) / 2)
     assert others == [Sphere(1.5), Cylinder(0.2, 1.5), Capsule(0.2, 1.5)]
@@ -52,14 +52,14 @@ def test_every_primitive_keeps_its_sizes(tmp_path):
 
 def test_a_path_with_any_letters_is_read(tmp_path):
     text = BOX.replace('name="r"', 'name="Кубик"').replace("<robot", "\ufeff<robot", 1)
-    assert loaded_urdf(written(tmp_path, text, "ящик €.urdf")).links == ("box",)
+    assert loaded_urdf(urdf_of_text(tmp_path, text, "ящик €.urdf")).links == ("box",)
 
 
 def test_a_fixed_base_needs_no_mass(tmp_path):
     text = robot(link("stand", inertial=""))
-    assert loaded_urdf(written(tmp_path, text)).links == ("stand",)
+    assert loaded_urdf(urdf_of_text(tmp_path, text)).links == ("stand",)
     with pytest.raises(ModelError, match=r"link\[stand\].inertial: is missing, but the floating"):
-        loaded_urdf(written(tmp_path, text), base="floating")
+        loaded_urdf(urdf_of_text(tmp_path, text), base="floating")
 
 
 NO_WEIGHT = (
@@ -72,7 +72,7 @@ def test_an_inertia_that_moves_nothing_is_noted(tmp_path):
     text = robot(
         link("a", inertial=inertial(mass="0")), link("b", inertial=""), joint("j", "a", "b")
     )
-    path = written(tmp_path, text)
+    path = urdf_of_text(tmp_path, text)
     notes = loaded_urdf(path, base="floating", actuated="all").notes
     assert notes == (NO_WEIGHT,)
     with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing, but joint 'j' moves"):
@@ -84,7 +84,7 @@ def test_an_inertia_that_moves_nothing_is_noted(tmp_path):
 def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path):
     """Its joints turn about one axis: where neither is actuated, M_u is singular."""
     chain = joint("j", "a", "b") + joint("i", "b", "c")
-    path = written(tmp_path, robot(link("a"), link("b", inertial=""), link("c"), chain))
+    path = urdf_of_text(tmp_path, robot(link("a"), link("b", inertial=""), link("c"), chain))
     for actuated in (("i", "j"), ("i",), ("j",)):
         system = System([Body("r", path, base="floating", actuated=actuated)])
         assert system.masses.tolist() == [0.0, 2.0, 0.0, 2.0]
@@ -95,20 +95,20 @@ def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path):
 def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path):
     needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
     welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
-    (note,) = loaded_urdf(written(tmp_path, welded)).notes
+    (note,) = loaded_urdf(urdf_of_text(tmp_path, welded)).notes
     assert note.startswith("link[b].inertial.inertia: is impossible")
     assert note.endswith("; accepted, because no un-actuated joint moves this link")
     massless = robot(
         link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
     )
-    (note,) = loaded_urdf(written(tmp_path, massless), base="floating").notes
+    (note,) = loaded_urdf(urdf_of_text(tmp_path, massless), base="floating").notes
     whole = "the inertia of all links welded to it is that of a body"
     assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
 
 
 @pytest.mark.parametrize("base", ["floating", "planar"])
 def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path, base):
-    path = written(tmp_path, robot(link("a", inertial="")))
+    path = urdf_of_text(tmp_path, robot(link("a", inertial="")))
     with pytest.raises(ModelError, match=f"is missing, but the {base} base moves this link"):
         loaded_urdf(path, base=base)
 
@@ -203,4 +203,4 @@ def test_a_loader_that_misreads_is_noticed(
 
     monkeypatch.setattr(urdf_module, "_loaded", dishonest)
     with pytest.raises(ModelError, match=TAMPERED[tamper]):
-        loaded_urdf(written(tmp_path, CHAIN))
+        loaded_urdf(urdf_of_text(tmp_path, CHAIN))

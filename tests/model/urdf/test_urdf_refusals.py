@@ -13,7 +13,7 @@ from tests.model.urdf.urdf_texts import (
     link,
     mimic,
     robot,
-    written,
+    urdf_of_text,
 )
 
 TWO = robot(link("a", collision('<sphere radius="0.5"/>')), link("b"), joint("j", "a", "b"))
@@ -127,7 +127,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
 def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, text, old, new, words):
     assert old in text
     count = -1 if old in ("robot", "collision") else 1
-    path = written(tmp_path, text.replace(old, new, count))
+    path = urdf_of_text(tmp_path, text.replace(old, new, count))
     with pytest.raises(ModelError, match=words) as caught:
         loaded_urdf(path, base="floating")  # so that the root's inertia matters
     assert str(caught.value).startswith(f"{path}: ")
@@ -135,11 +135,11 @@ def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, text, old, new, 
 
 @pytest.mark.parametrize("text", [TWO, THREE, CHAIN, BOX])
 def test_the_texts_are_good_before_they_are_spoilt(tmp_path, text):
-    assert loaded_urdf(written(tmp_path, text)).links
+    assert loaded_urdf(urdf_of_text(tmp_path, text)).links
 
 
 def test_a_joint_named_base_cannot_float(tmp_path):
-    path = written(tmp_path, TWO.replace('name="j"', 'name="base"'))
+    path = urdf_of_text(tmp_path, TWO.replace('name="j"', 'name="base"'))
     assert loaded_urdf(path).links == ("a", "b")
     with pytest.raises(ModelError, match=r"joint\[base\]: this name is taken by the floating base"):
         loaded_urdf(path, base="floating")

@@ -43,7 +43,7 @@ def robot(*elements: str, version: str = ' version="1.1"') -> str:
     return f'<robot name="r"{version}>{"".join(elements)}</robot>'
 
 
-def written(folder: Path, text: str, name: str = "r.urdf") -> Path:
+def urdf_of_text(folder: Path, text: str, name: str = "r.urdf") -> Path:
     path = folder / name
     path.write_bytes(text.encode())
     return path

@@ -25,7 +25,7 @@ def run(request, tmp_path_factory):
     return trajectory_read(path)
 
 
-def held(of_steps, t):
+def lasting_times(of_steps, t):
     """First and last times of what holds, changes of BRIEF steps left out, step by step."""
     found = []
     for k, holds in enumerate(of_steps):
@@ -64,9 +64,9 @@ def test_numbers_of_pairs_are_those_of_the_arrays(run):
             touches.append(bool(on))
             slip.append(sum(on) / len(on) if on else 0.0)
         assert numbers["least_distance_m"] == run["phi"][:, own].min()
-        assert numbers["near_s"] == held(run["phi"][:, own].min(axis=1) <= NEAR, t)
-        assert numbers["touches_s"] == held(touches, t)
-        assert numbers["slides_s"] == held(np.array(slip) > SLIDES * run.header["h"], t)
+        assert numbers["near_s"] == lasting_times(run["phi"][:, own].min(axis=1) <= NEAR, t)
+        assert numbers["touches_s"] == lasting_times(touches, t)
+        assert numbers["slides_s"] == lasting_times(np.array(slip) > SLIDES * run.header["h"], t)
         np.testing.assert_allclose(numbers["slip_m"], sum(slip), rtol=ROUNDING, atol=1e-15)
         f = run["forces"][:, own]
         tangential = [[np.hypot(*f[k, i, :2]) for i in range(len(own))] for k in range(run.steps)]
@@ -131,7 +131,7 @@ def test_what_carries_a_body_lifts_it_by_a_tenth_at_least(run):
                      for k in range(run.steps)]  # fmt: skip
                 lifted[other] = lifted.get(other, 0) + np.maximum(z, 0)
         whole = sum(lifted.values())
-        carries = {who: held((up > 0) & (up >= CARRIES * whole), run["t"].tolist())
+        carries = {who: lasting_times((up > 0) & (up >= CARRIES * whole), run["t"].tolist())
                    for who, up in lifted.items()}  # fmt: skip
         assert numbers["carried_s"] == {who: when for who, when in carries.items() if when}
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.make.mistakes import SCENES, found, healthy, mistakes, named
+from validation.make.mistakes import SCENES, findings_after, healthy, is_named, mistakes
 
 SAMPLE = (
     "steps = 0, a push",
@@ -34,24 +34,24 @@ NEAR_MISSES = {
 @pytest.mark.parametrize("what", SAMPLE)
 def test_a_mistake_is_named_in_the_first_sentence(what):
     (mistake,) = [one for one in mistakes() if one["what"] == what]
-    findings = found(mistake["scene"], mistake["edits"])
-    assert named(mistake, findings), [str(one) for one in findings]
+    findings = findings_after(mistake["scene"], mistake["edits"])
+    assert is_named(mistake, findings), [str(one) for one in findings]
 
 
 @pytest.mark.parametrize("scene", SCENES[:2])
 def test_a_scene_without_a_mistake_has_no_finding(scene):
-    assert found(scene) == ()
+    assert findings_after(scene) == ()
 
 
 @pytest.mark.parametrize("one", healthy()[1:24:6], ids=lambda one: one["what"])
 def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one):
-    assert [str(x) for x in found(one["scene"], one["edits"]) if x.grave] == []
+    assert [str(x) for x in findings_after(one["scene"], one["edits"]) if x.grave] == []
 
 
 @pytest.mark.parametrize("what", NEAR_MISSES)
 def test_a_near_miss_has_no_finding_that_is_grave(what):
     scene, edits = NEAR_MISSES[what]
-    assert [str(one) for one in found(scene, edits) if one.grave] == []
+    assert [str(one) for one in findings_after(scene, edits) if one.grave] == []
 
 
 def test_a_third_of_the_mistakes_was_held_out():

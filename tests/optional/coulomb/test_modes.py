@@ -28,7 +28,7 @@ from tests.closeness import assert_within
 from tests.helpers import in_blocks, random_step, sphere_on_floor
 from tests.optional.coulomb.test_fixed_point import guide
 from tests.oracles.planar_steps import planar_contacts, planar_step
-from validation.make.coulomb_modes import iterated, judged
+from validation.make.coulomb_modes import iteration_ends, step_verdict
 
 C = -0.75
 MU = 2.0
@@ -39,7 +39,7 @@ M = 0.5
 H = 2.0**-7
 
 
-def leaning(X):
+def leaning_point(X):
     """The point above, that would move by X and Z; all numbers are sums of few powers of two."""
     mass = M * np.array([[1.0, C], [C, 1.0]])
     J = [[[1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, 0.0]]]
@@ -55,7 +55,7 @@ def leaning(X):
     ],
 )
 def test_a_leaning_point_has_one_two_or_three_solutions(X, count, modes):
-    step = leaning(X)
+    step = leaning_point(X)
     found = coulomb_solutions(step)
     assert found.count == count
     ((*listed,),) = found.modes
@@ -71,14 +71,14 @@ def test_a_leaning_point_has_one_two_or_three_solutions(X, count, modes):
 def test_counts_and_solutions_are_those_of_an_enumeration(seed):
     kinds = ("floor", "anywhere", "wedge", "deep")
     step = planar_step(np.random.default_rng([7, seed]), kinds[seed % 4])
-    count, wrong = judged(step)
+    count, wrong = step_verdict(step)
     assert not wrong, count
 
 
 @pytest.mark.parametrize("seed", [0])
 def test_steps_that_the_iteration_alone_does_not_find(seed):
     step = planar_step(np.random.default_rng([8, seed]), "floor")
-    assert not iterated(step)
+    assert not iteration_ends(step)
     assert coulomb_step(step).found
 
 
@@ -115,12 +115,12 @@ def test_a_step_without_convex_solution_may_obey_coulombs_law():
     rises = {mode.modes: mode.delta_q[1] for mode in modes}
     assert rises["open", "open"] == pytest.approx(1e-3, rel=CLOSED_FORM)
     assert rises["slide -d1", "slide +d1"] == pytest.approx(1e-4 / np.cos(1.0), rel=CLOSED_FORM)
-    assert judged(step) == ("several", "")
+    assert step_verdict(step) == ("several", "")
 
 
 def test_that_there_is_no_solution_is_proved_and_said():
     step = notch(-10.0)
-    assert judged(step) == ("none", "")
+    assert step_verdict(step) == ("none", "")
     with pytest.raises(NoCoulombSolution, match=r"^the step has no solution under Coulomb's law"):
         coulomb_step(step)
 
@@ -161,7 +161,7 @@ def test_a_spinning_sphere_slides_about_its_normal_and_each_group_has_its_modes(
 
 
 def test_what_is_not_known_is_unknown():
-    step = leaning(3 * Z)
+    step = leaning_point(3 * Z)
     assert coulomb_solutions(step, most=2).count == "unknown"
     assert coulomb_solutions(step.replace(cone="facets-18")).count == "unknown"
     curved = coulomb_solutions(step.replace(cone="ellipsoid"))

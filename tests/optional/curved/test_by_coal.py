@@ -10,7 +10,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.by_coal import Judged, coal_witness, judged
 from tests.closeness import assert_relative, assert_within
-from tests.contact.still import found_for, placed, standing
+from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import COAL, CURVED_PAIR, ROUNDING
 
 PLANTED = {
@@ -39,11 +39,11 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
 
     monkeypatch.setattr(coal, "distance", spoilt)
     cone = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
-    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
+    kinematics = standing_links((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
     found = None
     refusal = ""
     try:
-        found = found_for(placed(cone), placed(cone, 1), kinematics)
+        found = found_for(placed_shape(cone), placed_shape(cone, 1), kinematics)
     except ContactError as error:
         refusal = str(error)
     if found is None:

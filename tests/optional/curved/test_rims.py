@@ -24,7 +24,7 @@ LINE, LOWER, UPPER, CURVES, EDGES = 0, 1, 2, 3, 12
 """Numbers of the curves of a solid of revolution, how many it has, and a box."""
 
 
-def crossed(a, b, alpha, beta, n=UP, R=STRAIGHT, t=(0, 0, 0)):
+def moved_crossings(a, b, alpha, beta, n=UP, R=STRAIGHT, t=(0, 0, 0)):
     """Crossings of solids that are moved to elsewhere, and back again."""
     a, b = (ShapeInWorld(one.shape, R @ one.R, R @ one.t + t) for one in (a, b))
     found = curve_crossings(a, b, R @ alpha + t, R @ beta + t, R @ n)
@@ -75,7 +75,7 @@ def test_edges_cross_the_rim_of_a_disc_where_a_quadratic_says(place, shape, swap
     assert expected
     x = R @ [0.1, 0.1, 0.01]
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
-    holds(crossed(a, b, x, x, n, WORLD, AT), expected)
+    holds(moved_crossings(a, b, x, x, n, WORLD, AT), expected)
 
 
 @pytest.mark.parametrize("swapped", [False, True])
@@ -100,7 +100,7 @@ def test_rims_cross_where_their_circles_do_in_the_planes_of_both(d, swapped):
         expected.append(other if swapped else one)
     near = np.zeros(3)
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
-    holds(crossed(a, b, near, near, n, WORLD, AT), expected)
+    holds(moved_crossings(a, b, near, near, n, WORLD, AT), expected)
 
 
 def on_puck(top, d, gap=0.0, between=0.0):
@@ -109,7 +109,7 @@ def on_puck(top, d, gap=0.0, between=0.0):
     bottom = top.half_extents[2] if isinstance(top, Box) else top.half_length
     there = ShapeInWorld(top, STRAIGHT, np.array([d, 0.0, gap + bottom]))
     near = np.array([d, 0.0, 0.0])
-    return len(crossed(low, there, near, near + between * UP).number)
+    return len(moved_crossings(low, there, near, near + between * UP).number)
 
 
 def test_curves_cross_if_the_sine_of_their_angle_is_above_a_millionth():
@@ -136,6 +136,6 @@ def test_an_edge_that_ends_on_a_rim_crosses_it_there():
     table = ShapeInWorld(Box(np.array([0.25, 0.25, 0.0625])), STRAIGHT, np.zeros(3))
     for y in (-0.125, 0.125):
         puck = ShapeInWorld(Cylinder(0.125, 0.0625), STRAIGHT, np.array([0.25, y, 0.125]))
-        found = crossed(table, puck, puck.t - 0.0625 * UP, puck.t - 0.0625 * UP)
+        found = moved_crossings(table, puck, puck.t - 0.0625 * UP, puck.t - 0.0625 * UP)
         expected = sorted([[0.25, 0.0, 0.0625], [0.25, 2 * y, 0.0625]])
         np.testing.assert_array_equal(sorted(found.alpha.tolist()), expected)

@@ -15,7 +15,7 @@ from quasistatic_ref import (
     derivatives,
 )
 from quasistatic_ref.lab.vectors.own.step import posed_case
-from tests.contact.still import placed
+from tests.contact.still import placed_shape
 from tests.lab.vectors.material import cases
 
 H = 0.01
@@ -25,7 +25,7 @@ FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 BOX = Box(np.array([0.1, 0.1, 0.05]))
 
 
-def sided(function, step=1e-6):
+def one_sided_derivative(function, step=1e-6):
     """Derivative at 0 from above of a function of one number, extrapolated once."""
     start = function(0.0)
     near, far = ((function(h) - start) / h for h in (step, 2 * step))
@@ -36,9 +36,10 @@ def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="flo
     """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
     solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
-    own = placed(shape, system.link("body"))
+    own = placed_shape(shape, system.link("body"))
     pairs = [
-        ContactPair(f"c{i}", placed(s, t=at), own, *mu, 6, k) for i, (s, at) in enumerate(fixed)
+        ContactPair(f"c{i}", placed_shape(s, t=at), own, *mu, 6, k)
+        for i, (s, at) in enumerate(fixed)
     ]
     return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
@@ -52,7 +53,7 @@ def vector_scene(name, **settings):
     return Simulator(own.system, own.pairs, **(given | settings)), posed.q, posed.q_bar_a
 
 
-def reaching(gap=0.0):
+def falling_ball(gap=0.0):
     """(simulator, q) of a ball that falls as far as the floor in a step, but for a gap [m]."""
     return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), (FLOOR, (0, 0, 0)))
 

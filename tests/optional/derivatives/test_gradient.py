@@ -9,9 +9,9 @@ from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
     H,
+    falling_ball,
     free,
-    reaching,
-    sided,
+    one_sided_derivative,
     verdict,
 )
 from tests.oracles.differences import after
@@ -20,19 +20,23 @@ from tests.tolerances import DIFFERENCE_OF_STEPS
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
-    simulator, q = reaching()
+    simulator, q = falling_ball()
     found, _ = verdict(simulator, q)
     e = np.array(way)
     move = simulator.system.integrate
-    there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
+    there = one_sided_derivative(
+        lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0))
+    )
     assert np.abs(found.along(q=e) - there).max() <= DIFFERENCE_OF_STEPS * np.abs(e).max()
-    push = sided(lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4)
+    push = one_sided_derivative(
+        lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4
+    )
     assert np.abs(found.along(tau=e) - push).max() <= DIFFERENCE_OF_STEPS * H**2 / 0.3
 
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
-    simulator, q = reaching()
+    simulator, q = falling_ball()
     e = np.array(way)
     down = np.array([0.0, 0, -1, 0, 0, 0])
     found = derivatives(simulator, q, NONE, towards={"q": e})

@@ -17,8 +17,8 @@ from tests.optional.derivatives.free_bodies import (
     NONE,
     G,
     H,
+    falling_ball,
     free,
-    reaching,
     vector_scene,
     verdict,
 )
@@ -55,7 +55,7 @@ def test_a_block_on_four_corners_slides_only_when_all_of_its_load_does():
 
 @pytest.mark.parametrize("gap", [3e-14, -3e-14])
 def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap):
-    simulator, q = reaching(gap)
+    simulator, q = falling_ball(gap)
     found, kinds = verdict(simulator, q)
     assert BEARING < abs(gap) / (H**2 * G) < NEARLY
     assert kinds == {reason.NEARLY}
@@ -77,7 +77,7 @@ def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap)
 
 @pytest.mark.parametrize("gap", [-1e-15, -1e-17])
 def test_a_ball_whose_load_is_rounding_meets_no_kink_as_it_rises(gap):
-    simulator, q = reaching(gap)
+    simulator, q = falling_ball(gap)
     found, kinds = verdict(simulator, q)
     assert kinds == {reason.WEAK}
     assert found.result.solution.lam.any()
@@ -87,7 +87,7 @@ def test_a_ball_whose_load_is_rounding_meets_no_kink_as_it_rises(gap):
 
 
 def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
-    simulator, q = reaching()
+    simulator, q = falling_ball()
     found, _ = verdict(simulator, q)
     assert found.reach == found.reaches["dq_dq"][2].distance == 0
     assert found.reaches["dq_dq"][0].distance == np.inf
@@ -98,7 +98,7 @@ def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
     assert named == (0.0, "tie of points: c0/0, c0/1")
 
 
-def touching(simulator, q, target, force):
+def rows_that_touch(simulator, q, target, force):
     """The rows that touch in a step."""
     result = simulator.step(q, target, force)
     far = np.abs(np.stack([result.points.alpha, result.points.beta])).max(axis=(0, 2))
@@ -128,7 +128,7 @@ def test_r41_the_rows_that_are_named_change_where_a_random_force_has_grown_so_fa
             continue
         ahead += 1
         before, beyond = (
-            touching(simulator, q, target, force + (1 + side) * kink.distance * way)
+            rows_that_touch(simulator, q, target, force + (1 + side) * kink.distance * way)
             for side in (-ASIDE, ASIDE)
         )
         assert before ^ beyond == set(kink.where.split(", "))

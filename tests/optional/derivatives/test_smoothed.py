@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Sphere, StepNotSolved, derivatives, smoothed
-from quasistatic_ref.lab.scenes.nudge import RADIUS, resting
+from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.optional.derivatives.free_bodies import vector_scene
@@ -58,7 +58,7 @@ def test_smoothed_derivatives_tend_to_those_of_the_exact_step():
 
 
 def test_what_cannot_be_smoothed_is_refused():
-    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS)
     with pytest.raises(InputError, match="greater than 0"):
         smoothed(simulator, q, NONE, 0.0)
     closed = point_between_walls([EAST, WEST], -1e-3)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, NotDifferentiable, Sphere, derivatives, smoothed
-from quasistatic_ref.lab.scenes.nudge import RADIUS, H, points, resting
+from quasistatic_ref.lab.scenes.nudge import RADIUS, H, body_at_rest, points
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
@@ -29,19 +29,19 @@ def in_float64():
         yield
 
 
-def checked(function, *given):
+def check_against_differences(function, *given):
     """JAX's comparison with differences, forwards and backwards, along random directions."""
     check_grads(
         function, given, 1, ("fwd", "rev"), atol=JAX_GRADIENT, rtol=JAX_GRADIENT, eps=JAX_STEP
     )
 
 
-def floating():
+def floating_hand_and_body():
     """A hand and a body, both floating: quaternions in q and in q_bar_a."""
     return vector_scene("floating/push")
 
 
-def turning():
+def turning_block():
     """A block that turns by (cos, sin), and a finger that pushes it along two rails."""
     scene = pushed_block(cone="pyramid")
     q = scene.placed(0.01, 0.02, 0.3, 1e-4)
@@ -61,7 +61,12 @@ def ball():
     return simulator, q, NONE
 
 
-SCENES = {"floating": floating, "turning": turning, "planar": planar, "ball": ball}
+SCENES = {
+    "floating": floating_hand_and_body,
+    "turning": turning_block,
+    "planar": planar,
+    "ball": ball,
+}
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
@@ -72,12 +77,12 @@ def test_gradients_of_a_step_pass_the_check_of_jax(scene):
     q_next, verdict = step(q, goal, force)
     assert (np.asarray(q_next) == simulator.step(q, goal, force).q).all()
     assert not verdict.any()
-    checked(lambda *given: step(*given)[0], q, goal, force)
-    checked(jax.jit(lambda *given: step(*given)[0]), q, goal, force)
+    check_against_differences(lambda *given: step(*given)[0], q, goal, force)
+    check_against_differences(jax.jit(lambda *given: step(*given)[0]), q, goal, force)
 
 
 def test_gradients_of_smoothed_steps_in_sequence_pass_the_check_of_jax():
-    simulator, q, goal = turning()
+    simulator, q, goal = turning_block()
     step = smoothed_jax(simulator)
     ended = smoothed(simulator, q, goal, 1e-6).result.q
     assert (np.asarray(step(q, goal, 1e-6)[0]) == ended).all()
@@ -87,12 +92,12 @@ def test_gradients_of_smoothed_steps_in_sequence_pass_the_check_of_jax():
 
     goals = goal + np.linspace(0, 4e-3, 5)[:, None]
     assert not run(goals)[1].any()
-    checked(lambda goals: run(goals)[0], goals)
+    check_against_differences(lambda goals: run(goals)[0], goals)
 
 
 def kink():
     """A ball that just reaches the floor."""
-    return resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    return body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
 
 
 def test_at_a_kink_the_step_is_there_and_its_gradient_is_an_error():
@@ -113,7 +118,7 @@ def test_at_a_kink_the_step_is_there_and_its_gradient_is_an_error():
 
 
 def test_a_kink_that_does_not_concern_what_is_asked_for_is_only_said():
-    simulator, q = resting(points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0)), 0.0)
+    simulator, q = body_at_rest(points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0)), 0.0)
     step = step_jax(simulator)
     by_force, verdict = jax.jacrev(lambda force: step(q, NONE, force), has_aux=True)(np.zeros(6))
     assert verdict[reason.KINDS.index(reason.POINTS)]
@@ -168,14 +173,14 @@ SECOND = {
 
 @pytest.mark.parametrize("twice", SECOND.values(), ids=SECOND)
 def test_second_derivatives_are_refused_in_a_sentence(twice):
-    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS)
     step = step_jax(simulator)
     with pytest.raises(InputError, match="step in JAX: has no second derivative"):
         twice(lambda force: step(q, NONE, force)[0][2])(np.zeros(6))
 
 
 def test_elements_of_a_vmap_are_steps_taken_once(monkeypatch):
-    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS)
     taken = []
     step_of = type(simulator).step
     monkeypatch.setattr(type(simulator), "step", lambda *given: taken.append(1) or step_of(*given))

@@ -58,7 +58,7 @@ def test_the_steps_have_the_bits_of_a_backend_that_never_fails(failing):
     assert runs[1].findings == ()
 
 
-def losing(answer, fails):
+def failing_method(answer, fails):
     """The method of a solver, which fails where `fails` says so of its name."""
 
     def lost(self, both, accuracy):
@@ -84,7 +84,7 @@ def test_no_run_under_residual_ends_for_a_backend_that_fails(monkeypatch, fast, 
     for kind in kinds(Solver):
         own = vars(kind).get("answer")
         if own is not None:
-            monkeypatch.setattr(kind, "answer", losing(own, lambda name: name != saved_by))
+            monkeypatch.setattr(kind, "answer", failing_method(own, lambda name: name != saved_by))
     run = scenario.run(progress=False)
     assert (run.digits == 0).all()
     assert [one.name for one in run.findings] == ["failing backend"]

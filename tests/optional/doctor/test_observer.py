@@ -10,7 +10,7 @@ import pytest
 from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
 from tests.extras import SCENARIOS
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
 
 GUIDE = Path(__file__).parents[3] / "docs" / "findings.md"
 PAD = '<box size="0.06 0.01 0.06"/>'
@@ -89,10 +89,10 @@ POINTS = GRID[(np.abs(GRID) == 0.02).any(axis=1)]
 
 
 def test_findings_are_those_of_the_page_and_strict_fails_on_grave_ones(tmp_path, capsys):
-    written(tmp_path, GRIPPER, "gripper.urdf")
-    written(tmp_path, CUBE, "cube.urdf")
+    urdf_of_text(tmp_path, GRIPPER, "gripper.urdf")
+    urdf_of_text(tmp_path, CUBE, "cube.urdf")
     np.savetxt(tmp_path / "cube.csv", POINTS, delimiter=",")
-    hostile = written(tmp_path, HOSTILE, "hostile.toml")
+    hostile = urdf_of_text(tmp_path, HOSTILE, "hostile.toml")
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
     printed = capsys.readouterr().err.splitlines()

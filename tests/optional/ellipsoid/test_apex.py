@@ -10,7 +10,7 @@ from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 
 
-def held(force, mu_v, mu_omega=0.0, phi=0.0, h=0.5, lever=1.0):
+def body_on_one_place(force, mu_v, mu_omega=0.0, phi=0.0, h=0.5, lever=1.0):
     """A body that moves along x, y, z and turns about z, on contacts that are all in one place."""
     each = (len(mu_v), 1, 1)
     at = contacts_of(
@@ -24,7 +24,7 @@ def held(force, mu_v, mu_omega=0.0, phi=0.0, h=0.5, lever=1.0):
     [(0.5, 0.1, (0, 1, 2, 3)), (0.5, 0.0, (0, 1, 2)), (0.0, 0.1, (0, 3)), (0.0, 0.0, (0,))],
 )
 def test_directions_without_friction_hold_nothing(mu_v, mu_omega, rows):
-    step = held((0.0, 0.0, -2.0), [mu_v], mu_omega)
+    step = body_on_one_place((0.0, 0.0, -2.0), [mu_v], mu_omega)
     assert apex_rows(step, exact_form(step), np.array([1.0, 0, 0, 0])) == rows
     assert apex_rows(step, exact_form(step), np.zeros(4)) == ()
 
@@ -34,7 +34,7 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
 
     Of that the first contact can hold |t| <= 0.1 n and the second |t| <= n.
     """
-    step = held((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
+    step = body_on_one_place((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
     form = exact_form(step)
     lam = np.array([1.0, -0.05, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0])
     working = apex_rows(step, form, lam)
@@ -48,7 +48,7 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
 def test_impulses_without_a_claimed_gap_are_in_their_cone_but_for_rounding(short, right):
     """At the limit of friction, |t| = mu n; n = 2^-14 N s is said to be a little less."""
     n = 2.0**-14
-    step = held((n, 0.0, -2 * n), [0.5], h=1.0)  # h f = (n, 0, -2 n)
+    step = body_on_one_place((n, 0.0, -2 * n), [0.5], h=1.0)  # h f = (n, 0, -2 n)
     lam = np.array([2 * n * (1 - short), -n, 0.0, 0.0])
     verdict = ELLIPSOID_CONE.verdict(step, np.zeros(4), ((0, 0), (0, 1), (0, 2)), lam, None)
     assert bool(verdict) == right

@@ -27,7 +27,7 @@ FORCE = np.array([4.0, -1.0, -0.3 * 9.81])
 """Its load [N]."""
 
 
-def posed(step=None):
+def forms_of(step=None):
     """A step in the ellipsoid, its exact form, and the scaled program."""
     step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
     step = step.replace(cone="ellipsoid")
@@ -49,7 +49,7 @@ def point_at(form, delta_q, gap=0.0):
 @pytest.mark.parametrize("k", [1, 2, 3])
 def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
     """The cone is y_0 >= |(y_1, y_2, y_3)|, here with y_0 = 1."""
-    *_, frame = posed()
+    *_, frame = forms_of()
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
         y = arb_mat([[1], *([share if i == k else 0.0] for i in (1, 2, 3))])
         found = checked(frame, Pair(arb_mat(3, 1), y))
@@ -58,7 +58,7 @@ def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
 
 def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_its_work():
     """Of m / 2 h |x - h^2 F / m - h p / m|^2 + lam' s, p being the impulse of the contact."""
-    step, form, frame = posed()
+    step, form, frame = forms_of()
     x = np.array([1e-3, 0.0, 5e-3])
     lam = np.array([0.02, -3e-3, 4e-3, 0.0])
     axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
@@ -71,7 +71,7 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
 
 def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
-    _, form, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
+    _, form, _ = forms_of(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
     x = np.array([3e-3, 0.0, 5e-3])
     found = point_at(form, x)
     found.x[1, 0] = -(arb(2) ** -1200)
@@ -82,7 +82,7 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
 
 
 def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
-    step, form, frame = posed()
+    step, form, frame = forms_of()
     lam = np.array([0.02, -3e-3, 0.0, -1e-3])
     found = SimpleNamespace(lam=units(lam, form.lam_unit))
     found.lam[2] = -(arb(2) ** -1200)
@@ -95,7 +95,7 @@ def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
 
 def test_an_answer_in_si_units_is_one_of_the_program_and_back():
     """Without torsion its row is multiplied by zero, and so is what it carries."""
-    _, form, frame = posed()
+    _, form, frame = forms_of()
     delta_q = np.array([3e-3, -2e-3, 5e-3])
     lam = np.array([0.02, -3e-3, 4e-3, 7.0])
     x, y = frame.in_form(frame.start(delta_q, lam))
@@ -107,7 +107,7 @@ def test_an_answer_in_si_units_is_one_of_the_program_and_back():
 
 def test_what_gives_way_moves_by_the_compliance_times_the_force():
     """In the units of the cone: s = mu (gap + J x) + c / h y, where lam = mu y."""
-    step, form, _ = posed()
+    step, form, _ = forms_of()
     c = 1e-3
     frame = scaled_blocks(step, form, c)
     lam = np.array([0.02, -3e-3, 4e-3, 0.0])
@@ -125,11 +125,11 @@ def test_what_gives_way_moves_by_the_compliance_times_the_force():
 
 def test_the_unit_of_a_block_is_its_largest_entry():
     """Of two walls at x = 0 it is the first entry of both; the second wall has twice the lever."""
-    step, *_ = posed()
+    step, *_ = forms_of()
     walls = repeated(step.contacts, [0, 0])
     axes = {"n": np.eye(3)[[0, 0]], "d1": np.eye(3)[[1, 1]], "d2": np.eye(3)[[2, 2]]}
     J = walls.J * np.array([1.0, 2.0])[:, None, None]
-    _, _, frame = posed(step.replace(contacts=changed(walls, **axes, J=J)))
+    _, _, frame = forms_of(step.replace(contacts=changed(walls, **axes, J=J)))
     first = float(frame.balls.A[0, 0] * frame.root[0])
     found = [float(ell) for ell in frame.length]
     assert_relative(found, [first] * 4 + [2 * first] * 4, ROUNDING)
@@ -137,6 +137,6 @@ def test_the_unit_of_a_block_is_its_largest_entry():
 
 @pytest.mark.parametrize(("phi", "gap"), [(PHI, 1.0), (0.0, 0.0)])
 def test_without_a_load_the_largest_gap_is_the_unit(phi, gap):
-    *_, frame = posed(point_on_floor(M, MU, phi, np.zeros(3), H_STEP))
+    *_, frame = forms_of(point_on_floor(M, MU, phi, np.zeros(3), H_STEP))
     found = [float(v) for v in frame.problem.b.entries()]
     assert_relative(np.abs(found), [gap, 0, 0, 0], ROUNDING)

@@ -22,7 +22,7 @@ def planar_push():
     return push_step(push(arm, way, mu_v=0.4, c=0.03, Pi=0.05, lifted=1.0, sticks=True))
 
 
-def started(step):
+def enclosure_from_clarabel(step):
     """The enclosure that starts from Clarabel's answer, and that answer."""
     answer = solve_step(step, "clarabel", certify="off")
     start = answer.delta_q, answer.lam
@@ -33,7 +33,7 @@ def started(step):
 def test_any_start_ends_in_the_same_bits(step):
     # A start that is wrong, or of another step, costs time only.
     step = step.replace(cone="ellipsoid")
-    found, (delta_q, lam) = started(step)
+    found, (delta_q, lam) = enclosure_from_clarabel(step)
     for start in (None, (0 * delta_q, 0 * lam), (-3 * delta_q, lam[::-1].copy())):
         other = enclosure(step, start)
         np.testing.assert_array_equal(other.delta_q, found.delta_q)
@@ -65,9 +65,9 @@ def test_contacts_stick_by_dependent_rows_while_another_slides():
         d2=c.d2[index], J=c.J[index], mu_v=c.mu_v[index], mu_omega=c.mu_omega[index],
         rows=c.rows[index],
     )  # fmt: skip
-    one, _ = started(step)
+    one, _ = enclosure_from_clarabel(step)
     step = step.replace(contacts=many)
-    found, _ = started(step)
+    found, _ = enclosure_from_clarabel(step)
     np.testing.assert_array_equal(found.delta_q, one.delta_q)
     lam = found.lam.reshape(4, 4)
     assert (lam[1:, 0] > 0).all()
@@ -78,7 +78,7 @@ def test_contacts_stick_by_dependent_rows_while_another_slides():
 def test_a_contact_without_friction_and_rows_of_zero_do_not_stop_it():
     step = planar_push()
     smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.4, 0.0]))
-    found, _ = started(smooth)
+    found, _ = enclosure_from_clarabel(smooth)
     cold = enclosure(smooth)
     assert found.working_set is None
     np.testing.assert_array_equal(found.delta_q, cold.delta_q)

@@ -30,7 +30,7 @@ from tests.model.urdf.urdf_texts import (
     link,
     mimic,
     robot,
-    written,
+    urdf_of_text,
 )
 from tests.tolerances import ROUNDING
 
@@ -82,8 +82,8 @@ k = 4
 
 
 def scene(folder, text, drawer=DRAWER, **settings):
-    written(folder, drawer, "drawer.urdf")
-    written(folder, L, "l.urdf")
+    urdf_of_text(folder, drawer, "drawer.urdf")
+    urdf_of_text(folder, L, "l.urdf")
     (folder / "scene.toml").write_text(text)
     return load_scenario(folder / "scene.toml", **settings)
 

@@ -17,13 +17,15 @@ M = 2.0
 """Of a link of these texts [kg]."""
 
 
-def limited(lower: float, upper: float, more: str = "", name: str = "slide") -> str:
+def joint_with_limits(lower: float, upper: float, more: str = "", name: str = "slide") -> str:
     text = joint(name, "cabinet", "drawer", "prismatic", "1 0 0", more)
     return text.replace('lower="-1" upper="1"', f'lower="{lower}" upper="{upper}"')
 
 
 def drawer(lower: float = -0.001, upper: float = 0.002, *more: str) -> str:
-    return robot(link("cabinet", inertial=""), link("drawer"), limited(lower, upper), *more)
+    return robot(
+        link("cabinet", inertial=""), link("drawer"), joint_with_limits(lower, upper), *more
+    )
 
 
 def scene(urdf: str, joint_limits: str | None = "urdf", **fields):
@@ -117,7 +119,7 @@ def test_a_door_that_a_contact_pushes_stops():
 @pytest.mark.parametrize(("multiplier", "offset"), [(-2.0, 0.0), (3.0, 0.001), (0.5, -0.0002)])
 def test_a_joint_that_follows_limits_its_leader(multiplier, offset):
     """Both lie within -1 mm and 2 mm: q, and multiplier q + offset."""
-    follower = limited(-0.001, 0.002, mimic("slide", multiplier, offset), "under")
+    follower = joint_with_limits(-0.001, 0.002, mimic("slide", multiplier, offset), "under")
     text = drawer(-0.001, 0.002, link("lower"), follower.replace('"drawer"', '"lower"'))
     system = qr.load_scenario(scene(text)).system
     found = urdf_limits(system, ["c"])
@@ -128,7 +130,9 @@ def test_a_joint_that_follows_limits_its_leader(multiplier, offset):
 
 
 def test_limits_that_leave_no_position_are_refused():
-    follower = limited(0.005, 0.006, mimic("slide"), "under").replace('"drawer"', '"lower"')
+    follower = joint_with_limits(0.005, 0.006, mimic("slide"), "under").replace(
+        '"drawer"', '"lower"'
+    )
     with pytest.raises(InputError, match="has no position within its limits and those of the"):
         qr.load_scenario(scene(drawer(-0.001, 0.002, link("lower"), follower)))
 

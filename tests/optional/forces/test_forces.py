@@ -17,7 +17,7 @@ from quasistatic_ref import (
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
-from quasistatic_ref.lab.scenes.loads import loaded
+from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces, of_group
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
@@ -158,7 +158,7 @@ def test_nearest_points_in_floats_are_those_of_scipy(cone, scale):
 
 def test_faces_of_a_pile_are_guessed_that_is_heavy_above():
     """Ten boxes, 1000 times as heavy as each other: no face is wrong, from no forces either."""
-    step = loaded(10.0 ** np.linspace(0, 3, 10), 1e-3, spring=1e4, press=3.0).step
+    step = loaded_pile(10.0 ** np.linspace(0, 3, 10), 1e-3, spring=1e4, press=3.0).step
     c = group_compliance(step)
     program = eliminated.EliminatedStep(step, c)
     for wrench in (solve_step(step, "daqp", fast=True).wrench, np.zeros((step.contacts.n_c, 4))):
@@ -223,7 +223,7 @@ LOADS = {
 def test_forces_bear_the_load_of_each_level_in_every_unit(args):
     """To 1e-6, by the weight above it, at corners alike; a compliance of 1e-9 m/N loses 1e-3."""
     for unit in checks.UNITS:
-        scene = loaded(**args, unit=unit)
+        scene = loaded_pile(**args, unit=unit)
         found = contact_forces(scene.step)
         f_n = found.wrench[:, 2].reshape(-1, 4)
         assert_relative(f_n.sum(axis=1), scene.borne, checks.LOST)
@@ -245,7 +245,7 @@ def test_the_compliance_is_next_to_a_share_of_the_least_mobility():
         ({"spring": 1e2, "press": 1.0}, 4 * H**2 / m),
     ):
         for unit in checks.UNITS:
-            c = group_compliance(loaded([m], H, unit=unit, **args).step)
+            c = group_compliance(loaded_pile([m], H, unit=unit, **args).step)
             assert abs(np.log2(c / (COMPLIANCE * least))) <= 0.5 + ROUNDING
             assert np.log2(c) == round(np.log2(c))
 
@@ -371,7 +371,7 @@ def test_r43_what_the_floor_of_a_pile_loses_at_random():
     for N in (1, 2, 5, 8):
         m, h = 10.0 ** rng.uniform(-2, 4), 10.0 ** rng.uniform(-3, -1)
         small = 1e-7
-        scene = loaded([m] * N, h)
+        scene = loaded_pile([m] * N, h)
         f_n = contact_forces(scene.step, small * h**2 / m).wrench[:4, 2].sum()
         lost = 1 - f_n / (N * m * G)
         assert lost == pytest.approx(small / 4 * (N + 1) * (2 * N + 1) / 6, rel=1e-4)

@@ -9,7 +9,7 @@ import pytest
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.lab.claims.engines.drake import posed
+from quasistatic_ref.lab.claims.engines.drake import set_pose
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
@@ -98,7 +98,7 @@ def of_drake(texts: dict[str, str], places: dict[str, Any], folder: Path) -> tup
     context = plant.GetMyContextFromRoot(root)
     for name in texts:
         if name in places:
-            posed(plant, context, plant.GetBodyByName(name), np.eye(3), np.array(places[name]))
+            set_pose(plant, context, plant.GetBodyByName(name), np.eye(3), np.array(places[name]))
     KEPT.append((diagram, root))
     return plant, context
 

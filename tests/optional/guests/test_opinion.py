@@ -14,7 +14,7 @@ from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.opinion import Opinion
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
-from tests.quoted import ROOT, flat, printed
+from tests.quoted import ROOT, flat, printed_blocks
 from validation.tools.installs import WALK_FILES
 
 PAGE = (ROOT / "docs/guides/does_my_contact_hold.md").read_text("utf-8")
@@ -50,7 +50,7 @@ def opinions() -> dict[str, Opinion]:
 
 def test_the_guide_shows_what_is_found(opinions):
     said = [f"- {one.sentence}" for opinion in opinions.values() for one in opinion.findings]
-    assert [flat(block) for block in printed(PAGE)] == said
+    assert [flat(block) for block in printed_blocks(PAGE)] == said
 
 
 def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(

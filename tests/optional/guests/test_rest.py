@@ -321,7 +321,7 @@ class Moved(NamedTuple):
     answer: Any
 
 
-def moved(model: Any, data: Any, depth: str = "closed") -> Moved:
+def step_size(model: Any, data: Any, depth: str = "closed") -> Moved:
     """The step of a state, in the norm of H."""
     step, coordinates = mujoco_step(model, data, H, depth)
     answer = solve_step(step, "none" if step.cone == "pyramid" else None)
@@ -349,7 +349,7 @@ def test_what_rests_in_mujoco_rests(name, cone, seed):
     case = CASES[name]
     model, data = random_model(case, cone, FINE, seed)
     settle(model, data)
-    late = moved(model, data)
+    late = step_size(model, data)
     assert late.rho < SETTLED * late.load
     assert late.x <= late.rho + late.before + ROUNDING * late.load
     if data.ncon:
@@ -357,7 +357,7 @@ def test_what_rests_in_mujoco_rests(name, cone, seed):
         assert late.answer.forces[:, 2].sum() == pytest.approx(total, rel=1e-4)
     if seed == 0:
         case.without(model, data)
-        assert moved(model, data).x > 0.01 * late.load
+        assert step_size(model, data).x > 0.01 * late.load
 
 
 @pytest.mark.parametrize(("name", "cone"), EACH)
@@ -366,7 +366,7 @@ def test_what_moves_in_mujoco_keeps_the_bound(name, cone):
     for _ in range(10):
         mujoco.mj_step(model, data)
     mujoco.mj_forward(model, data)
-    early = moved(model, data)
+    early = step_size(model, data)
     assert early.x <= early.rho + early.before + ROUNDING * early.load
 
 
@@ -393,7 +393,7 @@ def test_violations_vanish_with_time_step_and_softness(name, cone, seed):
     for soft in (COARSE, FINE):
         model, data = random_model(CASES[name], cone, soft, seed)
         settle(model, data)
-        as_is = moved(model, data, "as is")
+        as_is = step_size(model, data, "as is")
         closed.append(as_is.x / as_is.load)
     coarse, fine = closed
     assert coarse == pytest.approx(RATIO * fine, rel=0.1)

@@ -64,7 +64,7 @@ class Counted:
     __rmul__ = __mul__
 
 
-def counted(array):
+def counted_numbers(array):
     """The same array as numbers of a step, its zeros exact."""
     numbers = [Counted(None if v == 0 else 0) for v in np.asarray(array).ravel()]
     found = np.empty(len(numbers), dtype=object)
@@ -76,17 +76,23 @@ def most(values):
     return max(v.count or 0 for v in np.ravel(values))
 
 
-def counting(cone, monkeypatch, n_c=2):
+def counted_sizes(cone, monkeypatch, n_c=2):
     """Sizes of a step whose numbers are counted, and x and lam that are."""
     step = random_step(np.random.default_rng(0), rows=(6,) * n_c).replace(cone=cone)
     c = step.contacts
-    numbers = SimpleNamespace(n=counted(c.n), d1=counted(c.d1), d2=counted(c.d2), mu=c.mu)
-    monkeypatch.setattr(of, "scaled_by", lambda _: counted(scaled_by(c)))
-    monkeypatch.setattr(of, "cone_matrix", lambda _: counted(cone_matrix(cone)))
+    numbers = SimpleNamespace(
+        n=counted_numbers(c.n), d1=counted_numbers(c.d1), d2=counted_numbers(c.d2), mu=c.mu
+    )
+    monkeypatch.setattr(of, "scaled_by", lambda _: counted_numbers(scaled_by(c)))
+    monkeypatch.setattr(of, "cone_matrix", lambda _: counted_numbers(cone_matrix(cone)))
     posed = SimpleNamespace(contacts=numbers, cone=cone, present=step.present)
-    A = row_sizes(posed, counted(c.J))
+    A = row_sizes(posed, counted_numbers(c.J))
     m, n_v = A.shape
-    return TermSizes(A, np.zeros(n_v), n_v, m, True), counted(np.ones(n_v)), counted(np.ones(m))
+    return (
+        TermSizes(A, np.zeros(n_v), n_v, m, True),
+        counted_numbers(np.ones(n_v)),
+        counted_numbers(np.ones(m)),
+    )
 
 
 def entry(cone):
@@ -107,7 +113,7 @@ def entry(cone):
 @pytest.mark.parametrize("cone", CONES)
 def test_no_result_has_more_roundings_than_its_bound_allows(cone, monkeypatch):
     for n_c in (1, 2, 5):
-        sizes, x, lam = counting(cone, monkeypatch, n_c)
+        sizes, x, lam = counted_sizes(cone, monkeypatch, n_c)
         rows = sizes.row_terms + ROUNDINGS
         columns = sizes.column_terms + ROUNDINGS
         assert most(sizes.rows(x)) + 1 <= rows  # and |b| is added

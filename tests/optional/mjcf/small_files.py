@@ -9,7 +9,7 @@ import mujoco
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
-from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written
+from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, urdf_of_text
 
 Element = tuple[str, ...]
 """The tags from below <mujoco> to an element."""
@@ -41,9 +41,9 @@ def models(path: Path) -> Path:
     """A folder with the meshes and models that the files name."""
     (path / "in").mkdir()
     for name, size in {"a.obj": 0.1, "b.obj": 0.4, "in/a.obj": 0.7}.items():
-        written(path, OBJ.format(size), name)
+        urdf_of_text(path, OBJ.format(size), name)
     for name, size in {"child.xml": 0.1, "child": 0.1, "other.xml": 0.4}.items():
-        written(path, CHILD.format(size), name)
+        urdf_of_text(path, CHILD.format(size), name)
     return path
 
 
@@ -51,7 +51,7 @@ def models(path: Path) -> Path:
 def outcome(folder: Path, text: str, base: str) -> tuple[str, set[str]] | str:
     """What is loaded of a file, and what is listed as ignored; or the sentence that refuses it."""
     try:
-        urdf = mjcf_urdf(written(folder, text, "model.xml"), base)
+        urdf = mjcf_urdf(urdf_of_text(folder, text, "model.xml"), base)
     except ModelError as error:
         return str(error)
     loaded = re.sub('<ignored name="[^"]*" />', "", urdf)

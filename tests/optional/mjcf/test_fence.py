@@ -9,7 +9,7 @@ from quasistatic_ref import ModelError, ScenarioError, load_scenario
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.optional.mjcf import compiler
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
-from tests.model.urdf.urdf_texts import written
+from tests.model.urdf.urdf_texts import urdf_of_text
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
 
@@ -30,7 +30,7 @@ def model(inside):
 @pytest.fixture
 def home(tmp_path):
     """A folder with a file outside of it, and a pipe inside."""
-    written(tmp_path, BODY, "outside.xml")
+    urdf_of_text(tmp_path, BODY, "outside.xml")
     home = tmp_path / "home"
     home.mkdir()
     os.mkfifo(home / "pipe.xml")
@@ -89,7 +89,7 @@ REFUSED = {
 @pytest.mark.parametrize("case", REFUSED)
 def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case):
     inside, says = REFUSED[case]
-    path = written(home, model(inside.replace("{home}", str(home))), "m.xml")
+    path = urdf_of_text(home, model(inside.replace("{home}", str(home))), "m.xml")
     with pytest.raises(ModelError) as caught:
         mjcf_urdf(path)
     assert str(caught.value).startswith(f"{path}: ")
@@ -115,11 +115,11 @@ def test_what_is_no_plain_xml_is_refused(tmp_path, content, says):
 
 def test_a_folder_that_is_named_may_be_read(home, tmp_path, capsys):
     text = '<mujoco><include file="../outside.xml"/></mujoco>'
-    path = written(home, text, "m.xml")
+    path = urdf_of_text(home, text, "m.xml")
     with pytest.raises(ModelError, match="outside the folder of the model"):
         mjcf_urdf(path)
     assert '<link name="b">' in mjcf_urdf(path, roots=[tmp_path])
-    scene = written(home, SCENE, "scene.toml")
+    scene = urdf_of_text(home, SCENE, "scene.toml")
     assert main(["inspect", str(scene)]) == 2
     assert "m.xml: include.file: leads to " in capsys.readouterr().err
     assert main(["inspect", str(scene), "--root", str(tmp_path)]) == 0
@@ -131,9 +131,9 @@ def test_a_scenario_cannot_name_folders_outside_of_its_own(home, tmp_path, field
     line = f'{field.rpartition(".")[2]} = [".."]'
     text = SCENE + line if "." in field else f"{line}\n{SCENE}"
     with pytest.raises(ScenarioError, match=r"is outside the scenario's folder; .* --root FOLDER"):
-        load_scenario(written(home, text, "scene.toml"))
+        load_scenario(urdf_of_text(home, text, "scene.toml"))
     with pytest.raises(ScenarioError, match=rf"{field}: is no folder"):
-        load_scenario(written(home, text.replace("..", "m.xml"), "scene.toml"))
+        load_scenario(urdf_of_text(home, text.replace("..", "m.xml"), "scene.toml"))
 
 
 def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
@@ -141,22 +141,22 @@ def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
     keys = BODY.replace("<worldbody>", '<size nkey="3000000"/><worldbody>')
     begun = time.monotonic()
     with pytest.raises(ModelError, match=r"size\.nkey: takes MuJoCo longer than 1 s"):
-        mjcf_urdf(written(tmp_path, keys, "m.xml"))
+        mjcf_urdf(urdf_of_text(tmp_path, keys, "m.xml"))
     assert time.monotonic() - begun < 5
 
 
 def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeypatch):
     """The process waits for longer than the time of the processor that it is given."""
     monkeypatch.setattr(compiler, "SECONDS", 2)
-    written(tmp_path, "import time\ntime.sleep(2.5)\n", "sitecustomize.py")
+    urdf_of_text(tmp_path, "import time\ntime.sleep(2.5)\n", "sitecustomize.py")
     monkeypatch.syspath_prepend(tmp_path)
-    assert '<link name="b">' in mjcf_urdf(written(tmp_path, BODY, "m.xml"))
+    assert '<link name="b">' in mjcf_urdf(urdf_of_text(tmp_path, BODY, "m.xml"))
 
 
 def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     nan = BODY.replace('size="0.1"', 'size="0.1" pos="NaN 0 0"')
     with pytest.raises(ModelError):
-        mjcf_urdf(written(tmp_path, nan, "m.xml"))
+        mjcf_urdf(urdf_of_text(tmp_path, nan, "m.xml"))
     assert [file.name for file in tmp_path.iterdir()] == ["m.xml"]
     assert capfd.readouterr().err == ""

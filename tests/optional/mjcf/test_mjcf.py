@@ -12,7 +12,7 @@ from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.simulate.scene import Scene
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import written
+from tests.model.urdf.urdf_texts import urdf_of_text
 from validation.make.mjcf import CURVED, SAME, WORDS, differences, random_models
 
 ARM = """<mujoco>
@@ -65,8 +65,8 @@ BALL = '<mujoco><worldbody><body name="ball" pos="0 0 1"><freejoint/>{}</body></
 
 @pytest.fixture
 def arm(tmp_path):
-    written(tmp_path, WEDGE, "wedge.obj")
-    return written(tmp_path, ARM, "arm.xml")
+    urdf_of_text(tmp_path, WEDGE, "wedge.obj")
+    return urdf_of_text(tmp_path, ARM, "arm.xml")
 
 
 def test_everything_is_where_mujoco_has_it(arm):
@@ -98,18 +98,18 @@ def test_a_mesh_is_where_and_what_the_format_says(tmp_path, mesh, compiler, file
     own = f"<mujoco><compiler {compiler}/>{asset}<worldbody>{geom}</worldbody></mujoco>"
     folder = tmp_path / "child" if attached else tmp_path
     (folder / "deep").mkdir(parents=True)
-    written(folder, WEDGE, "wedge.obj")
-    written(folder / "deep", WEDGE.replace("v 0.2", "v 0.4"), "wedge.obj")
-    path = written(folder, own, "own.xml")
+    urdf_of_text(folder, WEDGE, "wedge.obj")
+    urdf_of_text(folder / "deep", WEDGE.replace("v 0.2", "v 0.4"), "wedge.obj")
+    path = urdf_of_text(folder, own, "own.xml")
     if attached:  # beside the outer model, files of the same names are three times as long
         (tmp_path / "deep").mkdir()
         for place in (tmp_path, tmp_path / "deep"):
-            written(place, WEDGE.replace("v 0.2", "v 0.6"), "wedge.obj")
+            urdf_of_text(place, WEDGE.replace("v 0.2", "v 0.6"), "wedge.obj")
         parts = '<asset><model name="m" file="child/own.xml"/></asset>'
         world = '<frame><attach model="m" body="b" prefix="p"/></frame>'
         strip = compiler if "strippath" in compiler else ""
         outer = f"<mujoco><compiler {strip}/>{parts}<worldbody>{world}</worldbody></mujoco>"
-        path = written(tmp_path, outer, "outer.xml")
+        path = urdf_of_text(tmp_path, outer, "outer.xml")
     system = System([Body("a", mjcf_urdf(path))])
     (placed,) = system.shapes
     found = placed.shape.support_value(placed.R) + placed.t  # along x, y and z of the body
@@ -152,7 +152,7 @@ def test_a_shape_that_is_not_mujocos_is_refused_by_its_name(arm, monkeypatch):
 def test_a_body_without_a_name_is_called_like_no_other(tmp_path):
     other = '<body name="body1"><geom name="of_body1" size="0.2"/></body>'
     world = f'<mujoco><worldbody><body><geom size="0.1"/></body>{other}</worldbody></mujoco>'
-    system = System([Body("a", mjcf_urdf(written(tmp_path, world, "two.xml")))])
+    system = System([Body("a", mjcf_urdf(urdf_of_text(tmp_path, world, "two.xml")))])
     assert system.links[1:] == ("a/worldbody", "a/body1_", "a/body1")
     masses = dict(zip(system.links, system.masses.tolist(), strict=True))
     # 1000 kg/m^3 times 4/3 pi r^3
@@ -162,7 +162,7 @@ def test_a_body_without_a_name_is_called_like_no_other(tmp_path):
 
 def test_a_free_body_is_the_root_and_moves_as_mujocos(tmp_path):
     shapes = '<geom type="sphere" size="0.1" pos="0.1 0.2 0"/><geom type="box" size="0.1 0.2 0.3"/>'
-    path = written(tmp_path, BALL.format(shapes), "ball.xml")
+    path = urdf_of_text(tmp_path, BALL.format(shapes), "ball.xml")
     found = differences(path, 3)
     assert (found.n_v, found.shapes) == (6, 2)
     assert max(found[3:8]) < SAME
@@ -200,7 +200,7 @@ COLOURED = """<mujoco>
 
 
 def test_what_mujoco_draws_is_seen_in_its_colours(tmp_path):
-    path = written(tmp_path, COLOURED, "scene.xml")
+    path = urdf_of_text(tmp_path, COLOURED, "scene.xml")
     found = visuals(Scene(System([Body("a", mjcf_urdf(path))]), ()))
     assert [visual.colour for visual in found] == ["#808080", "#ff0000", "#0000ff"]
 
@@ -212,9 +212,9 @@ def test_the_reader_of_pinocchio_still_drops_bodies_and_masses(tmp_path):
         '<geom size="0.1" mass="2" contype="{1}" conaffinity="{1}"/></body>'
     )
     world = "<mujoco><worldbody>{}</worldbody></mujoco>"
-    two = written(tmp_path, world.format(ball.format("a", 1) + ball.format("b", 1)), "two.xml")
+    two = urdf_of_text(tmp_path, world.format(ball.format("a", 1) + ball.format("b", 1)), "two.xml")
     assert pin.buildModelFromMJCF(str(two)).nv == 1
-    apart = written(tmp_path, world.format(ball.format("a", 0)), "apart.xml")
+    apart = urdf_of_text(tmp_path, world.format(ball.format("a", 0)), "apart.xml")
     assert pin.buildModelFromMJCF(str(apart)).inertias[1].mass == 0.0
     assert System([Body("a", mjcf_urdf(apart), actuated="all")]).masses[-1] == 2.0
 
@@ -244,7 +244,7 @@ REFUSED = {
 
 @pytest.mark.parametrize(("inside", "says"), REFUSED.items())
 def test_what_a_urdf_cannot_say_is_refused_by_element(tmp_path, inside, says):
-    path = written(tmp_path, BALL.format(inside), "ball.xml")
+    path = urdf_of_text(tmp_path, BALL.format(inside), "ball.xml")
     with pytest.raises(ModelError, match=says):
         mjcf_urdf(path, "floating")
 
@@ -262,7 +262,7 @@ joint_friction = "urdf"
 
 
 def test_a_scenario_takes_mjcf_where_it_takes_a_urdf(arm):
-    scene = written(arm.parent, SCENE, "scene.toml")
+    scene = urdf_of_text(arm.parent, SCENE, "scene.toml")
     assert load_scenario(scene).system.n_a == 3  # its un-actuated slides and hinges have no mass
     everything = {"bodies.arm.actuated": "all", "bodies.arm.K_q": np.diag([500.0] * 5).tolist()}
     scenario = load_scenario(scene, everything)
@@ -287,7 +287,7 @@ BALLS = """<mujoco><worldbody><body name="arm" pos="0 0 1" euler="10 20 30">
 
 def test_balls_have_the_mass_matrix_and_the_weight_that_mujoco_gives_them(tmp_path, rng):
     mujoco = import_module("mujoco")
-    path = written(tmp_path, BALLS, "balls.xml")
+    path = urdf_of_text(tmp_path, BALLS, "balls.xml")
     system = System([Body("robot", mjcf_urdf(path))])
     assert {"robot: joint[a].range", "robot: joint[a].frictionloss"} <= set(system.ignored)
     model = mujoco.MjModel.from_xml_path(str(path))

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.scenes.systems import RAIL
 from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.optional.runs.scene_file import scenario_written
-from tests.contact.still import placed
+from tests.contact.still import placed_shape
 from tests.extras import SCENARIOS
 
 TURNED = rotation(np.array([0.3, -0.2, 1.1]))
@@ -32,16 +32,17 @@ def scene(changes=(), **settings):
     system = qr.System([rail, ball])
     finger = system.link("rail/finger")
     body = system.link("ball/solid")
-    floor = placed(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
-    cloud = placed(qr.PointCloud(0.04 * np.eye(3)), body, name="points")
+    floor = placed_shape(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
+    cloud = placed_shape(qr.PointCloud(0.04 * np.eye(3)), body, name="points")
     pairs = [
         qr.ContactPair("rest", floor, system.shapes[0], 0.5, 0.01, 6, 1),
-        qr.ContactPair("push", placed(qr.Capsule(0.02, 0.03), finger, t=(0.1, 0, 0), name="tip"),
+        qr.ContactPair("push",
+                       placed_shape(qr.Capsule(0.02, 0.03), finger, t=(0.1, 0, 0), name="tip"),
                        system.shapes[0], 0.2, 0.0, 4, 1),
         qr.ContactPair("points", floor, cloud, 0.1, 0.0, 4, 2),
     ]  # fmt: skip
     for number, shape in enumerate(STANDING):
-        stands = placed(shape, 0, TURNED, (number, 2.0, 0.1), f"solid{number}")
+        stands = placed_shape(shape, 0, TURNED, (number, 2.0, 0.1), f"solid{number}")
         pairs.append(qr.ContactPair(f"far {number}", stands, system.shapes[0], 0.5, 0.0, 4, 1))
     K_q = np.array([[300.0]])
     return qr.Simulator(system, [*pairs, *changes], **({"h": 0.02, "K_q": K_q} | settings))
@@ -120,9 +121,10 @@ ON_BALL = 3
     ],
 )
 def test_what_no_file_holds_is_refused_and_nothing_is_written(tmp_path, changes, settings, words):
-    floor = placed(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
+    floor = placed_shape(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
     pairs = [
-        qr.ContactPair("more", floor, placed(shape, ON_BALL), 0.1, 0.0, 4, 1) for shape in changes
+        qr.ContactPair("more", floor, placed_shape(shape, ON_BALL), 0.1, 0.0, 4, 1)
+        for shape in changes
     ]
     with pytest.raises(InputError, match=words):
         scenario_written(scene(pairs, **settings), tmp_path / "scene.toml", steps=1)
@@ -133,8 +135,8 @@ def test_a_rotation_that_no_angles_give_is_refused_by_name(tmp_path):
     R = TURNED @ TURNED @ TURNED  # rounded otherwise than any roll, pitch and yaw
     beta = scene().pairs[0].beta
     for skew, words in (
-        (placed(STANDING[0], 0, R, name="skew"), "is not what any roll, pitch and yaw give"),
-        (placed(STANDING[0], 2, TURNED, name="skew"), "is rounded where a URDF is read"),
+        (placed_shape(STANDING[0], 0, R, name="skew"), "is not what any roll, pitch and yaw give"),
+        (placed_shape(STANDING[0], 2, TURNED, name="skew"), "is rounded where a URDF is read"),
     ):
         more = qr.ContactPair("more", skew, beta, 0.1, 0.0, 4, 1)
         with pytest.raises(InputError, match=rf"skew\.R: {words}"):

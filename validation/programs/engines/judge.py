@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from validation.programs.engines.phenomena import answered, cells
+from validation.programs.engines.phenomena import cells, engine_answer
 from validation.tools.scripts import environment, record_written
 
 HERE = Path(__file__).parent
@@ -31,7 +31,7 @@ def program_of(name: str, folder: Path, timeout: float) -> Program:
     return Program(shlex.join([python_of(name, folder), adapter]), timeout)
 
 
-def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
+def write_answers(name: str, folder: Path, results: Path, resume: bool) -> None:
     """What an engine answered, written setting by setting; `resume` keeps those that are there."""
     engine = ENGINES[name]
     path = results / f"{name}.json"
@@ -46,12 +46,14 @@ def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
             record["version"] = program.said.implementation or before["version"]
             record_written(path, record)
         record["tried"] = [
-            {**one, **tried(program, one, engine)} for one in engine.get("tried", ())
+            {**one, **outcome_of_change(program, one, engine)} for one in engine.get("tried", ())
         ]
     record_written(path, record)
 
 
-def tried(program: Program, one: dict[str, Any], engine: dict[str, Any]) -> dict[str, Any]:
+def outcome_of_change(
+    program: Program, one: dict[str, Any], engine: dict[str, Any]
+) -> dict[str, Any]:
     """What becomes of a cell when its setting is changed in what is said to be the cause."""
     setting = dict(engine["settings"][one["setting"]])
     for key, value in one["values"].items():
@@ -72,7 +74,7 @@ def phenomena(
     lacks = {*engine.get("lacks", ()), *setting.get("lacks", ())}
 
     def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-        return answered(program, {**scene, **setting.get("scene", {})}, setting)
+        return engine_answer(program, {**scene, **setting.get("scene", {})}, setting)
 
     return [
         {

@@ -177,7 +177,7 @@ MEASURES = {
 }  # fmt: skip
 
 
-def answered(program: Any, scene: dict[str, Any], setting: dict[str, Any]) -> dict[str, Any]:
+def engine_answer(program: Any, scene: dict[str, Any], setting: dict[str, Any]) -> dict[str, Any]:
     """What a program answers to a scene.
 
     Raises
@@ -204,7 +204,7 @@ def main() -> int:
     with Program(given.command, given.timeout) as program:
 
         def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-            return answered(program, scene, {"h": given.h})
+            return engine_answer(program, scene, {"h": given.h})
 
         for cell in cells(simulate, given.h):
             differs += not cell.holds

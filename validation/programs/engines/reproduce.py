@@ -38,7 +38,7 @@ def red_cells(records: dict[str, Any]) -> Iterator[tuple[str, str, dict[str, Any
                     yield engine, setting, cell
 
 
-def missing(records: dict[str, Any]) -> list[tuple[str, str, str]]:
+def cells_without_program(records: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Red cells without a program."""
     every = ((engine, setting, cell["phenomenon"]) for engine, setting, cell in red_cells(records))
     return [of for of in every if not of_cell(*of)]
@@ -78,7 +78,7 @@ def shows(cell: dict[str, Any], number: float) -> bool:
     return abs(number - float(cell["value"])) <= ALIKE * abs(float(cell["value"]))
 
 
-def reproduced(engine: str, python: str) -> dict[str, str]:
+def printed_lines(engine: str, python: str) -> dict[str, str]:
     """What each program of an engine prints; the end of its errors where it ends with one."""
     printed = {}
     for entry in LIST:

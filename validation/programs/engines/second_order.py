@@ -90,7 +90,7 @@ def scene_of(name: str, speed: float) -> dict[str, Any]:
     return scene
 
 
-def aimed(scene: dict[str, Any]) -> np.ndarray:
+def target_displacement(scene: dict[str, Any]) -> np.ndarray:
     """Displacement of the first mover's target along the way, at the scene's times [m]."""
     times, *places = np.array(scene["targets"][scene["mover"][0]]).T
     return np.interp(scene["times"], times, places[scene["along"]])
@@ -105,10 +105,12 @@ def quasistatic(name: str, scene: dict[str, Any]) -> np.ndarray:
     body, finger = scene["bodies"][:2]
     weight = body["mass"] * GRAVITY
     if name == "lift":
-        return np.maximum(0.0, aimed(scene) - weight / 2 / finger["K"])
+        return np.maximum(0.0, target_displacement(scene) - weight / 2 / finger["K"])
     apart = body["xyz"][0] - finger["xyz"][0] - body["shapes"][0]["size"][0] / 2
     apart -= finger["shapes"][0]["radius"]
-    return np.maximum(0.0, aimed(scene) - apart - scene["mu_v"] * weight / finger["K"])
+    return np.maximum(
+        0.0, target_displacement(scene) - apart - scene["mu_v"] * weight / finger["K"]
+    )
 
 
 class Motion(NamedTuple):
@@ -135,13 +137,13 @@ def motion(scene: dict[str, Any], poses: dict[str, Any]) -> Motion:
     return Motion(table[:, :3] - body["xyz"], Rotation.from_quat(table[:, 3:]))
 
 
-def expected(name: str, scene: dict[str, Any]) -> Motion:
+def expected_motion(name: str, scene: dict[str, Any]) -> Motion:
     """The closed form: the body moves along the way and does not turn."""
     places = np.outer(quasistatic(name, scene), np.eye(3)[scene["along"]])
     return Motion(places, Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (len(places), 1))))
 
 
-def measured(
+def measures(
     scene: dict[str, Any], poses: dict[str, Any], reference: Motion
 ) -> dict[str, float | bool]:
     """What a run is worth, by the thresholds of the study.

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Record, records_read
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -37,7 +37,7 @@ def rows() -> list[Record]:
     return list(records_read(ROWS)[1:])
 
 
-def chosen(**fields: Any) -> list[Record]:
+def rows_with(**fields: Any) -> list[Record]:
     """Rows with these values of their fields."""
     return [row for row in rows() if all(row[name] == value for name, value in fields.items())]
 
@@ -129,7 +129,7 @@ def figure(within: Any = None) -> Figure:
         axes.axhline(1e3 * STUDY["thresholds"]["pose"]["way"], color="black", linestyle=":")
         below = speed == DRAWN_SPEEDS[-1]
         left = scene == next(iter(SCENES))
-        labelled(
+        label_axes(
             axes,
             "cost [ms a simulated s]" if below else "",
             "error of the place [mm]" if left else "",

@@ -63,7 +63,7 @@ def mutants(file: str, source: str) -> Iterator[Mutant]:
     tree = ast.parse(source)
     for node, where in list(_expressions(tree)):
         before = ast.unparse(node)
-        for new in _changed(node):
+        for new in _changed_copies(node):
             if ast.unparse(new) == before:  # two equal indices change places
                 continue
             key = f"{file} {where}: {before} -> {ast.unparse(new)}"
@@ -107,7 +107,7 @@ def _runs_not(node: ast.AST) -> bool:
     return generic and node.value.id in TYPES
 
 
-def _changed(node: ast.AST) -> Iterator[ast.AST]:
+def _changed_copies(node: ast.AST) -> Iterator[ast.AST]:
     """What may stand in the place of a node: copies of it with one change each."""
     if isinstance(node, ast.BinOp | ast.AugAssign) and type(node.op) in OPERATORS:
         yield _with(node, op=OPERATORS[type(node.op)]())

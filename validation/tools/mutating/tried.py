@@ -32,7 +32,7 @@ for needed in NEEDED:
     import_module(needed)
 
 
-def replaced(file: Path, text: str) -> None:
+def replace_source(file: Path, text: str) -> None:
     """Make a file of the package, when it is imported, have another text."""
     as_it_is = SourceFileLoader.get_code
 
@@ -81,7 +81,7 @@ def _status(file: Path, source: str, tests: Sequence[str]) -> int:
     for name in list(sys.modules):
         if name.partition(".")[0] in ("quasistatic_ref", "tests", "validation"):
             del sys.modules[name]
-    replaced(file, source)
+    replace_source(file, source)
     paths = [str(ROOT / "tests" / test) for test in tests]
     try:
         return int(pytest.main([*OPTIONS, *paths], plugins=[Patience()]))

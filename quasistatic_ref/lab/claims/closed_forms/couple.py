@@ -15,7 +15,7 @@ RADIUS = (0.03, 0.04)
 H = 0.01
 
 
-def pressed(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) -> StepData:
+def pressed_balls(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) -> StepData:
     """Two balls, pressed together and sheared by opposite forces at their centres."""
     J = np.zeros((1, 4, 12))
     J[0, :, :6] = -point_jacobian(RADIUS[0] * n, n)  # alpha
@@ -38,7 +38,7 @@ def evidence() -> Evidence:
         for _ in range(6):
             n, d1 = np.linalg.qr(rng.normal(size=(3, 3)))[0].T[:2]
             force = rng.uniform(20, 60) * n + rng.normal(size=3) * 3
-            step = pressed(phi, n, d1, force)
+            step = pressed_balls(phi, n, d1, force)
             answer = exact(step)
             f_d1, f_d2, f_n, _ = answer.wrench[0]
             f = f_d1 * d1 + f_d2 * np.cross(n, d1) + f_n * n

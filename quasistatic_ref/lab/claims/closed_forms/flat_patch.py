@@ -31,7 +31,7 @@ def disk() -> tuple[Array, Array]:
     return points, frames
 
 
-def turned(tau: float) -> StepData:
+def loaded_patch(tau: float) -> StepData:
     """The patch under its weight and a torque about its middle."""
     points, frames = disk()
     return rigid_step(M, INERTIA, (0, 0, -M * GRAVITY, 0, 0, tau), points, frames, mu_v=MU, h=H)
@@ -44,7 +44,7 @@ def evidence() -> Evidence:
     limit = MU * M * GRAVITY * RADIUS
     uniform = MU * M * GRAVITY * r.mean()
     found = threshold(
-        lambda share: bool(abs(exact(turned(share * limit)).delta_q[5]) > 1e-14), 0.3, 2
+        lambda share: bool(abs(exact(loaded_patch(share * limit)).delta_q[5]) > 1e-14), 0.3, 2
     )
     turns = []
     forms = []
@@ -52,7 +52,7 @@ def evidence() -> Evidence:
     inner = []
     shares = []
     for share in (1.01, 1.5, 4.0):
-        answer = exact(turned(share * limit))
+        answer = exact(loaded_patch(share * limit))
         mass = INERTIA + M * (MU * RADIUS) ** 2
         turns.append(answer.delta_q[5])
         forms.append(H**2 * (share - 1) * limit / mass)

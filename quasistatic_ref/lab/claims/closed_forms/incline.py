@@ -36,7 +36,7 @@ def block_steps(slope: float, mu_v: float, c: float, steps: int) -> list[StepRes
     return steps_of(simulator_of(system, (pair,), H), steps)
 
 
-def moved(results: list[StepResult]) -> Array:
+def displacements(results: list[StepResult]) -> Array:
     """delta_q of each step, shape (k, 6): x down the slope, z off it; the block's own axes."""
     return np.array([result.solution.delta_q for result in results])
 
@@ -53,9 +53,9 @@ def slide_evidence() -> Evidence:
         if np.isclose(np.tan(slope), mu, rtol=1e-3):
             continue
         if np.tan(slope) < mu:
-            stuck.append(moved(block_steps(slope, mu, c, 1)) / (H**2 * GRAVITY))
+            stuck.append(displacements(block_steps(slope, mu, c, 1)) / (H**2 * GRAVITY))
             continue
-        delta_q = moved(block_steps(slope, mu, c, STEPS))
+        delta_q = displacements(block_steps(slope, mu, c, STEPS))
         steady = H**2 * GRAVITY * (np.sin(slope) - mu * np.cos(slope))
         slips.append(delta_q[:, 0])
         fixed.append(np.full(STEPS, steady))
@@ -76,7 +76,7 @@ def tip_evidence() -> Evidence:
     held = []
     for c, share in grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]):
         slope = np.arctan(share * L / c)
-        delta_q = moved(block_steps(slope, 1.5, c, 1))[0]
+        delta_q = displacements(block_steps(slope, 1.5, c, 1))[0]
         if share < 1:
             held.append(delta_q / (H**2 * GRAVITY))
             continue

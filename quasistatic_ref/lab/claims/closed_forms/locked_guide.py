@@ -19,7 +19,7 @@ WALLS = [[[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[1, 0, 0], [0, 0, 1], [0, -1, 0]]]
 ACROSS = [0.0, 1.0, 0.0]
 
 
-def slid(force: float, angle: float, clearance: float) -> StepSolution:
+def guide_step(force: float, angle: float, clearance: float) -> StepSolution:
     """One step of a point midway between the walls, with a clearance to each [m].
 
     The force [N] is in their plane, at an angle [rad] from d1.
@@ -29,7 +29,7 @@ def slid(force: float, angle: float, clearance: float) -> StepSolution:
     return exact(free_step(M * np.eye(3), push, contacts, H))
 
 
-def turned(torque: float, clearance: float) -> float:
+def guide_turn(torque: float, clearance: float) -> float:
     """Turn about y [rad] of a body under a torque [N m], with a clearance to each wall [m].
 
     It moves along y and turns about it.
@@ -54,7 +54,7 @@ def evidence() -> Evidence:
         force = share * M * max(c, 1e-5) / (MU_V * H**2)
         free = H**2 * force / M * np.array([np.cos(angle), np.sin(angle)])
         most = c / MU_V
-        answer = slid(force, angle, c)
+        answer = guide_step(force, angle, c)
         found.append(answer.delta_q[[0, 2]])
         expected.append(np.minimum(free, most))
         # What does not move the body, the walls bear: mu_v N along each tangent.
@@ -64,12 +64,12 @@ def evidence() -> Evidence:
     limits = []
     for share, c in grid(shares, clearances):
         torque = share * INERTIA * max(c, 1e-5) / (MU_OMEGA * H**2)
-        turns.append(turned(torque, c))
+        turns.append(guide_turn(torque, c))
         limits.append(min(H**2 * torque / INERTIA, c / MU_OMEGA))
     drawn = np.linspace(0.0, 3.0, 13)
     unit = M * 1e-3 / (MU_V * H**2)
-    along = [slid(force, 0.0, 1e-3) for force in drawn * unit]
-    around = [slid(1e6, angle, 1e-3) for angle in np.linspace(0, 2 * np.pi, 25)]
+    along = [guide_step(force, 0.0, 1e-3) for force in drawn * unit]
+    around = [guide_step(1e6, angle, 1e-3) for angle in np.linspace(0, 2 * np.pi, 25)]
     picture = {
         "h": H,
         "forces": drawn,

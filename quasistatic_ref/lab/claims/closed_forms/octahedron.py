@@ -17,7 +17,7 @@ RADIUS = 1 / 16
 """A power of two: the torque of the force, were it rounded, would make the sphere roll [m]."""
 
 
-def _loaded(share: float, *direction: float) -> StepData:
+def _loaded_contact(share: float, *direction: float) -> StepData:
     """A share of (f_1, f_2, tau_n), in units of what each alone holds, at the contact point."""
     N = M * GRAVITY
     f1, f2, tau = share * np.array(direction) * [MU_V * N, MU_V * N, MU_OMEGA * N]
@@ -30,7 +30,7 @@ def evidence() -> Evidence:
     """Random directions, scaled until something moves."""
     directions = np.random.default_rng(3).normal(size=(24, 3))
     limits = 1 / np.abs(directions).sum(axis=1)
-    found = thresholds(_loaded, directions, limits, (0.1, 3.0)) / limits
+    found = thresholds(_loaded_contact, directions, limits, (0.1, 3.0)) / limits
     return Evidence.of(
         comparison("load that moves it, over the limit [-]", found, 1.0, CLOSED_FORM)
     )

@@ -15,7 +15,7 @@ INERTIA = 2e-3
 """Of a peg long enough that both contacts go on pressing while it slides in [kg m^2]."""
 
 
-def pushed(depth: float, width: float, mu: float, force: float) -> StepData:
+def pushed_peg(depth: float, width: float, mu: float, force: float) -> StepData:
     """A peg pushed down by a force on its axis.
 
     It touches the mouth of the hole at its left and the wall at its right, `depth` lower and
@@ -31,14 +31,14 @@ def evidence() -> Evidence:
     sweep = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6])
     widths, mus, _ = sweep.T
     expected = mus * widths
-    found = thresholds(pushed, sweep, expected, (0.2, 5.0))
-    wedged = (pushed(0.99 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
+    found = thresholds(pushed_peg, sweep, expected, (0.2, 5.0))
+    wedged = (pushed_peg(0.99 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     rest = [exact(step).delta_q for step in wedged]
     solved = []
     formula = []
     for width, mu, over, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]):
         depth = over * mu * width
-        solved.append(exact(pushed(depth, width, mu, force)).delta_q)
+        solved.append(exact(pushed_peg(depth, width, mu, force)).delta_q)
         theta, x = 2 * mu / depth, -(mu**2) * width / depth  # per unit of descent
         descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))

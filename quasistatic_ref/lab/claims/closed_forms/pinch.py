@@ -13,7 +13,7 @@ M = 0.2
 """Mass of the bar [kg]."""
 
 
-def held(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepData:
+def held_bar(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepData:
     """A bar that is held at an offset [m]."""
     return pinch_step(grip, offset, mu_v, mu_omega, m=M)
 
@@ -23,8 +23,8 @@ def evidence() -> Evidence:
     sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
     grip, mu_v, mu_omega = sweep.T
     expected = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
-    found = thresholds(held, sweep, expected)
-    steps = (held(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
+    found = thresholds(held_bar, sweep, expected)
+    steps = (held_bar(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     loads = [exact(step).wrench[:, 2] for step in steps]
     grips = np.stack([grip, grip], axis=1)
     return Evidence.of(

@@ -30,7 +30,7 @@ STEPS = 40
 BLOCK = body_text(M, (2e-4, 3e-4, 4e-4))
 
 
-def pushed(v: float, mu_v: float, h: float) -> Array:
+def steady_push(v: float, mu_v: float, h: float) -> Array:
     """Steady lag of the finger, largest and least gap [m], load of the base [N], shape (4,)."""
     start = {"xyz": (L, 0.0, C)}
     rail = {"base": "fixed", "actuated": "all", "xyz": (-0.005, 0.0, C)}
@@ -55,7 +55,7 @@ def evidence() -> Evidence:
     """Speeds, friction and time steps."""
     sweep = grid([0.005, 0.05, 0.2], [0.2, 0.5], [5e-3, 1e-2])
     v, mu, h = sweep.T
-    found = np.array([pushed(*x) for x in sweep])
+    found = np.array([steady_push(*x) for x in sweep])
     friction = mu * M * GRAVITY
     drag = M * v / h
     force = STIFFNESS * found[:, 0]

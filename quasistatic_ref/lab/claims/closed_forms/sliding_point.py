@@ -14,7 +14,7 @@ H = 0.01
 STEPS = 15
 
 
-def pulled(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
+def point_displacement(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
     """The displacement of one step, shape (3,) [m]."""
     return exact(point_step(M, (fx, fy, -M * GRAVITY), mu, phi, h)).delta_q
 
@@ -34,7 +34,7 @@ def slip(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
     return np.array([0.0, 0.0, -phi])
 
 
-def pushed(share: float, angle: float, mu: float) -> StepData:
+def pushed_point(share: float, angle: float, mu: float) -> StepData:
     """A point under a share of mu m g, at an angle from d1 [rad]."""
     f1, f2 = share * mu * M * GRAVITY * np.array([np.cos(angle), np.sin(angle)])
     return point_step(M, (f1, f2, -M * GRAVITY), mu, 0.0, H)
@@ -47,7 +47,7 @@ def threshold_evidence() -> Evidence:
     sweep = grid(angles, mus)
     at = sweep[:, 0]
     expected = 1 / (np.cos(at) + np.sin(at))
-    found = thresholds(pushed, sweep, expected)
+    found = thresholds(pushed_point, sweep, expected)
     picture = {"angles": angles, "found": found.reshape(-1, len(mus)).T, "mus": mus, "h": H}
     what = "least force that moves it, over mu_v m g [-]"
     return Evidence.of(comparison(what, found, expected, CLOSED_FORM), **picture)
@@ -63,7 +63,7 @@ def slip_evidence() -> Evidence:
     )
     for share, side, mu, phi, h in sweep:
         fx = share * mu * M * GRAVITY
-        solved.append(pulled(fx, side * fx, mu, phi, h))
+        solved.append(point_displacement(fx, side * fx, mu, phi, h))
         formula.append(slip(fx, side * fx, mu, phi, h))
         scale.append(max(h**2 * GRAVITY * max(1.0, share) * mu, abs(phi)))
     gaps = []
@@ -75,7 +75,7 @@ def slip_evidence() -> Evidence:
         layer = mu * H**2 * (share - 1) * mu * GRAVITY
         for _ in range(STEPS):
             gaps.append(phi)
-            phi += float(pulled(share * mu * M * GRAVITY, 0.0, mu, phi)[2])
+            phi += float(point_displacement(share * mu * M * GRAVITY, 0.0, mu, phi)[2])
         layers.append(np.full(STEPS, layer))
         rest.append(-layer * (mu**2 / (1 + mu**2)) ** k)
     terms = [np.array(layers).ravel(), np.array(rest).ravel()]

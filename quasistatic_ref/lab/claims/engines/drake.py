@@ -50,7 +50,7 @@ def drake_plant(texts: dict[str, str]) -> tuple[Any, Any, Any]:
     return plant, builder.Build(), scene_graph
 
 
-def posed(plant: Any, context: Any, body: Any, R: Array, t: Array) -> None:
+def set_pose(plant: Any, context: Any, body: Any, R: Array, t: Array) -> None:
     """Put a free body of Drake's at a pose."""
     math = import_module("pydrake.math")
     pose = math.RigidTransform(math.RotationMatrix(R), t)
@@ -81,7 +81,7 @@ def distances() -> tuple[Array, Array]:
             at = system.kinematics(q)
             links = [system.link(name) for name in texts]
             for body, link in zip(bodies, links, strict=True):
-                posed(plant, within, body, at.R[link], at.t[link])
+                set_pose(plant, within, body, at.R[link], at.t[link])
             query = scene_graph.get_query_output_port().Eval(
                 scene_graph.GetMyContextFromRoot(context)
             )
@@ -120,7 +120,7 @@ def dynamics() -> dict[str, tuple[Array, Array]]:
         q = system.integrate(system.q_start, rng.uniform(-1, 1, system.n_v))
         at = system.kinematics(q)
         root = system.link("arm")
-        posed(plant, context, plant.GetBodyByName("base"), at.R[root], at.t[root])
+        set_pose(plant, context, plant.GetBodyByName("base"), at.R[root], at.t[root])
         for name in JOINTS:
             joint = plant.GetJointByName(name)
             position = float(q[system.joint(f"arm/{name}").q.start])

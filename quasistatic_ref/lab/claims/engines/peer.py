@@ -107,7 +107,7 @@ def ours(model: dict[str, Any]) -> list[StepResult]:
     return found
 
 
-def held(step: StepData) -> DataRates:
+def data_rates(step: StepData) -> DataRates:
     """Rates of a step's data by targets, and by q while J, masses and loads stay as they are."""
     springs = step.h * np.pad(step.K_q, ((0, step.n_u), (0, 0)))
     load = np.hstack([springs, -springs, np.zeros((step.n_v, step.n_u))])
@@ -120,7 +120,7 @@ def held(step: StepData) -> DataRates:
 def gradients(answer: StepSolution) -> tuple[Array, Array]:
     """The peer's B and A: dq+/du (n_v, n_a) and dq+/dq (n_v, n_v); NaN where there is none."""
     step = answer.step
-    found = Equations(touching_rows(answer, np.zeros(step.contacts.n_c))).rates(held(step))
+    found = Equations(touching_rows(answer, np.zeros(step.contacts.n_c))).rates(data_rates(step))
     x = found.x.copy()
     none = np.zeros(x.shape[1], dtype=bool)
     x[:, np.any([none, *found.contradicts.values(), *found.opens], axis=0)] = np.nan

@@ -7,11 +7,11 @@ import numpy as np
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
-from quasistatic_ref.lab.reality.identify import identified
+from quasistatic_ref.lab.reality.identify import identified_ratio
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
-from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import pushed
+from quasistatic_ref.lab.reality.predict import prediction
+from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.step.data import Array
@@ -47,13 +47,13 @@ def errors(cone: str) -> tuple[Array, Array, int]:
     other = []
     unproved = 0
     for pair in pairs:
-        found = identified(loads[pair.name], pair.outline.gyration)
+        found = identified_ratio(loads[pair.name], pair.outline.gyration)
         some = pushes[pair.name].every(EVERY)
         assert found is not None
         assert some.published is not None
-        scene = pushed(Settings(cone=cone, advance=ADVANCE), pair, found.ratio)
+        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, found.ratio)
         ways = zip(some.before, some.path, strict=True)
-        ends = [predicted(scene, before, path) for before, path in ways]
+        ends = [prediction(scene, before, path) for before, path in ways]
         unproved += sum(n for e in ends for kind, n in e.kinds.items() if kind not in PROOFS)
         own.append(pose_errors(np.array([end.pose for end in ends]), some.after).mean(0))
         other.append(pose_errors(some.published, some.after).mean(0))

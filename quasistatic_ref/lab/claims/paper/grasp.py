@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import grasp, lift
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.clouds.rows import held, margin, rows
+from quasistatic_ref.lab.clouds.rows import is_held, margin, rows
 from quasistatic_ref.lab.clouds.study import NONE, TORSION, Cell, row
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, rotations
 
@@ -33,8 +33,8 @@ def evidence() -> Evidence:
     before = [known[cell] for cell in _cells()]
     grasps = [one for one in (*rows(), *again) if one["change"] == NONE]
     firm = [one["rotation"] for one in grasps if one["mu_omega"] and margin(one) >= FIRM]
-    weak = [held(one) for one in grasps if margin(one) < 1.0 and one["mu_omega"]]
-    loose = [held(one) for one in grasps if not one["mu_omega"]]
+    weak = [is_held(one) for one in grasps if margin(one) < 1.0 and one["mu_omega"]]
+    loose = [is_held(one) for one in grasps if not one["mu_omega"]]
     return Evidence.of(
         within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
         within("rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf),

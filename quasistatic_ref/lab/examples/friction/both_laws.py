@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.friction.which_cone_is_real import measured
+from quasistatic_ref.lab.examples.friction.which_cone_is_real import measurements
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import pushed
+from quasistatic_ref.lab.reality.predict import prediction
+from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
@@ -76,9 +76,9 @@ def push(law: str) -> tuple[Pair, Array]:
 
     x, y [m] and angle [rad] of its frame.
     """
-    pair, ratio, pushes = measured()
-    scene = pushed(Settings(advance=ADVANCE, law=law), pair, ratio)
-    found = predicted(scene, pushes.before[PUSH], pushes.path[PUSH]).pose
+    pair, ratio, pushes = measurements()
+    scene = pushed_scene(Settings(advance=ADVANCE, law=law), pair, ratio)
+    found = prediction(scene, pushes.before[PUSH], pushes.path[PUSH]).pose
     return pair, np.array([pushes.before[PUSH], pushes.after[PUSH], found])
 
 
@@ -118,20 +118,20 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
         for law, style in STYLES.items():
             moved = [1e3 * motion(scene(load).replace(h=h), law)[i] for load in LOADS]
             one.plot(LOADS, moved, style, label=law, **PEN)
-        labelled(one, x, y, key=False)
+        label_axes(one, x, y, key=False)
     pair, (before, after, _) = push(CONVEX)
     outlines = {law: pair.outline.drawn(push(law)[1][2], before) for law in LAWS}
     for law, style in STYLES.items():
         time, angle = rotation_of_the_bunny(law)
         since = time >= CLOSED
         axes[2].plot(time[since], angle[since], style, markevery=0.2, **PEN)
-    labelled(axes[2], "t [s]", "bunny's turn [deg]", key=False)
+    label_axes(axes[2], "t [s]", "bunny's turn [deg]", key=False)
     axes[3].plot(*pair.outline.drawn(before, before), color="0.6", linestyle=":", label="before")
     axes[3].fill(*pair.outline.drawn(after, before), color="0.85", label="measured")
     for law, style in STYLES.items():
         axes[3].plot(*outlines[law], style, markevery=0.2, **PEN)
     axes[3].set_aspect("equal", adjustable="datalim")
-    labelled(axes[3], "x [mm]", "y [mm]", key=False)
+    label_axes(axes[3], "x [mm]", "y [mm]", key=False)
     for one in axes:
         one.locator_params(nbins=4)
     handles = [*axes[0].get_legend_handles_labels()[0], *axes[3].get_legend_handles_labels()[0]]

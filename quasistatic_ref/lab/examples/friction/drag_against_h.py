@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
@@ -88,8 +88,8 @@ def figure(ax: Any = None, *, h: Sequence[float] = TIME_STEPS, mu_v: float = MU_
     left.loglog(ms, shares, "o", label="runs")
     left.loglog(ms, 1e3 * V / (mu_v * G * ms), "k-", label=r"$v / (\mu_v g h)$")
     left.axhline(0.1, color="black", linestyle=":", label="a tenth")
-    labelled(left, "time step h [ms]", "drag over friction [-]", f"{1e3 * V:g} mm/s")
+    label_axes(left, "time step h [ms]", "drag over friction [-]", f"{1e3 * V:g} mm/s")
     right.loglog(ms, 1e6 * layers, "o", label="runs")
     right.loglog(ms, 1e3 * mu_v * V * ms, "k-", label=r"$\mu_v h v$")
-    labelled(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
+    label_axes(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
     return page

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.lab.sweep_numbers import threshold
@@ -60,7 +60,9 @@ def patch(torque: float, angle: float, cone: str = "pyramid", mu_v: float = MU_V
 
 
 @cache
-def held(angle: float, precision: float, cone: str = "pyramid", mu_v: float = MU_V) -> float:
+def least_turning_torque(
+    angle: float, precision: float, cone: str = "pyramid", mu_v: float = MU_V
+) -> float:
     """The least torque that turns the patch, over mu_v m g a [-], by bisection on steps.
 
     Parameters
@@ -85,11 +87,13 @@ def main() -> Numbers:
     """Torques that turn the square, each followed by its formula."""
     found: Numbers = {}
     for angle in (0.0, 22.5, 45.0):
-        found[f"torque with d1 {angle:g} degrees off the slip, over mu_v m g a [-]"] = held(
-            angle, PRECISION
+        found[f"torque with d1 {angle:g} degrees off the slip, over mu_v m g a [-]"] = (
+            least_turning_torque(angle, PRECISION)
         )
         found[f"cos {angle:g} degrees [-]"] = float(np.cos(np.radians(angle)))
-    found["torque in the ellipsoid, d1 45 degrees off [-]"] = held(45.0, PRECISION, "ellipsoid")
+    found["torque in the ellipsoid, d1 45 degrees off [-]"] = least_turning_torque(
+        45.0, PRECISION, "ellipsoid"
+    )
     return found | {"the same [-]": 1.0}
 
 
@@ -110,10 +114,10 @@ def figure(ax: Any = None, *, angles: Sequence[float] = ANGLES, mu_v: float = MU
     laws = np.maximum(np.cos(dense), np.sin(dense)), np.ones_like(dense)
     for cone, law, mark in zip(CONES, laws, "os", strict=True):
         axes.plot(np.degrees(dense), law, label=f"{cone}, (R16)")
-        torques = [held(angle, DRAWN, cone, mu_v) for angle in angles]
+        torques = [least_turning_torque(angle, DRAWN, cone, mu_v) for angle in angles]
         axes.plot(angles, torques, mark, color="black", markerfacecolor="none", clip_on=False,
                   markersize=scaled(5), label=f"{cone}, steps")  # fmt: skip
     axes.set(ylim=(0.65, 1.05), xticks=np.arange(0, 91, 15))
-    labelled(axes, r"angle from the slip to $d_1$ [deg]", r"torque / ($\mu_v m g a$) [-]",
+    label_axes(axes, r"angle from the slip to $d_1$ [deg]", r"torque / ($\mu_v m g a$) [-]",
              caption(H, "pyramid and ellipsoid"))  # fmt: skip
     return page

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
-from quasistatic_ref.lab.reality.identify import identified
+from quasistatic_ref.lab.reality.identify import identified_ratio
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
-from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import pushed
+from quasistatic_ref.lab.reality.predict import prediction
+from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -30,25 +30,25 @@ EVERY, SHOWN, ADVANCE = 26, 6, 2e-3
 """Of the pushes of the pair; of these, how many are drawn; the finger's way in a step [m]."""
 
 
-def measured(name: str = PAIR) -> tuple[Pair, float, Pushes]:
+def measurements(name: str = PAIR) -> tuple[Pair, float, Pushes]:
     """A pair, its mu_omega / mu_v [m] from loads, and some of its pushes."""
     folder = reality_folder()
     (pair,) = pairs_read(folder, [name])
-    found = identified(loads_read(folder, [pair])[name], pair.outline.gyration)
+    found = identified_ratio(loads_read(folder, [pair])[name], pair.outline.gyration)
     assert found is not None
     return pair, found.ratio, pushes_read(folder, [pair])[name].every(EVERY)
 
 
 def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:
     """Predicted poses after pushes with that `ratio` [m], shape (n, 3) [m, rad]."""
-    scene = pushed(Settings(cone=cone, advance=ADVANCE), pair, ratio)
+    scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, ratio)
     ways = zip(pushes.before, pushes.path, strict=True)
-    return np.array([predicted(scene, before, path, "off").pose for before, path in ways])
+    return np.array([prediction(scene, before, path, "off").pose for before, path in ways])
 
 
 def main() -> Numbers:
     """How far the object moved, and how far predictions are off, on average."""
-    pair, ratio, pushes = measured()
+    pair, ratio, pushes = measurements()
     moved = pose_errors(pushes.before, pushes.after).mean(0)
     found: Numbers = {
         f"{PAIR}: mu_omega / mu_v from loads [mm]": 1e3 * ratio,
@@ -75,7 +75,7 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
         One or two.
     """
     page, axes = panels(6.3, 4.6, columns=3, rows=2, within=ax, sharex=True, sharey=True)
-    own, ratio, pushes = measured(pair)
+    own, ratio, pushes = measurements(pair)
     ends = {cone: poses(own, ratio, pushes, cone) for cone in cones}
     moved = pose_errors(pushes.before, pushes.after)[:, 0]
     chosen = np.sort(np.argsort(-moved, kind="stable")[:SHOWN])
@@ -90,7 +90,7 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
         path = 1e3 * (pushes.path[k] - origin[:2])
         one.annotate("", path[1], xytext=path[0], arrowprops={"arrowstyle": "->"})
         one.set_aspect("equal")
-        labelled(one, "x [mm]", "y [mm]", key=False)
+        label_axes(one, "x [mm]", "y [mm]", key=False)
         one.label_outer()
     legend_below(axes, axes[0].get_legend_handles_labels()[0])
     return page

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array
@@ -79,5 +79,5 @@ def figure(ax: Any = None, *, ahead: float = AHEAD, turn: float = TURN, count: i
     path = poses(ahead, turn, 60)[1]
     axes.plot(1e3 * path[:, 0], 1e3 * path[:, 1], label="path of the origin")
     axes.set_aspect("equal")
-    labelled(axes, "x [mm]", "y [mm]", f"twist: {1e3 * ahead:g} mm along x, {turn:g} deg about z")
+    label_axes(axes, "x [mm]", "y [mm]", f"twist: {1e3 * ahead:g} mm along x, {turn:g} deg about z")
     return page

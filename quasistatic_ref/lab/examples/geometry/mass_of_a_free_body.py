@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
@@ -160,12 +160,12 @@ def figure(ax: Any = None, *, length: float = LENGTH, tilt: float = TILT, h: flo
     left.plot(*middle[[0, 2]], "ko", markersize=scaled(5), label="centre of mass, at c")
     left.plot(0, 0, "ks", markerfacecolor="white", markersize=scaled(5), label="origin")
     left.set(aspect="equal", xlim=(-0.3 * 1e3 * length, 1.1 * 1e3 * length))
-    labelled(left, "x [mm]", "z [mm]")
+    label_axes(left, "x [mm]", "z [mm]")
     for coupled, colour, pattern in ((False, "#D55E00", "--"), (True, "black", "-")):
         for k, pose in enumerate(falls(length, tilt, h, coupled)[:: STEPS // 3]):
             label = ("with $m C$" if coupled else "without $m C$") if k == 0 else None
             right.plot(*1e3 * pose[:, [0, 2]].T, pattern, color=colour, gid=DRAWING, label=label)
             right.plot(*1e3 * pose[0, [0, 2]], "s", color=colour, markersize=scaled(3), gid=DRAWING)
     right.set_aspect("equal")
-    labelled(right, "x [mm]", "z [mm]", caption(h, "frictionless"))
+    label_axes(right, "x [mm]", "z [mm]", caption(h, "frictionless"))
     return page

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
 from quasistatic_ref.lab.sweep_numbers import slope
@@ -42,7 +42,7 @@ def points_at(system: System, q: Array) -> Array:
     return np.asarray(cloud() @ at.R[link].T + at.t[link])
 
 
-def lying(tilt: float = TILT, k: int = K) -> tuple[System, ContactPair, Array]:
+def tilted_scene(tilt: float = TILT, k: int = K) -> tuple[System, ContactPair, Array]:
     """The body with its cloud, its pair with the floor, and q when it is tilted.
 
     Parameters
@@ -73,7 +73,7 @@ def errors(turns: Array = TURNS, tilt: float = TILT) -> Array:
     tilt : float
         [deg].
     """
-    system, pair, q = lying(tilt, POINTS)  # every point, always in the same order
+    system, pair, q = tilted_scene(tilt, POINTS)  # every point, always in the same order
     _, found = geometry(system, pair, q)
     order = [int(name.rsplit("/", 1)[1]) for name in found.name]
     worst = []
@@ -87,7 +87,7 @@ def errors(turns: Array = TURNS, tilt: float = TILT) -> Array:
 
 def main() -> Numbers:
     """The least phi with its formula, and the exponent of the error of its prediction."""
-    system, pair, q = lying()
+    system, pair, q = tilted_scene()
     _, found = geometry(system, pair, q)
     lowest = points_at(system, q)[:, 2].min()
     return {
@@ -111,7 +111,7 @@ def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
         Points that become contacts.
     """
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
-    system, pair, q = lying(tilt, k)
+    system, pair, q = tilted_scene(tilt, k)
     points, found = geometry(system, pair, q)
     x, _, z = 1e3 * points_at(system, q).T
     left.vlines(x, 0, z, color="0.8", linewidth=scaled(0.6), linestyle="-", label=r"$\phi$")
@@ -125,9 +125,9 @@ def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
                       arrowprops={"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0})  # fmt: skip
     left.axhline(0, color="0.3", linestyle="-")
     left.set_aspect("equal")
-    labelled(left, "x [mm]", "z [mm]", "arrows: J for a turn of 0.15 rad")
+    label_axes(left, "x [mm]", "z [mm]", "arrows: J for a turn of 0.15 rad")
     right.loglog(TURNS, 1e3 * errors(TURNS, tilt), marker="o", markersize=scaled(3), label="error")
     second = 0.5 * HALF_AXES[0] * TURNS**2
     right.loglog(TURNS, 1e3 * second, "k:", label=r"$r\,\theta^2 / 2$, r = 50 mm")
-    labelled(right, r"turn $\theta$ [rad]", r"error of $\phi + n^T J\,\delta q$ [mm]")
+    label_axes(right, r"turn $\theta$ [rad]", r"error of $\phi + n^T J\,\delta q$ [mm]")
     return page

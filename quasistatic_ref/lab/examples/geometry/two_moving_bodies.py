@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
@@ -150,7 +150,7 @@ def figure(ax: Any = None, *, phi: float = PHI, turn: float = TURN) -> Figure:
     left.plot(*np.transpose([alpha, beta]), "ko", markersize=scaled(3), label="alpha and beta")
     x, z, reach = *(alpha + beta) / 2, 2.4e3 * RADIUS
     left.set(aspect="equal", xlim=(x - reach, x + 0.8 * reach), ylim=(z - 0.8 * reach, z + reach))
-    labelled(left, "x [mm]", "z [mm]")
+    label_axes(left, "x [mm]", "z [mm]")
     _columns(right)
     return page
 
@@ -179,4 +179,4 @@ def _columns(axes: Any) -> None:
     axes.set_yticks(range(8), ["finger: x", "y", "z", "about n", "floor: x", "y", "z", "about n"])
     axes.set_xticks([2.5, 6, 9.5], ["palm", "width", "bunny"])
     axes.grid(visible=False)
-    labelled(axes, title="entries of J that are not zero")
+    label_axes(axes, title="entries of J that are not zero")

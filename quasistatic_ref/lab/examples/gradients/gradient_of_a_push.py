@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
-from quasistatic_ref.lab.scenes.nudge import RADIUS, H, nudged
+from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
+from quasistatic_ref.lab.scenes.nudge import RADIUS, H, nudged_ball
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
@@ -40,7 +40,7 @@ def after(side: float, ahead: float = AHEAD) -> tuple[float, float, float]:
     n = np.array([-X, -side, 0.0]) / np.hypot(X, side)
     found = []
     for finger in (Sphere(FINGER), HalfSpace(n, FINGER)):
-        simulator, q = nudged(finger, (X, side))
+        simulator, q = nudged_ball(finger, (X, side))
         step = derivatives(simulator, q, q[:7] + ahead * np.eye(7)[0])
         R = simulator.system.kinematics(step.result.q).R[simulator.system.link("ball")]
         # The finger's start and its target go to the side together.
@@ -61,7 +61,7 @@ def curve(sides: Array, ahead: float = AHEAD) -> Array:
     """
     ends = []
     for side in sides:
-        simulator, q = nudged(Sphere(FINGER), (X, side))
+        simulator, q = nudged_ball(Sphere(FINGER), (X, side))
         ends.append(simulator.step(q, q[:7] + ahead * np.eye(7)[0]).q[8])
     return np.array(ends)
 
@@ -97,7 +97,7 @@ def figure(ax: Any = None, *, ahead: float = AHEAD) -> Figure:
         left.annotate("", tuple(1e3 * end), (0, 0), arrowprops={"arrowstyle": "->"})
     _circle(left, np.zeros(2), RADIUS, "-.", "ball, and where it is pushed")
     left.set_aspect("equal")
-    labelled(left, "x [mm]", "y [mm]")
+    label_axes(left, "x [mm]", "y [mm]")
     sides = np.linspace(-0.016, 0.016, 33)
     reach = np.array([-0.003, 0.003])
     ends = curve(sides, ahead)
@@ -108,7 +108,7 @@ def figure(ax: Any = None, *, ahead: float = AHEAD) -> Figure:
         x = 1e3 * (side + reach)
         right.plot(x, 1e3 * (y + slope * reach), "-", color="black", label=labels[0])
         right.plot(x, 1e3 * (y + flat * reach), "--", color="C1", label=labels[1])
-    labelled(right, "y of the finger [mm]", "y of the ball after [mm]")
+    label_axes(right, "y of the finger [mm]", "y of the ball after [mm]")
     note_below([left, right], caption(H))
     return page
 

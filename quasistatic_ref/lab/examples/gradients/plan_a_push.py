@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
+from quasistatic_ref.lab.figures.labels import caption, label_axes, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
@@ -57,7 +57,7 @@ def miss(q: Any) -> Any:
 
 
 @cache
-def planned(start: tuple[float, float, float], mu_omega: float) -> Push:
+def planned_push(start: tuple[float, float, float], mu_omega: float) -> Push:
     """A push from `start`, a pose of the block [m, rad], on a support of some mu_omega [m]."""
     scene = pushed_block(h=H, cone="pyramid", mu_omega=mu_omega)
     run = [scene.placed(*start, GAP)]
@@ -89,7 +89,7 @@ def main(start: tuple[float, float, float] = STARTS[0]) -> Numbers:
     """How far from its goal a push from `start` [m, rad] ends, and its certified steps."""
     found: Numbers = {}
     for name, mu_omega in SUPPORTS.items():
-        push = planned(start, mu_omega)
+        push = planned_push(start, mu_omega)
         found[f"off by, {name} [mm]"] = 1e3 * float(np.hypot(*push.left[:2]))
         found[f"turned by, {name} [deg]"] = float(np.degrees(abs(push.left[2]) / ARM))
         found[f"exact optima, {name} [-]"] = push.certified
@@ -100,16 +100,16 @@ def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> 
     """Both pushes from `start` [m, rad], from above, and how far the descent was from the goal."""
     page, grid = panels(6.3, 3.0, columns=3, within=ax)
     for axes, (name, mu_omega), style in zip(grid, SUPPORTS.items(), ("-", "--"), strict=False):
-        push = planned(start, mu_omega)
+        push = planned_push(start, mu_omega)
         _block(axes, push.q[0], "--", "black", "start")
         for k in range(10, STEPS + 1, 10):
             _block(axes, push.q[k], "-", "C0", "every 10 steps" if k == 10 else None)
         _block(axes, np.array([0, 0, *GOAL, 0, 1, 0]), ":", "black", "goal")
         axes.plot(*(1e3 * (push.q[:, :2] + OFFSET)).T, "k.", markersize=scaled(2), label="finger")
         axes.set(aspect="equal", xlim=(-80, 220), ylim=(-120, 120))
-        labelled(axes, "x [mm]", "y [mm]", name, key=False)
+        label_axes(axes, "x [mm]", "y [mm]", name, key=False)
         grid[2].semilogy(1e3 * np.array(push.misses), style, label=name)
-    labelled(grid[2], "descent [steps]", "miss [mm]")
+    label_axes(grid[2], "descent [steps]", "miss [mm]")
     legend_below(list(grid), grid[0].get_legend_handles_labels()[0], caption(H))
     return page
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
-from quasistatic_ref.lab.scenes.nudge import RADIUS, H, resting
+from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
+from quasistatic_ref.lab.scenes.nudge import RADIUS, H, body_at_rest
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
@@ -38,7 +38,7 @@ def heights(moves: Array, kappa: float) -> Array:
     kappa : float
         [N m s]; 0 for the exact step.
     """
-    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
     starts = [simulator.system.integrate(q, move * UP) for move in moves]
     if kappa == 0:
         return np.array([simulator.step(start, NONE).q[2] for start in starts])
@@ -53,7 +53,7 @@ def biases(kappas: Array) -> tuple[Array, Array]:
     kappas : ndarray, shape (N,)
         [N m s].
     """
-    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G / 2)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G / 2)
     exact = derivatives(simulator, q, NONE)
     found = [smoothed(simulator, q, NONE, kappa) for kappa in kappas]
     places = [each.result.q[2] - exact.result.q[2] for each in found]
@@ -64,7 +64,7 @@ def biases(kappas: Array) -> tuple[Array, Array]:
 def main() -> Numbers:
     """How step and derivative tend to the exact ones, and the derivative at the kink."""
     places, slopes = biases(np.array([1e-10, 1e-11]))
-    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
     middle = [smoothed(simulator, q, NONE, kappa).dq_dq[2, 2] for kappa in (1e-8, 1e-12)]
     return {
         "ten times less kappa, of the step [-]": float(places[0] / places[1]),
@@ -92,11 +92,11 @@ def figure(ax: Any = None, *, drawn: tuple[float, ...] = DRAWN) -> Figure:
         name = rf"$\kappa$ = {kappa:g} N m s"
         ends = heights(moves, kappa) - RADIUS
         left.plot(1e3 * moves, 1e3 * ends, style, color="C0", label=name)
-    labelled(left, "start above the kink [mm]", "height after [mm]")
+    label_axes(left, "start above the kink [mm]", "height after [mm]")
     kappas = np.geomspace(LEAST, MOST, 22)
     places, slopes = biases(kappas)
     right.loglog(kappas, 1e3 * places, "o", color="C0", markersize=scaled(3), label="step [mm]")
     right.loglog(kappas, slopes, "s", color="C1", markersize=scaled(3), label="derivative [-]")
-    labelled(right, r"$\kappa$ [N m s]", "off by, for a pressed ball [mm, -]")
+    label_axes(right, r"$\kappa$ [N m s]", "off by, for a pressed ball [mm, -]")
     note_below([left, right], caption(H))
     return page

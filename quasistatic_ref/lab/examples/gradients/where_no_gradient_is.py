@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
-from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
+from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
+from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, body_at_rest, points
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import Sphere
@@ -28,7 +28,7 @@ LIMIT = MU_V * MASS * G
 """What friction bears [N]."""
 
 
-def falling(moves: Array) -> tuple[Array, Array]:
+def fall_curve(moves: Array) -> tuple[Array, Array]:
     """Height of the centre after a step [m], (N,), and its derivatives [-] down and up, (2,).
 
     Parameters
@@ -36,14 +36,14 @@ def falling(moves: Array) -> tuple[Array, Array]:
     moves : ndarray, shape (N,)
         How far above the height from which the ball just reaches the floor it starts [m].
     """
-    simulator, q = resting(Sphere(RADIUS), RADIUS + H**2 * G)
+    simulator, q = body_at_rest(Sphere(RADIUS), RADIUS + H**2 * G)
     system = simulator.system
     ends = [simulator.step(system.integrate(q, move * UP), NONE).q[2] for move in moves]
     found = derivatives(simulator, q, NONE)
     return np.array(ends), np.array([-found.along(q=-UP)[2], found.along(q=UP)[2]])
 
 
-def pushed(forces: Array) -> tuple[Array, Array]:
+def push_curve(forces: Array) -> tuple[Array, Array]:
     """Place of a point after a step [m], (N,), and its derivatives [m/N] at the limit, (2,).
 
     Parameters
@@ -51,14 +51,14 @@ def pushed(forces: Array) -> tuple[Array, Array]:
     forces : ndarray, shape (N,)
         Push along x beyond what friction bears [N].
     """
-    simulator, q = resting(POINT, 0.0)
+    simulator, q = body_at_rest(POINT, 0.0)
     limit = LIMIT * ACROSS
     ends = [simulator.step(q, NONE, limit + force * ACROSS).q[0] for force in forces]
     found = derivatives(simulator, q, NONE, limit)
     return np.array(ends), np.array([-found.along(tau=-ACROSS)[0], found.along(tau=ACROSS)[0]])
 
 
-def tilted(angles: Array) -> tuple[Array, tuple[str, ...]]:
+def tilt_curve(angles: Array) -> tuple[Array, tuple[str, ...]]:
     """Tilt of a body of two points after a step [rad], (N,), and why it has no derivative.
 
     Parameters
@@ -66,7 +66,7 @@ def tilted(angles: Array) -> tuple[Array, tuple[str, ...]]:
     angles : ndarray, shape (N,)
         Its tilt before [rad].
     """
-    simulator, q = resting(TWO, 0.0)
+    simulator, q = body_at_rest(TWO, 0.0)
     ends = []
     for angle in angles:
         end = simulator.step(simulator.system.integrate(q, angle * TURN), NONE).q
@@ -76,9 +76,9 @@ def tilted(angles: Array) -> tuple[Array, tuple[str, ...]]:
 
 def main() -> Numbers:
     """The one-sided derivatives, and the formulas of the closed forms."""
-    _, fall = falling(np.zeros(0))
-    _, push = pushed(np.zeros(0))
-    _, why = tilted(np.zeros(0))
+    _, fall = fall_curve(np.zeros(0))
+    _, push = push_curve(np.zeros(0))
+    _, why = tilt_curve(np.zeros(0))
     return {
         "falling, below [-]": fall[0],
         "stopped: 0 [-]": 0.0,
@@ -106,16 +106,16 @@ def figure(ax: Any = None, *, reach: float = 1.0) -> Figure:
     page, grid = panels(6.3, 2.6, columns=3, within=ax)
     moves = reach * np.linspace(-5e-4, 5e-4, 21)
     forces = reach * np.linspace(-0.2, 0.2, 21)
-    ends, slopes = falling(moves)
+    ends, slopes = fall_curve(moves)
     _sides(grid[0], 1e3 * moves, 1e3 * (ends - RADIUS), slopes)
-    labelled(grid[0], "start above the kink [mm]", "height after [mm]", "just touches")
-    ends, slopes = pushed(forces)
+    label_axes(grid[0], "start above the kink [mm]", "height after [mm]", "just touches")
+    ends, slopes = push_curve(forces)
     _sides(grid[1], forces, 1e3 * ends, 1e3 * slopes)
-    labelled(grid[1], "push beyond the limit [N]", "place after [mm]", "just holds", key=False)
+    label_axes(grid[1], "push beyond the limit [N]", "place after [mm]", "just holds", key=False)
     angles = reach * np.linspace(-0.01, 0.01, 21)
-    ends, _ = tilted(angles)
+    ends, _ = tilt_curve(angles)
     grid[2].plot(1e3 * angles, 1e3 * ends, "o", color="C0", markersize=scaled(3))
-    labelled(grid[2], "tilt before [mrad]", "tilt after [mrad]", "a tie of points")
+    label_axes(grid[2], "tilt before [mrad]", "tilt after [mrad]", "a tie of points")
     note_below(list(grid), caption(H))
     return page
 

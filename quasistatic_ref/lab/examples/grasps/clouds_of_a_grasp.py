@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.clouds.rows import (
-    chosen,
-    held,
+    is_held,
     margin,
     rotations,
     rows,
+    rows_with,
     with_torsion,
 )
 from quasistatic_ref.lab.clouds.study import NONE, grid
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 
 LEAST = 0.01
@@ -33,9 +33,9 @@ def main() -> Numbers:
     scene = [row for row in rows() if row["change"] == NONE]
     for case in MARKS:
         own = [row for row in scene if with_torsion(row) == (case == "with torsion")]
-        found[f"clouds held {case} [-]"] = float(sum(map(held, own)))
+        found[f"clouds held {case} [-]"] = float(sum(map(is_held, own)))
         found[f"clouds {case} [-]"] = float(len(own))
-    right = sum(held(row) == (margin(row) >= 1.0) for row in rows())
+    right = sum(is_held(row) == (margin(row) >= 1.0) for row in rows())
     found["grasps foretold [-]"] = float(right)
     return found | {"grasps [-]": float(len(rows()))}
 
@@ -58,7 +58,7 @@ def figure(ax: Any = None, *, seed: int = 0) -> Figure:
         for case, (mark, colour) in MARKS.items():
             for place, count in enumerate(density["counts"]):
                 own = [
-                    row for row in chosen(sampling=sampling, count=count, change=NONE)
+                    row for row in rows_with(sampling=sampling, count=count, change=NONE)
                     if with_torsion(row) == (case == "with torsion")
                 ]  # fmt: skip
                 x = place + (0.15 if mark == "x" else -0.15) + rng.uniform(-0.1, 0.1, len(own))
@@ -66,7 +66,7 @@ def figure(ax: Any = None, *, seed: int = 0) -> Figure:
                           markersize=scaled(2.5), label=None if place else case)  # fmt: skip
         axes.set_yscale("log")
         axes.set_xticks(range(4), [f"{count:,}" for count in density["counts"]], rotation=60)
-        labelled(
+        label_axes(
             axes, "points [-]", "" if axes is not grid_of_axes[0] else "rotation [deg]", key=False
         )
         axes.set_title(sampling)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from quasistatic_ref.lab.cached_runs import grasp, lift
-from quasistatic_ref.lab.clouds.rows import spread
+from quasistatic_ref.lab.clouds.rows import rotations_by_case
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, INSTANTS, rotations
@@ -40,4 +40,4 @@ def figure(ax: Any = None, *, instants: Sequence[float] = INSTANTS) -> Figure:
         [s].
     """
     runs = {case: grasp(case)[1] for case in CASES}
-    return grasp_strip(grasp("with torsion")[0], runs, instants, spread(), ax)
+    return grasp_strip(grasp("with torsion")[0], runs, instants, rotations_by_case(), ax)

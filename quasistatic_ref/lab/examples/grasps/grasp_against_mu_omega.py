@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import grasp, scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import Box
@@ -58,7 +58,7 @@ def physical_limit() -> float:
     return 2 / 3 * mu_v * half_width
 
 
-def needed(run: Trajectory) -> float:
+def least_mu_omega(run: Trajectory) -> float:
     """Least mu_omega [m] that bears the forces of a step in the middle of the lift, by (R9).
 
     Summed over the contacts of the fingers, (|f_1| + |f_2|) / mu_v + |tau_n| / mu_omega <= f_n.
@@ -76,7 +76,8 @@ def main() -> Numbers:
     return {
         f"rotation with mu_omega = {1e3 * BELOW:g} mm [deg]": at[BELOW],
         f"rotation with mu_omega = {1e3 * ABOVE:g} mm [deg]": at[ABOVE],
-        "least mu_omega that holds, by (R9) from the forces of a step [mm]": 1e3 * needed(run),
+        "least mu_omega that holds, by (R9) from the forces of a step [mm]": 1e3
+        * least_mu_omega(run),
         "mu_omega of the scene [mm]": 1e3 * float(run["mu_omega"].max()),
         "largest mu_omega of a finger, 2/3 mu_v r [mm]": 1e3 * physical_limit(),
     }
@@ -99,13 +100,13 @@ def figure(ax: Any = None, *, mu_omega: Sequence[float] = VALUES) -> Figure:
     page, (axes,) = panels(4.6, 2.8, within=ax)
     axes.plot(1e3 * at, turned, marker="o", markersize=scaled(4), clip_on=False)
     for x, line, label in (
-        (needed(run), ":", "begins to hold, (R9)"),
+        (least_mu_omega(run), ":", "begins to hold, (R9)"),
         (used, "-", "value of the scene"),
         (limit, "--", r"$2\mu_v r\,/\,3$ of a finger"),
     ):
         axes.axvline(1e3 * x, color="black", linestyle=line, linewidth=scaled(1), label=label)
     axes.set_ylim(-1, 60)
-    labelled(
+    label_axes(
         axes, r"$\mu_\omega$ of the fingers [mm]",
         f"rotation, t = {CLOSED:g} to {TOP:g} s [deg]", caption(scenario.h, scenario.cone),
     )  # fmt: skip

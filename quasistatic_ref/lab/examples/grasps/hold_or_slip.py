@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.study.measuring.many import simulate_many
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
@@ -43,7 +43,7 @@ def least_mu_omega(mu_v: Array) -> Array:
 
 
 @cache
-def held(across: tuple[float, ...], up: tuple[float, ...]) -> Mask:
+def hold_mask(across: tuple[float, ...], up: tuple[float, ...]) -> Mask:
     """Whether the bar stays where it is, shape (V, W).
 
     Parameters
@@ -71,7 +71,7 @@ def held(across: tuple[float, ...], up: tuple[float, ...]) -> Mask:
 def main() -> Numbers:
     """How many runs hold, how many (R21) says, and on how many of them the two differ."""
     expected = least_mu_omega(MU_V)[:, None] <= MU_OMEGA
-    holds = held(tuple(MU_V.tolist()), tuple(MU_OMEGA.tolist()))
+    holds = hold_mask(tuple(MU_V.tolist()), tuple(MU_OMEGA.tolist()))
     return {
         "runs that hold [-]": float(holds.sum()),
         "(R21) [-]": float(expected.sum()),
@@ -93,7 +93,7 @@ def figure(
     """
     across = MU_V if mu_v is None else np.array(mu_v)
     up = MU_OMEGA if mu_omega is None else np.array(mu_omega)
-    holds = held(tuple(across.tolist()), tuple(up.tolist()))
+    holds = hold_mask(tuple(across.tolist()), tuple(up.tolist()))
     v, w = np.meshgrid(across, 1e3 * up, indexing="ij")
     line = np.linspace(across[0], across[-1], 200)
     least = least_mu_omega(line)
@@ -102,5 +102,7 @@ def figure(
     axes.plot(v[holds], w[holds], "s", label="holds", **pen)
     axes.plot(v[~holds], w[~holds], "o", label="slips", fillstyle="none", **pen)
     axes.plot(line[least <= up[-1]], 1e3 * least[least <= up[-1]], label="(R21)")
-    labelled(axes, r"$\mu_v$ [-]", r"$\mu_\omega$ [mm]", f"squeeze of {N:g} N, {1e3 * D:g} mm off")
+    label_axes(
+        axes, r"$\mu_v$ [-]", r"$\mu_\omega$ [mm]", f"squeeze of {N:g} N, {1e3 * D:g} mm off"
+    )
     return page

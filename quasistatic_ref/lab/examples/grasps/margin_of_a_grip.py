@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.clouds.rows import held, margin, rotations, rows, with_torsion
+from quasistatic_ref.lab.clouds.rows import is_held, margin, rotations, rows, with_torsion
 from quasistatic_ref.lab.clouds.study import NONE
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 
 LEAST, WEAKEST = 0.01, 0.1
@@ -24,7 +24,7 @@ def main() -> Numbers:
     """Clear margins, and those of them whose grasp went otherwise; least of the held, and so on."""
     own = [row for row in rows() if with_torsion(row)]
     margins = np.array([margin(row) for row in own])
-    kept = np.array([held(row) for row in own])
+    kept = np.array([is_held(row) for row in own])
     strong = margins > CLEAR
     weak = margins < 1 / CLEAR
     return {
@@ -56,5 +56,5 @@ def figure(ax: Any = None, *, clear: float = CLEAR) -> Figure:
     axes.axvspan(1 / clear, clear, color="0.85", zorder=0)
     axes.axvline(1.0, color="black", linewidth=scaled(1))
     axes.set(xscale="log", yscale="log")
-    labelled(axes, r"margin: $\mu_\omega$ / needed by (R14) [-]", "rotation [deg]")
+    label_axes(axes, r"margin: $\mu_\omega$ / needed by (R14) [-]", "rotation [deg]")
     return page

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.sweep_numbers import threshold
@@ -97,5 +97,5 @@ def figure(
                 )
     axes.plot([], [], "^", label="a step holds", **marks)
     axes.plot([], [], "v", markerfacecolor="none", label="a step slips", **marks)
-    labelled(axes, "lever d of the weight [mm]", "squeeze N [N]", "lines: (R21)-(R23)")
+    label_axes(axes, "lever d of the weight [mm]", "squeeze N [N]", "lines: (R21)-(R23)")
     return page

@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -28,14 +28,14 @@ def place(theta: Array) -> Array:
     return np.asarray(R * np.tan(theta) - W / np.cos(theta))
 
 
-def opened(h: float = H) -> tuple[Scenario, Trajectory]:
+def scene_and_run(h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run at a time step h [s]."""
     return scenario_run("door", f"h={h}", f"steps={round(TIME / h)}")
 
 
 def main() -> Numbers:
     """The angle at the end, how far the tip is from where geometry has it, and the last motion."""
-    _, run = opened()
+    _, run = scene_and_run()
     x, theta = run["q"][1:].T
     return {
         "angle at the end [deg]": np.degrees(theta[-1]),
@@ -55,13 +55,13 @@ def figure(ax: Any = None, *, h: float = H, t: float = 3.0) -> Figure:
         Time step; when the door is drawn [s].
     """
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
-    scenario, run = opened(h)
+    scenario, run = scene_and_run(h)
     draw_scene(left, moment(scenario, run, round(t / h)), view="xy")
     x, theta = run["q"][1:].T
     right.plot(1e3 * x, np.degrees(theta), label="steps")
     touching = np.linspace(theta.min(), theta.max(), 50)
     label = r"$x = r \tan\theta - w / \cos\theta$"
     right.plot(1e3 * place(touching), np.degrees(touching), "k:", label=label)
-    labelled(right, "place x of the tip [mm]", r"angle $\theta$ of the door [deg]",
+    label_axes(right, "place x of the tip [mm]", r"angle $\theta$ of the door [deg]",
              caption(h, "frictionless"))  # fmt: skip
     return page

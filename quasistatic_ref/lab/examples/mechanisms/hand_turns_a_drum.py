@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers, only
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -26,7 +26,7 @@ MIDDLE = ("palm", "_4.0", "_5.0", "_6.0", "_7.0", "drum")
 """Parts of the names of what belongs to the middle finger, its palm and the drum."""
 
 
-def turned(h: float = H, mu_v: float = 1.5) -> tuple[Scenario, Trajectory]:
+def scene_and_run(h: float = H, mu_v: float = 1.5) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at a time step h [s] and mu_v of the fingertips [-]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.tips.mu_v={mu_v}"
     return scenario_run("allegro_turn", *settings)
@@ -50,8 +50,8 @@ def angles(scenario: Scenario, run: Trajectory) -> tuple[Array, Array]:
 
 def main() -> Numbers:
     """Angles at the end, with friction and without."""
-    theta, rolled = angles(*turned())
-    smooth, _ = angles(*turned(mu_v=0))
+    theta, rolled = angles(*scene_and_run())
+    smooth, _ = angles(*scene_and_run(mu_v=0))
     return {
         "turn of the drum [rad]": theta[-1],
         "worst difference from rolling [rad]": np.abs(theta - rolled).max(),
@@ -70,12 +70,12 @@ def figure(ax: Any = None, *, h: float = H, mu_v: float = 1.5) -> Figure:
         [s]; of the fingertips [-].
     """
     page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
-    scenario, run = turned(h, mu_v)
+    scenario, run = scene_and_run(h, mu_v)
     shown = only(moment(scenario, run, round(1.8 / h)), MIDDLE, [1])
     draw_scene(left, shown, view="xz", parts=("contacts", "cones", "forces"))
     theta, rolled = angles(scenario, run)
     times = run["t"][-len(theta) :]
     right.plot(times, theta, label="drum")
     right.plot(times, rolled, color="black", linestyle=":", label="pure rolling")
-    labelled(right, "time t [s]", "angle since they touched [rad]", caption(h))
+    label_axes(right, "time t [s]", "angle since they touched [rad]", caption(h))
     return page

@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -26,7 +26,7 @@ H, TIME = 0.02, 4.0
 WALLS = ("east", "west", "north", "south")
 
 
-def inserted(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
+def scene_and_run(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at mu_v [-] and a time step h [s]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.walls.mu_v={mu_v}"
     return scenario_run("peg_in_hole", *settings)
@@ -34,7 +34,7 @@ def inserted(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
 
 def main() -> Numbers:
     """Forces of the walls that the peg slides along, and its lag in depth, with their formulas."""
-    scenario, run = inserted()
+    scenario, run = scene_and_run()
     layer = MU_V * scenario.h * V
     east, _, north, _ = run["wrench"][-1, :, 2]
     N_x, N_y = K[:2] * (MISS - CLEARANCE + layer)
@@ -59,10 +59,10 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
         [-], [s].
     """
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
-    scenario, run = inserted(mu_v, h)
+    scenario, run = scene_and_run(mu_v, h)
     tip = np.array([0.0, 0.0, -0.005])
     draw_scene(left, moment(scenario, run, round(2.4 / h)), view="xz", around=(tip, 0.03))
     for wall, force in zip(WALLS, run["wrench"][:, :, 2].T, strict=True):
         right.plot(run["t"], force, label=wall)
-    labelled(right, "time t [s]", "normal force of a wall [N]", caption(h))
+    label_axes(right, "time t [s]", "normal force of a wall [N]", caption(h))
     return page

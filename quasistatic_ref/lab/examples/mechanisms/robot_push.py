@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -26,7 +26,7 @@ H, TIME = 0.02, 1.2
 """Time step and length of the run [s]."""
 
 
-def pushed(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
+def scene_and_run(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
     """The scene and its run, at mu_v of the floor [-] and a time step h [s]."""
     settings = f"h={h}", f"steps={round(TIME / h)}", f"contacts.floor.mu_v={mu_v}"
     return scenario_run("panda_push", *settings)
@@ -34,7 +34,7 @@ def pushed(mu_v: float = MU_V, h: float = H) -> tuple[Scenario, Trajectory]:
 
 def torques(mu_v: float = MU_V, h: float = H) -> tuple[Array, Array]:
     """tau_2 + tau_4 after each step, and F (z_4 - z_2) [N m], shapes (N,)."""
-    scenario, run = pushed(mu_v, h)
+    scenario, run = scene_and_run(mu_v, h)
     system = scenario.system
     axes = [system.link(f"panda/panda_link{i}") for i in (2, 4)]
     z_2, z_4 = np.array([system.kinematics(q).t[axes, 2] for q in run["q"][:-1]]).T
@@ -46,7 +46,7 @@ def torques(mu_v: float = MU_V, h: float = H) -> tuple[Array, Array]:
 
 def main() -> Numbers:
     """The torques at the end, and how far the block went."""
-    scenario, run = pushed()
+    scenario, run = scene_and_run()
     measured, formula = torques()
     x = run["q"][:, scenario.system.joint("block/base").q][:, 0]
     return {
@@ -67,10 +67,10 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
         Of the floor [-], [s].
     """
     page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
-    scenario, run = pushed(mu_v, h)
+    scenario, run = scene_and_run(mu_v, h)
     draw_scene(left, moment(scenario, run, -1), view="xz", parts=("contacts", "forces"))
     measured, formula = torques(mu_v, h)
     right.plot(run["t"], measured, label=r"$\tau_2 + \tau_4$")
     right.plot(run["t"], formula, color="black", linestyle=":", label=r"$F\,(z_4 - z_2)$")
-    labelled(right, "time t [s]", "torque [N m]", caption(h))
+    label_axes(right, "time t [s]", "torque [N m]", caption(h))
     return page

@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels, scaled
@@ -78,5 +78,5 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
     scenario, run = scenario_run("block_push", *SETTINGS, f"h={h}", f"contacts.floor.mu_v={mu_v}")
     draw_scene(left, moment(scenario, run, -1), parts=PARTS, around=(HALF * Z, 1.3 * HALF))
     right.plot(PULLS, 1e3 * slips(PULLS, mu_v, h), marker="o", markersize=scaled(3), clip_on=False)
-    labelled(right, r"pull / ($\mu_v m g$) [-]", "slip in one step [mm]", caption(h))
+    label_axes(right, r"pull / ($\mu_v m g$) [-]", "slip in one step [mm]", caption(h))
     return page

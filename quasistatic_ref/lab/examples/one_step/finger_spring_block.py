@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
@@ -89,7 +89,7 @@ def figure(
     left.axhline(0, color="0.3", linestyle="-", gid=DRAWING)
     left.axvline(free, color="#009E73", linestyle="--", label="target")
     left.set(xlim=(-2.4 * gap, free + 1.4 * gap), ylim=(-gap / 2, 2.6 * top), yticks=[])
-    labelled(left, "x [mm]")
+    label_axes(left, "x [mm]")
     reach = 1.35 * max(free, gap)
     a, u = np.meshgrid(np.linspace(-0.35, 1.0, 200) * reach, np.linspace(-0.6, 0.75, 200) * reach)
     value = h / 2 * K_q * (a - free) ** 2 + m * u**2 / (2 * h)
@@ -103,5 +103,5 @@ def figure(
     right.plot(*answer, "s", color="#D55E00", label="answer", **marks)
     right.set(xlim=(a.min(), a.max()), ylim=(u.min(), u.max()), aspect="equal")
     right.grid(visible=False)
-    labelled(right, r"$\delta q_a$ [mm]", r"$\delta q_u$ [mm]", caption(h, "frictionless"))
+    label_axes(right, r"$\delta q_a$ [mm]", r"$\delta q_u$ [mm]", caption(h, "frictionless"))
     return page

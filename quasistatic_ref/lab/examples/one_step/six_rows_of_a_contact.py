@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -33,7 +33,7 @@ LOADS = {"at rest": (0.0, 0.0), "pushed along d1": (2.0, 0.0), "turned about n":
 """Push over mu_v m g, torque over mu_omega m g [-]."""
 
 
-def loaded(
+def loaded_ball(
     push: float, turn: float, mu_v: float = MU_V, mu_omega: float = MU_OMEGA, h: float = H
 ) -> StepData:
     """A ball on the floor, with a push where it touches and a turn about the vertical.
@@ -62,7 +62,7 @@ def slacks(step: StepData) -> Array:
 def main() -> Numbers:
     """How many rows are tight under each load: these push, and all others do not."""
     return {
-        f"tight rows, {name} [-]": float(np.sum(slacks(loaded(*load)) == 0))
+        f"tight rows, {name} [-]": float(np.sum(slacks(loaded_ball(*load)) == 0))
         for name, load in LOADS.items()
     }
 
@@ -82,7 +82,7 @@ def figure(
     columns = len(LOADS)
     page, grid = panels(6.3, 2.6, columns=columns, within=ax, narrow=12, sharey=True)
     for axes, (name, load) in zip(grid, LOADS.items(), strict=True):
-        slack = slacks(loaded(*load, mu_v, mu_omega, h))
+        slack = slacks(loaded_ball(*load, mu_v, mu_omega, h))
         axes.grid(visible=False)
         axes.bar(ROWS, 1e6 * slack, color="white", edgecolor="black")
         pushing = np.flatnonzero(slack == 0)
@@ -90,7 +90,7 @@ def figure(
         axes.plot(pushing, 0 * pushing, "^", color=FORCE, clip_on=False, zorder=5, label=label)
         axes.tick_params(axis="x", rotation=60)
         axes.set_title(name)
-        labelled(axes, y=r"slack [$\mu$m]", key=False)
+        label_axes(axes, y=r"slack [$\mu$m]", key=False)
         axes.label_outer(remove_inner_ticks=True)
     grid[0].get_figure(root=False).legend(loc="outside upper center", title=caption(h))
     return page

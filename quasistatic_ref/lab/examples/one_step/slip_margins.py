@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
@@ -27,7 +27,7 @@ PUSHES = np.linspace(0.0, 0.99, 100)
 CORNERS = HALF * np.array([[x, y, -1.0] for x in (1, -1) for y in (1, -1)])
 
 
-def used(wrench: Array, mu_v: float) -> Array:
+def used_share(wrench: Array, mu_v: float) -> Array:
     """(|f_1| + |f_2|) / (mu_v f_n), shape (n_c,) [-]; 0 where nothing is borne.
 
     Parameters
@@ -57,7 +57,7 @@ def shares(mu_v: float = MU_V, h: float = H) -> tuple[Array, Array]:
         wrench = (push, 0, -M * GRAVITY, 0, (HEIGHT - HALF) * push, 0)
         step = rigid_step(M, inertia, wrench, CORNERS, frames, mu_v=mu_v, h=h)
         solution = solve_step(step, fast=True)
-        found.append((used(solution.forces, mu_v), used(solution.wrench, mu_v)))
+        found.append((used_share(solution.forces, mu_v), used_share(solution.wrench, mu_v)))
     forces, wrenches = np.array(found).swapaxes(0, 1)
     return forces, wrenches
 
@@ -96,6 +96,6 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
                 PUSHES, found[:, j], ("-", "--", "-.", ":")[j],
                 label=name, linewidth=scaled(1.2),
             )  # fmt: skip
-    labelled(left, "push / (mu_v m g) [-]", "friction used: forces [-]", caption(h))
-    labelled(right, "push / (mu_v m g) [-]", "friction used: multipliers [-]", caption(h))
+    label_axes(left, "push / (mu_v m g) [-]", "friction used: forces [-]", caption(h))
+    label_axes(right, "push / (mu_v m g) [-]", "friction used: multipliers [-]", caption(h))
     return page

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, DASHES, MARKS
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.solve.solve import solve_step
@@ -70,7 +70,7 @@ def figure(
     axes.set_xticks(range(len(accuracies)), accuracies)
     axes.grid(visible=False, axis="x")
     axes.set(ylim=(-0.6, 16.6), yticks=range(0, 17, 4))
-    labelled(
+    label_axes(
         axes, "accuracy asked of the backend [-]", r"correct digits of $\delta q$ [-]", key=False
     )
     key = "marker: median step; line: worst step to best"

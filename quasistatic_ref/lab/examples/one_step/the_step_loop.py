@@ -19,7 +19,7 @@ from quasistatic_ref.lab.examples.one_step.finger_spring_block import (
     finger_and_block,
 )
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
@@ -29,7 +29,7 @@ V, MOVES, TIME = 0.02, 1.2, 1.6
 
 
 @cache
-def followed(K_q: float, m: float, h: float, v: float) -> tuple[Array, Array, Array, Array]:
+def motion(K_q: float, m: float, h: float, v: float) -> tuple[Array, Array, Array, Array]:
     """Times [s], target and both places [m], and the force of each step [N].
 
     Parameters
@@ -60,7 +60,7 @@ def followed(K_q: float, m: float, h: float, v: float) -> tuple[Array, Array, Ar
 
 def main() -> Numbers:
     """Force and lag while the target moves, with their formulas; motion after it has stopped."""
-    t, target, q, N = followed(K_Q, M, H, V)
+    t, target, q, N = motion(K_Q, M, H, V)
     moving = np.searchsorted(t, MOVES) - 1
     return {
         "force [N]": N[moving],
@@ -84,12 +84,12 @@ def figure(ax: Any = None, *, K_q: float = K_Q, m: float = M, h: float = H, v: f
         [N/m], [kg], [s], [m/s].
     """
     page, (left, right) = panels(6.3, 2.8, columns=2, within=ax)
-    t, target, q, N = followed(K_q, m, h, v)
+    t, target, q, N = motion(K_q, m, h, v)
     places = {"target": target, "finger": q[1:, 0], "block": q[1:, 1]}
     for name, place in places.items():
         left.plot(t, 1e3 * place, label=name)
-    labelled(left, "time t [s]", "x [mm]")
+    label_axes(left, "time t [s]", "x [mm]")
     right.step(t, N, where="pre", label="force")
     right.axhline(m * v / h, color="black", linestyle=":", label=r"$m v / h$")
-    labelled(right, "time t [s]", "force [N]", caption(h, "frictionless"))
+    label_axes(right, "time t [s]", "force [N]", caption(h, "frictionless"))
     return page

@@ -6,7 +6,7 @@ from pathlib import Path
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.files import ANSWERS, opened
+from quasistatic_ref.lab.vectors.files import ANSWERS, fields_after_head
 
 TANGENTS = ("body", "world", "mujoco")
 QUATERNIONS = ("xyzw", "wxyz")
@@ -43,7 +43,7 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
     if not path.exists():
         return Answers(present=False)
     try:
-        top = opened(path, ANSWERS, layer)
+        top = fields_after_head(path, ANSWERS, layer)
         implementation = top.text("implementation")
         tangent = top.text("tangent", "body", choices=TANGENTS)
         quaternion = top.text("quaternion", "xyzw", choices=QUATERNIONS)

@@ -212,13 +212,13 @@ def certificate_problem(case: Json, answer: Json) -> str | None:
         ``delta_q``, ``lam`` and ``certificate``; it claims the correctly rounded optimum.
     """
     from quasistatic_ref.certify.certificate import verify
-    from quasistatic_ref.lab.vectors.layers.qp import claimed, step_of
+    from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, step_of
 
     if "second_order" in case:
         return "in second-order cones only the expected one is known"
     try:
         step = step_of(case)
-        certificate = claimed(case, answer, step)
+        certificate = claimed_certificate(case, answer, step)
         delta_q, lam = (np.array(answer[name], dtype=np.float64) for name in ("delta_q", "lam"))
         verdict = verify(step, delta_q, certificate.active, lam, certificate)
     except (InputError, KeyError, TypeError, ValueError, IndexError) as error:

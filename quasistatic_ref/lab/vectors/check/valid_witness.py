@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from quasistatic_ref.step.data import Array
@@ -63,7 +63,7 @@ def witness_problem(
 
 def _phi(alpha: Json, pose_alpha: Json, beta: Json, pose_beta: Json) -> float:
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
-    phi: float = rounded(lambda: witnesses(case)[0].phi)[0]
+    phi: float = rounded_results(lambda: witnesses(case)[0].phi)[0]
     return phi
 
 

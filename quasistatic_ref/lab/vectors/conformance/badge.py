@@ -23,7 +23,7 @@ MARGIN = 7.0
 
 def colour(conformance: Conformance) -> str:
     """GREEN: whole and right; AMBER: to fewer digits, or in part; RED: not; GREY: changed cases."""
-    if conformance.changed:
+    if conformance.changed_layers:
         return GREY
     if not conformance.report.ok:
         return RED

@@ -46,20 +46,20 @@ class Conformance:
         return self.report.layers
 
     @property
-    def answered(self) -> tuple[LayerReport, ...]:
+    def answered_layers(self) -> tuple[LayerReport, ...]:
         """Layers for which there is a file."""
         return tuple(one for one in self.layers if one.present)
 
     @property
-    def changed(self) -> tuple[str, ...]:
+    def changed_layers(self) -> tuple[str, ...]:
         """Answered layers whose cases are not those of the version."""
-        names = [one.layer for one in self.answered]
+        names = [one.layer for one in self.answered_layers]
         return tuple(name for name in names if name in self.edition.changed)
 
     @property
     def label(self) -> str:
         """Against what: ``quasi-dynamic vectors 3``, and whether they were changed."""
-        return f"{self.edition.name}{', changed' if self.changed else ''}"
+        return f"{self.edition.name}{', changed' if self.changed_layers else ''}"
 
     @property
     def message(self) -> str:
@@ -73,15 +73,15 @@ class Conformance:
         if all(one.whole for one in self.layers):
             cases = sum(len(one.verdicts) for one in self.layers)
             return f"all {len(self.layers)} layers: {cases}/{cases}"
-        layers = ", ".join(self._words(one) for one in self.answered)
-        return f"{len(self.answered)} of {len(self.layers)} layers: {layers}"
+        layers = ", ".join(self._words(one) for one in self.answered_layers)
+        return f"{len(self.answered_layers)} of {len(self.layers)} layers: {layers}"
 
     @property
     def complete(self) -> bool:
         """Whether everything that was answered, or within its scope everything, is right."""
         if self.report.scope:
             return all(one.complete for one in self.layers) and not self.report.few
-        return all(one.whole for one in self.answered)
+        return all(one.whole for one in self.answered_layers)
 
     @property
     def _within(self) -> str:
@@ -107,12 +107,12 @@ class Conformance:
     def sentences(self) -> list[str]:
         """What was passed, what was not, and of what nothing is said."""
         said = [f"{self.label}: {self.message}", *self.report.sentences]
-        for one in self.answered:
+        for one in self.answered_layers:
             freedoms = Counter(v.reason for v in one.verdicts if v.verdict == ACCEPTABLE)
             said += [f"{one.layer}: right, {count} times {why}" for why, count in freedoms.items()]
-        if self.changed:
+        if self.changed_layers:
             said.append(
-                f"the cases of {', '.join(self.changed)} are not those of any known version "
+                f"the cases of {', '.join(self.changed_layers)} are not those of any known version "
                 f"of this name: what was passed is not {self.edition.name}"
             )
         said.append("steps in sequence, new cases (a challenge asks those) and speed are no part")

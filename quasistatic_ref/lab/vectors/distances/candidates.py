@@ -21,9 +21,9 @@ from quasistatic_ref.lab.program.candidates import (
 )
 from quasistatic_ref.lab.program.distance import corners
 from quasistatic_ref.lab.program.rotation import frame
-from quasistatic_ref.lab.vectors.distances.shapes import placed
+from quasistatic_ref.lab.vectors.distances.shapes import placed_shape
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.precision import Vector, rounded, vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector, rounded_results, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED
@@ -55,7 +55,7 @@ class Chosen:
     tolerance: dict[str, float]
 
 
-def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -> Chosen:
+def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -> Chosen:
     """The contacts of a pair.
 
     Parameters
@@ -80,7 +80,7 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
         candidates[last:last] = [one for _, one in crossed]
         index[last:last] = [int(crossing_index(last, k, *edges)) for edges, _ in crossed]
     solids = "cloud" not in (alpha["kind"], beta["kind"])
-    return _kept(candidates, index, k, corners=last if solids else None)
+    return _kept_candidates(candidates, index, k, corners=last if solids else None)
 
 
 def parts(case: Json, k: int) -> list[Json]:
@@ -109,7 +109,9 @@ class _Candidate:
 
 
 def _candidates(case: Json) -> list[_Candidate]:
-    found, _ = rounded(lambda: [{**one.table(), "unique": one.unique} for one in witnesses(case)])
+    found, _ = rounded_results(
+        lambda: [{**one.table(), "unique": one.unique} for one in witnesses(case)]
+    )
     for side in ("alpha", "beta"):
         if case[side]["kind"] == "cloud":
             alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
@@ -139,17 +141,17 @@ def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _
             beta = start + np.cross(w, u) @ n / steep * v
             return {"phi": (beta - alpha) @ n, "alpha": alpha, "beta": beta, "n": n}
 
-        found.append(((i, j), _Candidate(rounded(place)[0], nearest.unique, nearest.case)))
+        found.append(((i, j), _Candidate(rounded_results(place)[0], nearest.unique, nearest.case)))
     return found
 
 
 def _edge(case: Json, side: str, i: int) -> list[Vector]:
     """Ends of an edge of a box in the world, in exact numbers."""
-    box = placed(case[side], case[f"pose_{side}"])
+    box = placed_shape(case[side], case[f"pose_{side}"])
     return [box.world(vector(end)) for end in edges(case[side])[0][i].tolist()]
 
 
-def _kept(
+def _kept_candidates(
     candidates: Sequence[_Candidate], index: Sequence[int], k: int, *, corners: int | None
 ) -> Chosen:
     phi, alpha, n = (

@@ -49,7 +49,7 @@ def polytope_and_curved(flat: Core, curved: Placed) -> Witness:
     InputError
         If the polytope without its margin meets the curved solid.
     """
-    found = _proved(
+    found = _normal_of_both(
         _of_polytope(flat, curved), partial(_is_normal_of_polytope, flat), "polytope", curved.kind
     )
     # Not unique are the points where flat parts of both solids lie in each other.
@@ -68,7 +68,7 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
     InputError
         If the solids meet.
     """
-    found = _proved(
+    found = _normal_of_both(
         _of_cylinder(cylinder, other), partial(_is_normal_of_cylinder, cylinder),
         cylinder.kind, other.kind,
     )  # fmt: skip
@@ -76,7 +76,7 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
     return replace(found, unique=unique)
 
 
-def _proved(
+def _normal_of_both(
     candidates: Iterable[Witness], is_normal: Callable[[Witness], bool], *kinds: str
 ) -> Witness:
     """The candidate that is a normal of alpha's solid, too."""

@@ -87,7 +87,7 @@ class Placed:
         return self.world_direction(self.sizes[:3])
 
 
-def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
+def placed_shape(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
     """A shape as written in a case.
 
     Raises

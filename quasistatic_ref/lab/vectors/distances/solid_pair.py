@@ -10,7 +10,7 @@ from quasistatic_ref.lab.vectors.distances.curved_pair import (
 from quasistatic_ref.lab.vectors.distances.plane_distance import solid_on_plane
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.polytope_pair import polytope_pair
-from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core, placed
+from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core, placed_shape
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
@@ -27,7 +27,7 @@ def witnesses(case: Json) -> list[Witness]:
     InputError
         If both are clouds or half-spaces, or there is no closed form and no enclosure.
     """
-    a, b = (placed(case[side], case[f"pose_{side}"]) for side in ("alpha", "beta"))
+    a, b = (placed_shape(case[side], case[f"pose_{side}"]) for side in ("alpha", "beta"))
     if a.kind == b.kind and a.kind in ("cloud", "halfspace"):
         raise InputError(f"two {a.kind}s have no distance", field="alpha, beta", value=a.kind)
     if b.kind == "cloud":

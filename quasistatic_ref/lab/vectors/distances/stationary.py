@@ -64,7 +64,7 @@ def increasing_root(function: Callable[[Real], Real], low: fmpq, high: fmpq) -> 
         value = function(at)
         side = sign(value)
         if side == 0 or abs(at - last) < least:
-            around = _enclosed(function, at, least)
+            around = _root_ball(function, at, least)
             if around is not None or side == 0:
                 return at if around is None else around
         if high - low <= least:
@@ -81,7 +81,7 @@ def increasing_root(function: Callable[[Real], Real], low: fmpq, high: fmpq) -> 
     return arb((low + high) / 2) + arb(0, 1) * arb(high - low)
 
 
-def _enclosed(function: Callable[[Real], Real], at: fmpq, width: fmpq) -> arb | None:
+def _root_ball(function: Callable[[Real], Real], at: fmpq, width: fmpq) -> arb | None:
     """A ball about a number that shows to hold the root; None where the function stays zero."""
     while width <= SHORT:
         if sign(function(at - width)) < 0 < sign(function(at + width)):

@@ -24,7 +24,7 @@ from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, Errors
 from quasistatic_ref.lab.vectors.exact.entered import exact
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from quasistatic_ref.lab.vectors.exact.precision import number, rounded
+from quasistatic_ref.lab.vectors.exact.precision import number, rounded_results
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction, inverse
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.data import Array
@@ -58,7 +58,7 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     found = rational_solution(form, end.minimiser.working)
     lengths = found.x[len(program[1]) :]
     s = np.array([form.x_unit * length / found.denominator for length in lengths])
-    return rounded(lambda: forces_of(s, [number(own) for own in c], entries))
+    return rounded_results(lambda: forces_of(s, [number(own) for own in c], entries))
 
 
 def forces_bound(

@@ -29,7 +29,7 @@ LOOSER = Fraction(1, 2**26) / (ROUNDINGS * UNIT)
 of the unconstrained step, in place of some roundings."""
 
 
-def enclosed(step: StepData) -> Expected:
+def enclosed_optimum(step: StepData) -> Expected:
     """The optimum of a step in the ellipsoid, each entry rounded from a ball that holds it.
 
     Raises

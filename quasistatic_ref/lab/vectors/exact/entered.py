@@ -14,7 +14,7 @@ COUNTS = ("k", "rows")
 """Fields that say how many there are of something."""
 
 
-def entered(case: Json) -> Json:
+def exact_case(case: Json) -> Json:
     """A case with every number but counts exact.
 
     Raises

@@ -125,7 +125,7 @@ def _coefficients(t: Real) -> tuple[Real, Real, Real]:
 
 
 def _part_of_turn(like: Real, k: int, K: int) -> tuple[Real, Real]:
-    (sine, cosine), _ = rounded(lambda: arb(fmpq(2 * k, K)).sin_cos_pi())
+    (sine, cosine), _ = rounded_results(lambda: arb(fmpq(2 * k, K)).sin_cos_pi())
     return number(cosine), number(sine)
 
 
@@ -138,7 +138,7 @@ for _kind in (fmpq, arb):
     kinds.part_of_turn.register(_kind, _part_of_turn)
 
 
-def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
+def rounded_results(function: Callable[[], Any]) -> tuple[Any, Any]:
     """What a function returns, in float64 and in 30 digits, each rounded correctly.
 
     Parameters

@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded_results
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.trees import mapped
 
@@ -56,7 +56,7 @@ def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list
         found[:] = witnesses(case)
         return {key: [getattr(one, key) for one in found] for key in FIELDS}
 
-    output, digits = rounded(fields)
+    output, digits = rounded_results(fields)
     return output, digits, [one.unique for one in found]
 
 
@@ -76,7 +76,7 @@ def _tolerance(
     moves = dict.fromkeys(FIELDS, 0.0)
     settled = True
     for seed in range(CHANGES):
-        other, _, still = answer(_changed(case, _signs(seed), size))
+        other, _, still = answer(_changed_case(case, _signs(seed), size))
         for k in range(len(unique)):
             change = {key: _distance(other[key][k], output[key][k]) for key in FIELDS}
             same = all(change[key] <= JUMP * (1.0 if key == "n" else size) for key in FIELDS)
@@ -106,7 +106,7 @@ def _tolerance(
     return tolerance, settled
 
 
-def _changed(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[str, Any]:
+def _changed_case(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[str, Any]:
     """The case with every length and pose changed by some units of rounding, exactly."""
     unit = number(SHIFT * EPS)
 

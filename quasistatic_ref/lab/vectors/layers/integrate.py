@@ -1,8 +1,8 @@
 """Layer `integrate`: q+ = q (+) delta_q of a mechanism."""
 
 from quasistatic_ref.lab.program import integration as program
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 
 EPS = 2.0**-52
@@ -13,9 +13,9 @@ quaternions; the package's own answers stay below 4."""
 
 def expected(case_input: Json) -> Expected:
     """The next configuration; quaternions and (cos, sin) have length one."""
-    case = entered(case_input)
+    case = exact_case(case_input)
     delta_q = case_input["delta_q"]
-    output, digits = rounded(lambda: program.integrate(case))
+    output, digits = rounded_results(lambda: program.integrate(case))
     # The angle of a turn is rounded to its own last bit before its sine is taken.
     size = max([1.0, *(abs(x) for x in [*output["q"], *delta_q])])
     reason = f"{ROUNDINGS:g} units of rounding of coordinates and angles up to {size:.3g}"

@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.lab.program import mechanism as program
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 
 EPS = 2.0**-52
@@ -15,8 +15,8 @@ and an axis may be turned by 2 units; the package's own answers stay below 2."""
 
 def expected(case_input: Json) -> Expected:
     """J, shape (n_c, 4, n_v): rows 0-2 nu_beta - nu_alpha, row 3 n'(omega_beta - omega_alpha)."""
-    case = entered(case_input)
-    output, digits = rounded(lambda: program.jacobian(case))
+    case = exact_case(case_input)
+    output, digits = rounded_results(lambda: program.jacobian(case))
     return Expected(output, digits, tolerance={"J": _tolerance(case, case_input["contacts"])})
 
 
@@ -27,7 +27,7 @@ def _tolerance(case: Json, contacts: Json) -> Tolerance:
     for body in bodies:
         depth[body["name"]] = depth[body["parent"]] + 1
     joints = max(depth.values())
-    at, _ = rounded(lambda: program.kinematics(case["mechanism"], np.array(case["q"])))
+    at, _ = rounded_results(lambda: program.kinematics(case["mechanism"], np.array(case["q"])))
     points = [at[body["name"]][1] for body in bodies]
     points += [contact[side] for contact in contacts for side in ("alpha", "beta")]
     size = max([1.0, *(abs(x) for point in points for x in point)])

@@ -20,10 +20,10 @@ from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.exact.conditioning import NO_ERRORS, Bounds, Errors, bounds
-from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
-from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.exact.enclosed import enclosed_optimum
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from quasistatic_ref.lab.vectors.exact.precision import rounded, short
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.step.data import Array, StepData
@@ -44,12 +44,12 @@ def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
     Its tolerances are those of a program that is formed with such errors.
     """
     if "second_order" in case_input:
-        return enclosed(cone_step(case_input))
+        return enclosed_optimum(cone_step(case_input))
     form = form_of(case_input)
     optimum = form_optimum(form, (), least_index)
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
-    exact = _proved(case_input, form, optimum.working_set)
+    exact = _checked_optimum(case_input, form, optimum.working_set)
     bound = bounds(form, optimum.working_set, errors)
     return Expected(
         output={
@@ -59,7 +59,7 @@ def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
             "slack": optimum.slack.tolist(),
             "certificate": _certificate(optimum),
         },
-        digits=short(rounded(lambda: exact)[1]),
+        digits=short(rounded_results(lambda: exact)[1]),
         flags=flags_of(optimum, bound),
         tolerance=tolerances(bound),
     )
@@ -121,7 +121,7 @@ def cone_step(case_input: Json) -> StepData:
     return conic_step(H, g, F, f[:, 0])
 
 
-def claimed(case_input: Json, output: Json, step: StepData) -> Certificate:
+def claimed_certificate(case_input: Json, output: Json, step: StepData) -> Certificate:
     """The certificate of an output about a step, as `verify` takes it."""
     written = output["certificate"]
     if "second_order" in case_input:
@@ -145,7 +145,9 @@ def tolerances(bound: Bounds) -> dict[str, Tolerance]:
     }
 
 
-def _proved(case_input: Json, form: ExactForm, working: Sequence[int]) -> dict[str, list[fmpq]]:
+def _checked_optimum(
+    case_input: Json, form: ExactForm, working: Sequence[int]
+) -> dict[str, list[fmpq]]:
     """delta_q and A'lam of a working set, after the plain program looked at their conditions."""
     found = rational_solution(form, tuple(working))
     x, net, lam = (
@@ -159,7 +161,7 @@ def _proved(case_input: Json, form: ExactForm, working: Sequence[int]) -> dict[s
     every = [fmpq(0)] * form.m
     for row, value in zip(working, lam, strict=True):
         every[row] = value
-    assert is_optimum(entered(case_input), x, every)
+    assert is_optimum(exact_case(case_input), x, every)
     return {"delta_q": x, "A_lam": net}
 
 
@@ -195,7 +197,7 @@ def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
     y = [proof.y.get(i, fmpq(0)) / largest_y for i in range(form.m)]
     return Expected(
         output={
-            "farkas": rounded(lambda: y)[0],
+            "farkas": rounded_results(lambda: y)[0],
             "certificate": {"kind": "exact", "farkas": [str(v) for v in y]},
         },
         flags={"infeasible": True, **dict.fromkeys(FLAGS, False)},

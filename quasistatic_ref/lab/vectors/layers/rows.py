@@ -6,8 +6,8 @@ import numpy as np
 
 from quasistatic_ref.lab.program import rows as program
 from quasistatic_ref.lab.scenes.contacts import NUMBERS
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.exact.precision import rounded, short
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, tolerance
 from quasistatic_ref.lab.vectors.exact.sizes import largest, sizes
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
@@ -22,8 +22,8 @@ each counted twice."""
 
 def expected(case_input: Json) -> Expected:
     """A and b of all contacts, contact-major, without rounding until the end."""
-    case = entered(case_input)
-    output, digits = rounded(lambda: program.rows(case))
+    case = exact_case(case_input)
+    output, digits = rounded_results(lambda: program.rows(case))
     size = largest(program.rows(sizes(case))["A"])
     return Expected(
         output=output,

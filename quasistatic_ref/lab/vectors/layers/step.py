@@ -17,11 +17,11 @@ from quasistatic_ref.lab.program.candidates import tangents
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rotation import quaternion_of
-from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
+from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen_points
 from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces, forces_bound
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors
-from quasistatic_ref.lab.vectors.exact.entered import entered, exact
-from quasistatic_ref.lab.vectors.exact.precision import Real, rounded, short
+from quasistatic_ref.lab.vectors.exact.entered import exact, exact_case
+from quasistatic_ref.lab.vectors.exact.precision import Real, rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer, qp
@@ -120,14 +120,16 @@ def own(case_input: Json) -> Json:
     return own_step(case_input)
 
 
-def _chosen(case: Json) -> list[Chosen]:
+def _contacts_by_pair(case: Json) -> list[Chosen]:
     """The contacts of each pair."""
     names = {pair[side] for pair in case["pairs"] for side in ("alpha", "beta")}
     places = {name: shape_pose(case, case["shapes"][name]) for name in sorted(names)}
     found = []
     for pair in case["pairs"]:
         alpha, beta = (case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta"))
-        found.append(chosen(alpha, beta, places[pair["alpha"]], places[pair["beta"]], pair["k"]))
+        found.append(
+            chosen_points(alpha, beta, places[pair["alpha"]], places[pair["beta"]], pair["k"])
+        )
     return found
 
 
@@ -145,19 +147,19 @@ def shape_pose(case: Json, entry: Json) -> Json:
         return entry["pose"]
     entry = {key: entry[key] for key in ("body", "pose")}
     place = {"mechanism": case["mechanism"], "q": case["q"], "shapes": {"it": entry}}
-    place = entered(place)
+    place = exact_case(place)
 
     def world() -> Any:
         at = kinematics(place["mechanism"], np.array(place["q"]))
         R, t = program.placed(place["shapes"]["it"], at)
         return {"xyz": t, "quaternion": quaternion_of(R)}
 
-    return rounded(world)[0]
+    return rounded_results(world)[0]
 
 
 def contacts_of(case: Json) -> tuple[list[Json], list[Chosen]]:
     """Contacts of all pairs without J, and whence they are."""
-    found = _chosen(case)
+    found = _contacts_by_pair(case)
     contacts = []
     for pair, one in zip(case["pairs"], found, strict=True):
         given = of_pair(case, pair)
@@ -175,13 +177,13 @@ def of_pair(case: Json, pair: Json) -> Json:
 def _tangents(normal: list[float]) -> dict[str, Json]:
     """d1, the projection of the world axis farthest from n, and d2 = n x d1, each rounded."""
     n = np.array(exact(normal))
-    d1 = rounded(lambda: tangents(n)[0])[0]
-    return {"d1": d1, "d2": rounded(lambda: np.cross(n, np.array(exact(d1))))[0]}
+    d1 = rounded_results(lambda: tangents(n)[0])[0]
+    return {"d1": d1, "d2": rounded_results(lambda: np.cross(n, np.array(exact(d1))))[0]}
 
 
 def objective(case_input: Json) -> tuple[Json, Json, float]:
     """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
-    case = entered({key: value for key, value in case_input.items() if key != "shapes"})
+    case = exact_case({key: value for key, value in case_input.items() if key != "shapes"})
 
     def terms() -> Any:
         h = case["h"]
@@ -194,7 +196,7 @@ def objective(case_input: Json) -> tuple[Json, Json, float]:
         sizes[:n_a] += h * np.abs(K_q) @ np.abs(way(case["mechanism"], q, case["q_bar_a"]))
         return {"H": H, "g": g, "sizes": sizes}
 
-    out = rounded(terms)[0]
+    out = rounded_results(terms)[0]
     return out["H"], out["g"], max(out["sizes"], default=0.0)
 
 

@@ -7,8 +7,8 @@ is free of a point. lam is an impulse: forces are divided by h.
 import numpy as np
 
 from quasistatic_ref.lab.program import wrench as program
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.exact.precision import rounded, short
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
+from quasistatic_ref.lab.vectors.exact.precision import rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, tolerance
 from quasistatic_ref.lab.vectors.exact.sizes import largest, sizes
 from quasistatic_ref.lab.vectors.expected import Expected, Json
@@ -19,9 +19,9 @@ ROUNDINGS = 16
 
 def expected(case_input: Json) -> Expected:
     """The wrench of each contact (f_d1, f_d2, f_n, tau_n), and the net wrench of each body."""
-    case = entered(case_input)
+    case = exact_case(case_input)
     contacts = case_input["contacts"]
-    output, digits = rounded(lambda: program.wrench(case))
+    output, digits = rounded_results(lambda: program.wrench(case))
     size = program.wrench(sizes(case))
     rows = max([len(contact["lam"]) for contact in contacts], default=0)
     roundings = (ROUNDINGS + 2 * rows) * UNIT

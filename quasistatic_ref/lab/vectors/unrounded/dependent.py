@@ -74,12 +74,14 @@ def _rates(
     found: list[Vector] = []
     for contact, block in zip(one.contacts, own, strict=True):
         k = places.get((contact.near.pair, contact.near.index))
-        others = block if k is None else _matched(one, contact, block, contacts[k], nearby[k])
+        others = block if k is None else _matched_rows(one, contact, block, contacts[k], nearby[k])
         found += [(y - x) / STEP for x, y in zip(block, others, strict=True)]
     return found
 
 
-def _matched(one: Base, contact: Contact, block: Matrix, other: Contact, nearby: Matrix) -> Matrix:
+def _matched_rows(
+    one: Base, contact: Contact, block: Matrix, other: Contact, nearby: Matrix
+) -> Matrix:
     """The rows of a contact nearby, in the order of its own; turned to its tangents if they jump.
 
     Where tangents jump and q+ does not notice, the contact sticks, and its rows span as much in

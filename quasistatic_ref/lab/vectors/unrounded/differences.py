@@ -13,7 +13,7 @@ from flint import fmpq
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working_precision
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept_candidates, pool
 from quasistatic_ref.lab.vectors.unrounded.step import (
     Contact,
@@ -71,7 +71,7 @@ def are_solids(case: Json, pair: int) -> bool:
 
 def away(at: World, q_next: Vector, other: Vector) -> Vector:
     """Difference other (-) q_next, on the grid [m, rad]."""
-    with working():
+    with working_precision():
         return on_grid(way(at.case["mechanism"], q_next, other))
 
 

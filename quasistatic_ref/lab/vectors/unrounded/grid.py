@@ -48,7 +48,7 @@ def is_small(x: fmpq) -> bool:
     return bool(abs(x) < SMALL)
 
 
-def working() -> AbstractContextManager[object]:
+def working_precision() -> AbstractContextManager[object]:
     """The precision in which balls are made before they are moved to the grid: a context."""
     context: AbstractContextManager[object] = ctx.workprec(PRECISION)
     return context

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import Vector, number, vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, working_precision
 from quasistatic_ref.lab.vectors.unrounded.world import World
 from quasistatic_ref.tolerances import REPEATED
 
@@ -68,7 +68,7 @@ def candidates(at: World, pair: int, wanted: Sequence[int] | None = None) -> lis
     alpha, beta = (at.shape(written[side]) for side in ("alpha", "beta"))
     kinds = {s: at.case["shapes"][written[s]]["shape"] for s in ("alpha", "beta")}
     found: list[Near] = []
-    with working():
+    with working_precision():
         first = 0
         for part in parts(kinds, written["k"]):
             points = _points(part)
@@ -102,7 +102,9 @@ def _near(pair: int, index: int, one: Witness) -> Near:
     return Near(pair, index, **{key: on_grid(value) for key, value in one.table().items()})
 
 
-def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, fmpq, int]]:
+def ordered_candidates(
+    found: Sequence[Near], k: int, *, solids: bool
+) -> list[tuple[bool, fmpq, int]]:
     """Candidates from the first to be kept to the last: whether each comes late, phi, its place.
 
     Parameters
@@ -124,20 +126,20 @@ def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, 
 
 
 def kept_candidates(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
-    """Those that a step keeps, in the order of their index; parameters as for `ordered`."""
-    order = ordered(found, k, solids=solids)
+    """Those that a step keeps, by index; parameters as for :func:`ordered_candidates`."""
+    order = ordered_candidates(found, k, solids=solids)
     return [found[i] for i in sorted(i for _, _, i in order[:k])]
 
 
 def pool(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
-    """Indices of the candidates that a step nearby can keep; parameters as for `ordered`."""
+    """What a step nearby can keep: indices; parameters as for :func:`ordered_candidates`."""
     far = max(one.phi for one in kept_candidates(found, k, solids=solids)) + POOL
     return [one.index for one in found if one.phi <= far]
 
 
 def tied_indices(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
     """Indices of candidates as near as one another of which some are kept and some are not."""
-    order = ordered(found, k, solids=solids)
+    order = ordered_candidates(found, k, solids=solids)
     if len(order) <= k or order[k][0] != order[k - 1][0]:
         return []
     edge = order[k - 1][1]

@@ -28,7 +28,7 @@ its second derivative times 8e-31."""
 
 def reasons(one: Base, found: Sequence[Quotient]) -> list[Json]:
     """Reasons of each kind that are met; the quotients are those along the coordinates of q."""
-    touching = _touching(one)
+    touching = _tight_contacts(one)
     listed = [*_rows(one), *_selections(one, touching)]
     for k in touching:
         contact = one.contacts[k]
@@ -63,7 +63,7 @@ def blocks(case: Json, contacts: Iterable[Contact]) -> list[range]:
     return [range(end - count, end) for end, count in zip(ends, counts, strict=True)]
 
 
-def _touching(one: Base) -> list[int]:
+def _tight_contacts(one: Base) -> list[int]:
     """Numbers of the contacts that have a row without slack."""
     signs = one.step.optimum.slack_signs
     every = enumerate(blocks(one.at.case, one.contacts))

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.program.step import objective
 from quasistatic_ref.lab.vectors.exact.precision import Matrix, Real, Vector
 from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near
 from quasistatic_ref.lab.vectors.unrounded.world import World
 
@@ -70,7 +70,7 @@ class Solved:
 
 def contact(at: World, near: Near) -> Contact:
     """A contact in its frame."""
-    with working():
+    with working_precision():
         d1 = on_grid(candidates.tangents(np.array(near.n))[0])
     d2 = on_grid(np.cross(near.n, d1))
     pair = at.case["pairs"][near.pair]
@@ -107,7 +107,7 @@ def step_solution(at: World, contacts: Sequence[Contact], warm: Sequence[int] = 
     InputError
         If the step has no solution.
     """
-    with working():
+    with working_precision():
         H, g = map(on_grid, objective(at.case, *at.loads))
     form = form_of(H, g, *rows(at.case, contacts))
     optimum = dual_active_set(form, warm)
@@ -151,7 +151,7 @@ def _integers(A: Matrix, factor: int) -> fmpz_mat:
 
 def after(at: World, step: Sequence[Real]) -> Vector:
     """Configuration q (+) delta_q; balls where it is not rational."""
-    with working():
+    with working_precision():
         case = {"mechanism": at.case["mechanism"], "q": at.case["q"], "delta_q": step}
         found: Vector = integrate(case)["q"]
         return found

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.precision import Vector, vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
 from quasistatic_ref.lab.vectors.unrounded.nearby import Touching, candidates
 from quasistatic_ref.lab.vectors.unrounded.world import world
 
@@ -46,7 +46,7 @@ def _normals(alpha: Placed, beta: Placed) -> Iterator[Vector]:
     for way in product((-1, 0, 1), repeat=3):
         apart = replace(beta, t=beta.t + APART * vector(way))
         try:
-            with working():
+            with working_precision():
                 yield on_grid(pair_witness(alpha, apart).n)
         except InputError:
             continue

@@ -7,10 +7,10 @@ import numpy as np
 
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.mechanism import kinematics
-from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
-from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed_shape
+from quasistatic_ref.lab.vectors.exact.entered import exact_case
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import exact_or_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import exact_or_on_grid, working_precision
 
 _settled = np.frompyfunc(exact_or_on_grid, 1, 1)
 
@@ -33,17 +33,17 @@ class World:
     @property
     def loads(self) -> tuple[Any, Any]:
         """M, and the generalised forces in addition to the stiffness."""
-        with working():
+        with working_precision():
             found: tuple[Any, Any] = program.loads(self.case, self.at)
             return found
 
     def shape(self, name: str) -> Placed:
         """A shape of the case where it is."""
         entry = self.case["shapes"][name]
-        with working():
+        with working_precision():
             R, t = (_settled(part) for part in program.placed(entry, self.at))
             here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
-            return replace(placed(entry["shape"], here), R=R, t=t)
+            return replace(placed_shape(entry["shape"], here), R=R, t=t)
 
 
 def world(case: Json) -> World:
@@ -54,8 +54,8 @@ def world(case: Json) -> World:
     case : dict
         Input of the layer ``step``; numbers that are no float64 are rational.
     """
-    case = entered(case)
-    with working():
+    case = exact_case(case)
+    with working_precision():
         at = kinematics(case["mechanism"], np.array(case["q"]))
         settled = {name: tuple(map(_settled, parts)) for name, parts in at.items()}
     return World(case, settled)

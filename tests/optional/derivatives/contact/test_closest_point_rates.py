@@ -18,7 +18,7 @@ from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from tests.closeness import assert_within
-from tests.contact.still import pair, placed
+from tests.contact.still import pair, placed_shape
 from tests.oracles.differences import rate, unit
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
@@ -29,7 +29,7 @@ DIAGONAL = (X + Y) / np.sqrt(2)
 EDGE, FACE = (Feature(free=free) for free in (DIAGONAL[None], ACROSS))
 
 
-def found(features, v, omega, turned=None):
+def feature_rates(features, v, omega, turned=None):
     """Of two bodies at the origin and at PHI N that move by v and turn by omega, one coordinate."""
     R = np.eye(3) if turned is None else turned
     both = [f.turned(R) for f in features]
@@ -43,15 +43,15 @@ def found(features, v, omega, turned=None):
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])
 def test_an_edge_on_a_face_may_turn_about_itself_and_about_nothing_else(features):
     turned = [DIAGONAL if f is FACE else 0 * X for f in features]
-    rates = found(features, (0 * X, 0 * X), turned)
+    rates = feature_rates(features, (0 * X, 0 * X), turned)
     assert rates.unique[0]
     # The normal is the face's: dn = DIAGONAL x n.
     assert_within(rates.n[0, :, 0], np.cross(DIAGONAL, N), ROUNDING)
     for way in (np.cross(DIAGONAL, N), N, X):
         other = [way if f is FACE else 0 * X for f in features]
-        assert not found(features, (0 * X, 0 * X), other).unique[0]
+        assert not feature_rates(features, (0 * X, 0 * X), other).unique[0]
         # Both bodies turn as one about the first point.
-        as_one = found(features, (0 * X, PHI * np.cross(way, N)), (way, way))
+        as_one = feature_rates(features, (0 * X, PHI * np.cross(way, N)), (way, way))
         assert as_one.unique[0]
         assert_within(as_one.n[0, :, 0], np.cross(way, N), ROUNDING)
 
@@ -86,7 +86,7 @@ def test_r29_random_pairs_change_as_differences_say(shapes, rng):
         for name, xyz in (("a", np.zeros(3)), ("b", 0.16 * unit(rng, 3)))
     ]
     system = System(bodies)
-    one = pair(*(placed(s, system.link(b.name)) for s, b in zip(shapes, bodies, strict=True)))
+    one = pair(*(placed_shape(s, system.link(b.name)) for s, b in zip(shapes, bodies, strict=True)))
     where = system.kinematics(system.q_start)
     points = closest_points([one], where)
     kept = couples([one], points, where.R, where.t)

@@ -28,7 +28,7 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
 )
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
-from tests.contact.still import pair, placed
+from tests.contact.still import pair, placed_shape
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
@@ -37,7 +37,7 @@ FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 
 def pair_of(system, fixed, moving, first, k):
     """A fixed shape at the origin and one of the body, either of them being alpha's."""
-    sides = [placed(fixed), placed(moving, system.link("body"))]
+    sides = [placed_shape(fixed), placed_shape(moving, system.link("body"))]
     return pair(*(sides if first == "fixed" else sides[::-1]), k)
 
 
@@ -115,7 +115,10 @@ def test_edges_cross_where_bodies_lie_across_each_other(shape, xyz, rpy, k, cros
 def test_a_cloud_is_as_large_as_the_box_about_it():
     cloud = PointCloud(np.array([[5.0, 0.0, 0.0], [5.5, 0.0, 0.25]]))
     bodies = tuple(ShapeInWorld(shape, np.eye(3), np.zeros(3)) for shape in (cloud, FLOOR))
-    assert PairInWorld(pair(placed(cloud), placed(FLOOR, 1)), bodies).extents == (0.5, np.inf)
+    assert PairInWorld(pair(placed_shape(cloud), placed_shape(FLOOR, 1)), bodies).extents == (
+        0.5,
+        np.inf,
+    )
 
 
 def test_the_ball_about_a_capsule_s_corner_is_its_own():

@@ -19,7 +19,7 @@ from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.tolerances import TIED
-from tests.contact.still import pair, placed
+from tests.contact.still import pair, placed_shape
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
 AT = np.array([0.5, -0.4, 0.3])
@@ -68,13 +68,13 @@ NEAR = 0.1 * TIED
 
 def couple_of(alpha, beta, a, b):
     """The contact of two shapes at poses (R, t), at their closest points."""
-    p = pair(placed(alpha, 1), placed(beta, 2))
+    p = pair(placed_shape(alpha, 1), placed_shape(beta, 2))
     R, t = (np.array([x, y, z]) for x, y, z in zip(STILL, a, b, strict=True))
     (found,) = couples([p], pair_closest_points(p, R, t), R, t)
     return found
 
 
-def tied(alpha, beta, a=STILL, b=STILL):
+def depth_tie_words(alpha, beta, a=STILL, b=STILL):
     """What `depth_tie` says of them."""
     return depth_tie(couple_of(alpha, beta, a, b))
 
@@ -83,8 +83,8 @@ def inside(solid, p, body, pose):
     """The same of a body whose middle is at p in the frame of a solid, either one first."""
     R, t = pose
     there = np.eye(3), R @ np.array(p, dtype=float) + t
-    found = tied(solid, body, pose, there)
-    assert tied(body, solid, there, pose) == found
+    found = depth_tie_words(solid, body, pose, there)
+    assert depth_tie_words(body, solid, there, pose) == found
     return found
 
 
@@ -127,12 +127,12 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name):
     way = np.eye(3)[0]
     size = max(a.extent, b.extent)
     near = np.array(t) + NEAR * size * way
-    assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
+    assert depth_tie_words(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
     for off in (0.75 * TIED / size, -AWAY):
         moved = TURNED @ (np.array(t) + off * way) + AT
-        assert not tied(a, b, (TURNED, AT), (TURNED, moved))
+        assert not depth_tie_words(a, b, (TURNED, AT), (TURNED, moved))
     with pytest.raises(ContactError, match="as deep in each other along"):
-        tied(a, b, STILL, (np.eye(3), np.array(t)))
+        depth_tie_words(a, b, STILL, (np.eye(3), np.array(t)))
 
 
 # Its two upper faces fall by atan(0.1) from the ridge, an angle within FACING.
@@ -158,7 +158,7 @@ def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side):
 
 def test_boxes_that_touch_at_their_edges_are_not_in_penetration():
     edge = np.array([0.2 + 0.2, 0.0, 0.2 + 0.2])
-    assert not tied(B, B, STILL, (np.eye(3), edge))
+    assert not depth_tie_words(B, B, STILL, (np.eye(3), edge))
 
 
 def test_capsules_are_tied_where_their_axes_cross():
@@ -169,7 +169,7 @@ def test_capsules_are_tied_where_their_axes_cross():
     across = TURNED @ Rotation.from_euler("x", 1.0).as_matrix()
     near = NEAR * a.extent
     for off in (near, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
-        found = tied(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off))
+        found = depth_tie_words(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off))
         assert found == (off == near)
 
 

@@ -9,7 +9,7 @@ from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.tolerances import TIED
-from tests.contact.still import pair, placed
+from tests.contact.still import pair, placed_shape
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
 AT = np.array([0.5, -0.4, 0.3])
@@ -20,7 +20,7 @@ HEIGHTS = np.array([0.03, 0.01, 0.02, 0.03, 0.04])
 
 
 def ties(alpha, beta, k, poses):
-    p = pair(placed(alpha, 1), placed(beta, 2), k)
+    p = pair(placed_shape(alpha, 1), placed_shape(beta, 2), k)
     R = np.array([np.eye(3), poses[0][0], poses[1][0]])
     t = np.array([np.zeros(3), poses[0][1], poses[1][1]])
     points = pair_closest_points(p, R, t)

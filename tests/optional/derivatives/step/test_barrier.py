@@ -15,7 +15,7 @@ H_OF_POINT = 0.01
 """h [s]."""
 
 
-def pressed(m, force, kappa):
+def pressed_point(m, force, kappa):
     """A point that a force presses onto a floor without friction, and its displacement.
 
     Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z.
@@ -30,7 +30,7 @@ def pressed(m, force, kappa):
 @pytest.mark.parametrize("scale", [1.0, 1e-6, 1e-12, 1e12])
 def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
     kappa = 1e-4 * scale
-    step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
+    step, z = pressed_point(0.3 * scale, 2.0 * scale, kappa)
     found = barrier_step(step, kappa)
     assert_relative(found.x, z, CLOSED_FORM)
     assert_relative(found.lam, kappa / found.slack, CLOSED_FORM)
@@ -40,7 +40,7 @@ def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
 def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeypatch):
     kappa = 1e-4 * scale
     answers = 0
-    step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
+    step, z = pressed_point(0.3 * scale, 2.0 * scale, kappa)
     for steps in range(30):
         monkeypatch.setattr(barrier, "STEPS", steps)
         try:

@@ -127,7 +127,7 @@ def whole(matrix, column, n):
     )
 
 
-def moved(step, key, sides=(-1, 0, 1)):
+def optima_around(step, key, sides=(-1, 0, 1)):
     """Optima at the parameter less a little, as it is, and plus a little; and that little."""
     little = TINY * (abs(number(step, key)) or 1)
     return [optimum(changed_by(step, key, s * little)) for s in sides], little
@@ -152,7 +152,7 @@ def test_r25_r33_derivatives_agree_with_central_differences_on_random_steps():
         for k in rng.permutation(np.flatnonzero(there))[:4]:
             if is_stuck(step, every[k]):
                 continue
-            (below, above), little = moved(step, every[k], (-1, 1))
+            (below, above), little = optima_around(step, every[k], (-1, 1))
             expected = [float((a - b) / (2 * little)) for a, b in zip(above, below, strict=True)]
             size = max(sizes.get(every[k][0], 1.0), *map(abs, expected))
             assert_within(found[:, k], expected, 1e-9 * size)
@@ -195,7 +195,7 @@ def test_r26_r27_verdicts_on_random_degenerate_steps(rng):
             if is_stuck(step, every[k]):
                 continue
             of_contact = every[k][0] in OF_CONTACTS
-            (below, at, above), little = moved(step, every[k])
+            (below, at, above), little = optima_around(step, every[k])
             if None in (below, above):
                 assert not there[k]
                 continue
@@ -240,7 +240,7 @@ def test_the_gap_of_one_of_two_equal_contacts_has_no_derivative():
     step = step.replace(contacts=repeated(step.contacts, [0, 0]))
     assert by(step)[1] == {("phi", 0), ("phi", 1)}
     # One-sided differences: lowering one gap lets the other carry on, raising it lifts the body.
-    (below, at, above), little = moved(step, ("phi", 0))
+    (below, at, above), little = optima_around(step, ("phi", 0))
     assert float((above[2] - at[2]) / little) == 0.0
     assert float((at[2] - below[2]) / little) == -1.0
 
@@ -250,7 +250,7 @@ def test_a_contact_that_touches_without_load_holds_on_one_side_only():
     missing = by(step)[1]
     assert missing >= {("phi", 0), ("tau_u", 2)}
     assert ("h", 0) not in missing  # nothing drives it, whatever h is
-    (below, at, above), _ = moved(step, ("tau_u", 2))
+    (below, at, above), _ = optima_around(step, ("tau_u", 2))
     assert above[2] > at[2] == below[2]
 
 

@@ -24,7 +24,7 @@ from quasistatic_ref import (
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
-from tests.model.urdf.urdf_texts import inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 from tests.optional.fast.compiled.test_fast_pairs import CLOUDS, SHAPES, cloud
 
 ROOT = Path(__file__).parents[4]
@@ -48,9 +48,9 @@ WHEELS = robot(
 
 def bodies(folder):
     """A body that is held, a free one, one in the plane, and joints that turn, slide and mimic."""
-    stone = written(folder, STONE, "stone.urdf")
-    cart = written(folder, CART, "cart.urdf")
-    wheels = written(folder, WHEELS, "wheels.urdf")
+    stone = urdf_of_text(folder, STONE, "stone.urdf")
+    cart = urdf_of_text(folder, CART, "cart.urdf")
+    wheels = urdf_of_text(folder, WHEELS, "wheels.urdf")
     return System(
         [
             Body("cart", cart, "planar", ()),

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.fast.compiled import certificate, library
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from validation.make.confirmed_bits import differing, proof
+from validation.make.confirmed_bits import differing_fields, proof
 
 pytestmark = needs_compiler
 MATRICES = 40
@@ -124,7 +124,7 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
     found = proof(step, np.array(truth.working_set, dtype=np.int64))
     assert (found is not None) == shown
     if shown:
-        assert not differing(found, form_optimum(exact_form(step), list(truth.working_set)))
+        assert not differing_fields(found, form_optimum(exact_form(step), list(truth.working_set)))
 
 
 def test_a_run_is_proved_by_compiled_code(monkeypatch):

@@ -25,7 +25,7 @@ from quasistatic_ref.contact.distance import closest_points, pair_closest_points
 from quasistatic_ref.contact.separations import OF_CLOUD
 from quasistatic_ref.optional.fast.compiled import pairs as in_c
 from quasistatic_ref.tolerances import TIED_FACES
-from tests.contact.still import pair, placed, standing
+from tests.contact.still import pair, placed_shape, standing_links
 from tests.oracles.posed_pairs import PosedPairs
 
 pytestmark = pytest.mark.extra("fast")
@@ -88,8 +88,8 @@ def scene(names, kinds, rng, N, k):
     pairs = []
     for i, (name, kind) in enumerate(zip(names, kinds, strict=True)):
         R = Rotation.random(rng=rng).as_matrix() if i % 2 else np.eye(3)
-        solid = placed(SHAPES[name], 1 + i, R, rng.uniform(-0.1, 0.1, size=3) * (i % 2), name)
-        some = placed(PointCloud(cloud(kind, N, rng)), 1 + len(names) + i, name=kind)
+        solid = placed_shape(SHAPES[name], 1 + i, R, rng.uniform(-0.1, 0.1, size=3) * (i % 2), name)
+        some = placed_shape(PointCloud(cloud(kind, N, rng)), 1 + len(names) + i, name=kind)
         sides = (solid, some) if i % 3 else (some, solid)
         pairs.append(ContactPair(f"p{i}", *sides, 0.5, 0.0, 4, k))
     return pairs
@@ -106,7 +106,7 @@ def is_new(tracker):
 
 
 def same_bits(tracker, pairs, R, t):
-    expected = closest_points(pairs, standing(*zip(R[1:], t[1:], strict=True)))
+    expected = closest_points(pairs, standing_links(*zip(R[1:], t[1:], strict=True)))
     found = tracker.closest_points(R, t)
     for field, own in found._asdict().items():
         np.testing.assert_array_equal(bits(own), bits(getattr(expected, field)), err_msg=field)
@@ -152,7 +152,7 @@ def sheet(side, spacing):
 
 
 def one_pair(shape, points, k):
-    return [pair(placed(shape, 1), placed(PointCloud(points), 2), k)]
+    return [pair(placed_shape(shape, 1), placed_shape(PointCloud(points), 2), k)]
 
 
 @pytest.mark.parametrize("name", ["sphere", "cylinder"])
@@ -198,10 +198,10 @@ def test_zero_is_positive(cloud_first):
     """Half a turn about z whose zeros are -0.0, and a height that is -0.0."""
     turned = -np.eye(3)
     turned[2, 2] = 1.0
-    points = placed(PointCloud(np.array([[1.0, 1.0, 0.0]])), 1)
+    points = placed_shape(PointCloud(np.array([[1.0, 1.0, 0.0]])), 1)
     pairs = []
     for z in (1.0, -1.0):
-        solid = placed(HalfSpace(np.array([0.0, 0.0, z]), 0.0), R=turned)
+        solid = placed_shape(HalfSpace(np.array([0.0, 0.0, z]), 0.0), R=turned)
         pairs.append(pair(points, solid) if cloud_first else pair(solid, points))
     found = same_bits(PosedPairs(pairs, 2), pairs, *poses((0, 0, 0)))
     assert not bits(found.phi).any()
@@ -220,13 +220,13 @@ def test_points_that_touch_two_faces_at_once_are_left_to_the_plain_path(monkeypa
     far = np.array([4.0, 0.0, 0.0])  # of the cloud's frame: no place is larger
     half = TIED_FACES * far[0] / 2
     x, y, z = 0.25, 0.5, 1.0
-    box = placed(Box(np.array([x, y, z])), 1)
+    box = placed_shape(Box(np.array([x, y, z])), 1)
     pairs = []
     tied = []
     for i, j, side in itertools.product(range(-4, 4), range(-4, 4), (1, -1)):
         # The other point makes the whole cloud farthest out along y.
         points = side * np.array([(x + i * half, y + j * half, 0.0), (x / 2, 1.5 * y, 0.0)]) - far
-        cloud = placed(PointCloud(points), 2)
+        cloud = placed_shape(PointCloud(points), 2)
         pairs.append(ContactPair(f"{i} {j} {side}", box, cloud, 0.5, 0.0, 4, 1))
         phi = max(i, j) if max(i, j) <= 0 else np.hypot(max(i, 0), max(j, 0))
         if phi <= 2 and abs(i - j) <= 2:
@@ -236,15 +236,17 @@ def test_points_that_touch_two_faces_at_once_are_left_to_the_plain_path(monkeypa
     of_cloud = {pairs[i].name for i in np.flatnonzero(found.tie == OF_CLOUD)}
     assert {*asked} >= of_cloud
     asked.clear()
-    pairs = [ContactPair("off", box, placed(PointCloud([[x, 0.0, 0.0]] - far), 2), 0.5, 0.0, 4, 1)]
+    pairs = [
+        ContactPair("off", box, placed_shape(PointCloud([[x, 0.0, 0.0]] - far), 2), 0.5, 0.0, 4, 1)
+    ]
     same_bits(PosedPairs(pairs, 3), pairs, *poses((0, 0, 0), far))
     assert not asked
 
 
 def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
-    solid = [placed(SHAPES["box"], i) for i in (1, 2)]
-    points = placed(PointCloud(cloud("random", 99, rng)), 3)
-    sphere = placed(SHAPES["sphere"], 3)
+    solid = [placed_shape(SHAPES["box"], i) for i in (1, 2)]
+    points = placed_shape(PointCloud(cloud("random", 99, rng)), 3)
+    sphere = placed_shape(SHAPES["sphere"], 3)
     sides = [(solid[0], points), (solid[0], solid[1]), (points, solid[1]), (solid[1], sphere)]
     pairs = [pair(*two, 3) for two in sides]
     same_bits(PosedPairs(pairs, 4), pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))

@@ -23,7 +23,7 @@ from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.random_steps import any_step
-from validation.make.confirmed_bits import NEARBY, OTHERS, differing
+from validation.make.confirmed_bits import NEARBY, OTHERS, differing_fields
 from validation.make.grouped_proofs import unlike
 
 pytestmark = needs_compiler
@@ -72,7 +72,7 @@ def test_groups_that_merge_and_split_have_the_bits_of_each_by_itself(monkeypatch
                 continue
             other = by_the_exact_method(monkeypatch, both, answer)
             may = NEARBY if found.multipliers_unique else OTHERS
-            assert set(differing(found, other)) <= may, (seed, k)
+            assert set(differing_fields(found, other)) <= may, (seed, k)
             assert unlike(found, form_optimum(exact_form(step))) == [], (seed, k)
             of_groups = kept.prover.s["code"].tolist()
             codes.update(of_groups)
@@ -113,7 +113,7 @@ def test_zeros_are_not_taken_over_by_other_rows_or_another_guess(monkeypatch, be
         answer = NaturalAnswer(np.zeros(3), lam, None)
         found = kept.optimum(both, answer)
         other = by_the_exact_method(monkeypatch, both, answer)
-        assert set(differing(found, other)) <= NEARBY
+        assert set(differing_fields(found, other)) <= NEARBY
         smooth.append(found.differentiable)
     assert smooth == [True, True, False]
 

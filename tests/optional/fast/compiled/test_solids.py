@@ -14,13 +14,13 @@ LEFT = 0.5
 
 @needs_compiler
 def test_contacts_of_every_pair_of_shapes_have_the_bits_of_the_plain_path():
-    from validation.make.solid_pairs import compiled_pairs, solids, tried
+    from validation.make.solid_pairs import compiled_pairs, pose_counts, solids
 
     shapes = solids()
     names = compiled_pairs()
     assert len(names) == 22
     for seed, (first, second) in enumerate(names):
-        tally = tried(shapes[first], shapes[second], POSES, seed)
+        tally = pose_counts(shapes[first], shapes[second], POSES, seed)
         assert tally["poses"] == POSES
         assert tally["decided"] > (1 - LEFT) * POSES, (first, second)
         assert tally["different"] == 0, (first, second)

@@ -16,7 +16,7 @@ from validation.make.confirmed_bits import (
     NEARBY,
     OTHERS,
     ascending,
-    differing,
+    differing_fields,
     proof,
     random_case,
     wrong_sets,
@@ -38,7 +38,9 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
             found = proof(step, ascending(guess), nearby=True)
             if found is None:
                 continue
-            assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
+            assert set(differing_fields(found, truth)) <= (
+                NEARBY if truth.multipliers_unique else OTHERS
+            )
             mended += proof(step, ascending(guess)) is None
     assert mended >= 5
 

@@ -12,7 +12,7 @@ from tests.certify.test_exact import resting_point
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.rows_given import half_way
-from validation.make.confirmed_bits import differing, proof
+from validation.make.confirmed_bits import differing_fields, proof
 from validation.make.degenerate_bits import faults
 
 pytestmark = needs_compiler
@@ -48,7 +48,7 @@ def test_claims_of_rows_without_slack(loads, working, unique, smooth):
     step = resting_point(**loads)
     found = proved(step, working)
     assert (found.multipliers_unique, found.differentiable) == (unique, smooth)
-    assert differing(found, form_optimum(exact_form(step), working)) == []
+    assert differing_fields(found, form_optimum(exact_form(step), working)) == []
 
 
 def test_rows_that_other_contacts_span_are_zero_although_no_combination_of_their_own_shows_it():
@@ -61,7 +61,7 @@ def test_rows_that_other_contacts_span_are_zero_although_no_combination_of_their
     found = proved(step, SPINS)
     assert isinstance(found, ExactOptimum)
     assert (found.multipliers_unique, found.differentiable) == (False, True)
-    assert differing(found, form_optimum(exact_form(step), SPINS)) == []
+    assert differing_fields(found, form_optimum(exact_form(step), SPINS)) == []
 
 
 def test_a_slack_that_is_small_but_not_zero_is_no_zero():
@@ -70,7 +70,7 @@ def test_a_slack_that_is_small_but_not_zero_is_no_zero():
     found = proved(step, SPINS)
     truth = form_optimum(exact_form(step), SPINS)
     assert truth.working_set != tuple(SPINS)
-    assert not isinstance(found, ExactOptimum) or differing(found, truth) == []
+    assert not isinstance(found, ExactOptimum) or differing_fields(found, truth) == []
 
 
 @pytest.mark.parametrize("k", [1, 3])
@@ -78,7 +78,7 @@ def test_numbers_half_way_between_two_others_are_the_even_ones(k):
     step = half_way(k)
     found = proved(step, [0, 1])
     assert isinstance(found, ExactOptimum)
-    assert differing(found, form_optimum(exact_form(step), (0, 1))) == []
+    assert differing_fields(found, form_optimum(exact_form(step), (0, 1))) == []
     even = 1.0 if k == 1 else 1 + 2.0**-51  # 1 + 2^-53 and 1 + 3 2^-53
     assert found.delta_q[0] == even
     assert found.slack[2] == even
