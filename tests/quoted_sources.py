@@ -25,7 +25,7 @@ from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples.grasps import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.scenes.rigid import point_step
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
 from quasistatic_ref.optional.account.motions import link_motion

@@ -20,7 +20,7 @@ from quasistatic_ref.lab.scenes.rigid import (
     rigid_step,
     sphere_step,
 )
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.analytic.instances import INFEASIBLE, INSTANCES, G, instances, log, near
 from tests.closeness import assert_relative, assert_within

@@ -5,7 +5,7 @@ from scipy.optimize import linprog, minimize
 
 from quasistatic_ref import Box
 from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.friction import friction_rows
 from tests.analytic.instances import INFEASIBLE, INSTANCES, instances, near
 from tests.contact.still import found_for, placed_shape, standing_links

@@ -44,7 +44,7 @@ LAB = (
     "__main__",
     "lab/grasp",
     "lab/cached_runs",
-    "lab/sweep_numbers",
+    "lab/thresholds",
     "lab/json_schema",
     "lab/digits",
     "lab/folders",

@@ -19,7 +19,7 @@ CONFTEST = """
 from tests import conftest
 from tests.conftest import *
 
-conftest.missing = lambda extra: extra == "robots"
+conftest.is_missing = lambda extra: extra == "robots"
 """
 """The hooks of this suite, where one extra is missing."""
 MARKED = """

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z, contacts_of
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 

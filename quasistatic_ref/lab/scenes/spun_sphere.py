@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.rigid import sphere_step
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.data import StepData
 
 M, INERTIA, RADIUS, MU_V, MU_OMEGA = 0.3, 8e-5, 0.05, 1.0, 0.01

@@ -1,4 +1,4 @@
-"""Free bodies that nothing bears where they start: gravity leads aside, or there is a gap below."""
+"""Where bodies are at the start: free ones that nothing bears, and some that are in each other."""
 
 from collections.abc import Iterator
 
@@ -13,6 +13,7 @@ from quasistatic_ref.optional.doctor.start import (
     free_bases,
     least,
     slices,
+    table,
 )
 from quasistatic_ref.tolerances import NEAR, SUNK
 
@@ -60,6 +61,25 @@ def nothing_below(start: Start) -> Iterator[Said]:
                 f"{1e3 * gap:.4g} mm away",
                 {"gap_mm": 1e3 * gap},
             )
+
+
+def penetration(start: Start) -> Iterator[Said]:
+    """Of each table of contacts the deepest pair, where it is deep for its smaller shape."""
+    deepest: dict[str, Said] = {}
+    if start.points is None:
+        return
+    for pair, own in slices(start.pairs):
+        depth = -float(start.points.phi[own].min(initial=0.0))
+        name = table(pair)
+        deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
+        if depth > SUNK * least(pair) and deeper:
+            deepest[name] = Said(
+                f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart",
+                f"{pair.name} is {1e3 * depth:.3g} mm deep at the start, and a step undoes that at "
+                f"once, with {depth / start.h**2:.3g} N for each kilogram",
+                {"depth_mm": 1e3 * depth},
+            )
+    yield from deepest.values()
 
 
 def _apart(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from quasistatic_ref.optional.doctor import (
-    backend_failures,
     contradictions,
     drag,
     few_points,
@@ -12,10 +11,9 @@ from quasistatic_ref.optional.doctor import (
     leaps,
     left_out,
     numbers,
-    penetration,
     placed,
-    proofs,
     several,
+    solving,
     strays,
     sunk,
     targets,
@@ -62,7 +60,7 @@ OF_SCENE = (
     Kind("gravity", True, placed.gravity),
     Kind("unsupported body", True, unsupported.unsupported),
     Kind("unsupported body", True, placed.nothing_below),
-    Kind("initial penetration", True, penetration.penetration),
+    Kind("initial penetration", True, placed.penetration),
     Kind("starts in the air", True, placed.in_the_air),
     Kind("guided friction", True, guides.guided),
     Kind("too few points", True, few_points.few_points),
@@ -94,7 +92,7 @@ AFTER = (
     Kind("joint beyond a limit", True, targets.joints_beyond),
     Kind("half a turn behind", True, targets.half_turns),
     Kind("free fall", True, unsupported.falling),
-    Kind("failing backend", True, backend_failures.backend_failures),
+    Kind("failing backend", True, solving.backend_failures),
     Kind("several solutions", False, several.several),
     Kind("drag", False, drag.drag),
     Kind("border of k", False, left_out.border),
@@ -102,7 +100,7 @@ AFTER = (
     Kind("uncertain forces", False, unborne.unborne),
 )
 NO_STEPS = Kind("no motion", True, numbers.no_steps)
-OF_TIME = (Kind("time of proof", False, proofs.proofs),)
+OF_TIME = (Kind("time of proof", False, solving.proofs),)
 """Of wall time, which is no part of a trajectory's file."""
 
 

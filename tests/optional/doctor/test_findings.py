@@ -8,7 +8,8 @@ import pytest
 from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, OF_TIME, of_task
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
-CELLS = (Path(__file__).parent / "finding_scenes.py").read_text("utf-8")
+FILES = [Path(__file__).with_name(f"{kind}_scenes.py") for kind in ("finding", "healthy")]
+CELLS = "\n".join(file.read_text("utf-8") for file in FILES)
 WORDS, *SCENES = re.split(r"^# %% ", CELLS, flags=re.M)
 OF_TASK = {kind.name for kind in of_task()}
 OF_PAGE = [kind for kind in (*OF_SCENE, *AFTER, *OF_TIME) if kind.name not in OF_TASK]

@@ -6,7 +6,7 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.lab.scenes.systems import body_text, simulator_of, steps_of, system_of
-from quasistatic_ref.lab.sweep_numbers import exact, grid
+from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 STEPS = 10

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
-from quasistatic_ref.lab.sweep_numbers import grid
+from quasistatic_ref.lab.thresholds import grid
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM

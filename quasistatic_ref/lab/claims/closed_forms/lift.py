@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
-from quasistatic_ref.lab.sweep_numbers import exact, grid, thresholds
+from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -6,7 +6,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.lab.sweep_numbers import exact, grid
+from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.5

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.sweep_numbers import exact, threshold
+from quasistatic_ref.lab.thresholds import exact, threshold
 from quasistatic_ref.step.data import Array, StepData
 
 MU = 0.6

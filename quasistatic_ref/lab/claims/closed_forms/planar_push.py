@@ -14,7 +14,7 @@ from quasistatic_ref.lab.scenes.slider import (
     rotated,
     turns,
 )
-from quasistatic_ref.lab.sweep_numbers import exact, grid
+from quasistatic_ref.lab.thresholds import exact, grid
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 ENCLOSED = 1e-15

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
-from quasistatic_ref.lab.sweep_numbers import grid
+from quasistatic_ref.lab.thresholds import grid
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.tolerances import CLOSED_FORM
 

@@ -5,7 +5,7 @@ import numpy as np
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
-from quasistatic_ref.lab.sweep_numbers import exact, grid, thresholds
+from quasistatic_ref.lab.thresholds import exact, grid, thresholds
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 

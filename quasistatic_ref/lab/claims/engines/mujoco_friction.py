@@ -8,7 +8,7 @@ import numpy as np
 from quasistatic_ref.lab.claims.claim import Claim, Comparison, Evidence, comparison, within
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
-from quasistatic_ref.lab.sweep_numbers import exact
+from quasistatic_ref.lab.thresholds import exact
 from quasistatic_ref.step.data import Array
 
 M = 0.3

@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
-from quasistatic_ref.lab.sweep_numbers import slope
+from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import FITTED

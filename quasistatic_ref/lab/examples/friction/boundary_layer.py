@@ -25,7 +25,7 @@ from quasistatic_ref.lab.scenes.spun_sphere import (
     layer_at_rate,
     layer_at_torque,
 )
-from quasistatic_ref.lab.sweep_numbers import slope
+from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
-from quasistatic_ref.lab.sweep_numbers import threshold
+from quasistatic_ref.lab.thresholds import threshold
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData

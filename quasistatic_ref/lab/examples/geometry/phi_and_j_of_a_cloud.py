@@ -15,7 +15,7 @@ from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
-from quasistatic_ref.lab.sweep_numbers import slope
+from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape

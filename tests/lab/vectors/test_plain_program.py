@@ -24,7 +24,7 @@ from validation.make.challenges import PLAIN
 
 PROGRAM = Path(program.__file__).parent
 LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
-FOUND = Path(__file__).with_name("found_in_runners.json")
+FOUND = Path(__file__).with_name("found_by_challenges.json")
 """Quadratic programs that this one or another once got wrong: rows that all but repeat or
 contradict each other, cones at their tips."""
 

@@ -1,4 +1,7 @@
-"""Numbers taken from sweeps by claims and examples: grids, exact answers, exponents, thresholds."""
+"""Exact steps over a grid of parameters: thresholds by bisection, and exponents, for claims.
+
+Whole scenarios are swept by ``study/measuring/sweep.py``.
+"""
 
 from collections.abc import Callable, Sequence
 from functools import partial

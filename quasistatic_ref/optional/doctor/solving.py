@@ -1,4 +1,4 @@
-"""Steps that the backend failed, or answered with fewer digits than were asked for."""
+"""How the steps of a run were solved: where the backend failed, and what their proofs cost."""
 
 from collections.abc import Iterator
 from math import log10
@@ -7,8 +7,15 @@ import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.simulate.law import CONVEX
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.step.cones import cone
+
+WORTH = 10.0
+"""Least time of a run whose proofs are named [s]."""
+SHARE = 0.8
+"""Of the time of such a run, above which its proofs are named [-]."""
 
 
 def backend_failures(run: Run) -> Iterator[Said]:
@@ -35,3 +42,18 @@ def backend_failures(run: Run) -> Iterator[Said]:
         f"{first}; the exact method solved them",
         {"failed": failed, "short": short, "step": first},
     )
+
+
+def proofs(trajectory: Trajectory) -> Iterator[Said]:
+    """A run that was proved in full, and could have had bounds of its errors in less time."""
+    proved = np.isin(trajectory["certificate"], ("exact", "enclosure")).any()
+    if not proved or trajectory.header.get("law", CONVEX) != CONVEX:
+        return
+    total = sum(float(seconds.sum()) for seconds in trajectory.seconds.values())
+    proof = float(trajectory.seconds["proof"].sum())
+    if total > WORTH and proof > SHARE * total:
+        yield Said(
+            'take certify = "residual", which bounds the error of each step in less time',
+            f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
+            {"proof_s": proof, "total_s": total},
+        )

@@ -1,0 +1,161 @@
+"""Short runs with no grave finding: cells, built with the words of finding_scenes.py."""
+
+# %% nothing: a box on a floor
+found = findings([box()])
+
+# %% nothing: a flat box
+found = findings([box(size=(0.2, 0.1, 0.01))])
+
+# %% nothing: a tall box
+found = findings([box(size=(0.05, 0.05, 0.3))])
+
+# %% nothing: a box turned about the vertical
+found = findings([box(rpy=(0, 0, 0.3))])
+
+# %% nothing: a box that starts 0.2 mm above the floor
+found = findings([box(xyz=(0, 0, 0.0502))])
+
+# %% nothing: a box that is pushed by less than its friction
+found = findings([box()], push={"box": (4, 0, 0)})
+
+# %% nothing: a box that slides slowly
+found = findings([box()], push={"box": (5.1, 0, 0)}, steps=10)
+
+# %% nothing: two boxes on each other
+found = findings([box(), box(name="top", xyz=(0, 0, 0.15))], [*STANDS, ("box", "top", 0.5, 4)])
+
+# %% nothing: two boxes side by side
+found = findings(
+    [box(), box(name="other", xyz=(0.1, 0, 0.05))],
+    [*STANDS, ("floor", "other", 0.5, 4), ("box", "other", 0.5, 4)],
+)
+
+# %% nothing: a ball on a floor
+found = findings([ball()], BALL_STANDS)
+
+# %% nothing: a ball that rolls
+found = findings([ball()], BALL_STANDS, push={"ball": (0.02, 0, 0)}, steps=20)
+
+# %% nothing: a ball with torsional friction
+found = findings([ball()], BALL_STANDS, mu_omega=0.005)
+
+# %% nothing: a log
+rod = Body.of_shape("rod", Cylinder(0.02, 0.1), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
+found = findings([rod], [("floor", "rod", 0.5, 4)])
+
+# %% nothing: a capsule
+pill = Body.of_shape("pill", Capsule(0.02, 0.05), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
+found = findings([pill], [("floor", "pill", 0.5, 2)])
+
+# %% nothing: a tin on its end
+found = findings([TIN], [("floor", "tin", 0.5, 4)])
+
+# %% nothing: a box of foam and one of lead
+found = findings(
+    [box(mass=0.03), box(mass=11.3, name="lead", xyz=(0.5, 0, 0.05))],
+    [*STANDS, ("floor", "lead", 0.5, 4)],
+)
+
+# %% nothing: a box on a table of its own size
+found = findings(
+    [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(0.1, 0.1, 0.4)), (0, 0, -0.2))]
+)
+
+# %% nothing: a box on a wide table
+found = findings(
+    [box()], [("table", "box", 0.5, 4)], [("table", Box(size=(2, 2, 0.04)), (0, 0, -0.02))]
+)
+
+# %% nothing: a box on a slope within its friction
+a = 0.3
+found = findings(
+    [box(xyz=(0.05 * np.sin(a), 0, 0.05 * np.cos(a)), rpy=(0, a, 0))],
+    [("slope", "box", 0.5, 4)],
+    [("slope", HalfSpace(np.array([np.sin(a), 0, np.cos(a)]), 0.0), (0, 0, 0))],
+)
+
+# %% nothing: a box against a wall
+found = findings(
+    [box()],
+    [*STANDS, ("wall", "box", 0.5, 4)],
+    [("wall", Box(size=(0.1, 2, 2)), (0.1, 0, 0))],
+    push={"box": (3, 0, 0)},
+)
+
+# %% nothing: a box in a corner
+found = findings(
+    [box()],
+    [*STANDS, ("east", "box", 0.5, 4), ("north", "box", 0.5, 4)],
+    [("east", Box(size=(0.1, 2, 2)), (0.1, 0, 0)), ("north", Box(size=(2, 0.1, 2)), (0, 0.1, 0))],
+    push={"box": (3, 3, 0)},
+)
+
+# %% nothing: a block in a slot without friction on its walls
+found = findings(
+    [box()], [*STANDS, ("wall-1", "box", 0.0, 4), ("wall+1", "box", 0.0, 4)], walls(0.1)
+)
+
+# %% nothing: a block in a slot with 5 mm of clearance
+found = findings([box()], IN_SLOT, walls(0.105))
+
+# %% nothing: a planar base without a floor
+found = findings([box(base="planar")], [], push={"box": (1, 0, 0)})
+
+# %% nothing: a planar base on a smooth floor
+found = findings([box(base="planar")], [("floor", "box", 0.0, 4)], push={"box": (1, 0, 0)})
+
+# %% nothing: a drawer on its joint alone
+found = findings([DRAWER], [])
+
+# %% nothing: a drawer that a finger pushes
+finger = motor("finger", size=TIP, xyz=(-0.06, 0, 0))
+found = findings([DRAWER, finger], [("finger", "drawer", 0.3, 1)], target=[0.001])
+
+# %% nothing: a door that a finger pushes
+door = Body("door", joint("revolute", "0 0 1", size=(0.4, 0.04, 0.4)))
+finger = motor("finger", "0 1 0", TIP, xyz=(0.15, -0.03, 0))
+found = findings([door, finger], [("finger", "door", 0.3, 1)], target=[0.001])
+
+# %% nothing: a box held by two fingers
+found = findings(
+    [box(xyz=(0, 0, 1)), *fingers(0.1, 1)],
+    [("left", "box", 0.5, 4), ("right", "box", 0.5, 4)],
+    target=[0.05, 0.05],
+)
+
+# %% nothing: a box held by two soft fingertips
+found = findings(
+    [box(xyz=(0, 0, 1)), *fingers(0.06, 1, TIP)],
+    [("left", "box", 0.5, 1), ("right", "box", 0.5, 1)],
+    target=[0.05, 0.05],
+    mu_omega=0.01,
+)
+
+# %% nothing: a box of a hundred points, all of which are kept
+found = findings([box()], [("floor", "box", 0.5, 100)], cloud={"box": FACE})
+
+# %% nothing: a robot's finger in the air
+found = findings([motor("finger")], [], target=[0.01])
+
+# %% nothing: a box without weight
+found = findings([box(xyz=(0, 0, 1))], [], gravity=(0, 0, 0))
+
+# %% nothing: a box that a step moves by a fifth of its size
+found = findings([box(mass=0.1)], [("floor", "box", 0.0, 4)], push={"box": (20, 0, 0)}, steps=1)
+
+# %% nothing: a wheel that turns by 0.24 rad in a step
+wheel = Body("wheel", joint("revolute", "0 0 1"), actuated="all", xyz=(0, 0, 0.2))
+found = findings([wheel], [("floor", "wheel", 0.5, 4)], target=[0.24], K_q=1e6, steps=1)
+
+# %% nothing: a target at the limit of its URDF
+found = findings([motor("finger")], [], target=[1.0])
+
+# %% nothing: a mu_omega as long as its box
+found = findings([box()], mu_omega=0.1)
+
+# %% nothing: a cloud of 19.9 m
+raft = [(x, y, -0.05) for x in (-9.95, 9.95) for y in (-9.95, 9.95)]
+found = findings([box()], cloud={"box": raft})
+
+# %% nothing: a passive wheel that turns about itself, and touches nothing
+found = findings([Body("wheel", joint("continuous", "0 0 1"), positions={"joint": 1.0})], [])
