@@ -34,9 +34,9 @@ def write_zip(vectors: Path, out: Path) -> tuple[Path, str]:
     """
     release, listed = manifest(vectors)
     found = edition(vectors)
-    if found.changed_layers:
+    if found.changed:
         problem = f"is not as version {release} has it; other cases are another version"
-        raise InputError(problem, file=vectors, field=found.changed_layers[0])
+        raise InputError(problem, file=vectors, field=found.changed[0])
     name = found.name.replace(" ", "-")
     files = {MANIFEST: bytes_read(vectors / MANIFEST)}
     for path, code in listed.items():
