@@ -28,11 +28,16 @@ class Plain:
         """The class that equality goes by: objects of two of them are not equal."""
         return cls
 
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """Names of what an object keeps, and a copy gets: its fields."""
+        return tuple(field.name for field in _declared(cls))
+
     def __hash__(self) -> int:
         return hash(bits(self))
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        values = {f.name: vars(self)[f.name] for f in _declared(self)}  # as they are kept
+        values = {name: getattr(self, name) for name in self.kept()}
         arrays = {name: a for name, a in values.items() if isinstance(a, np.ndarray)}
         return values, [name for name, array in arrays.items() if not array.flags.writeable]
 

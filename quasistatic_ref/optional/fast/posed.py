@@ -5,11 +5,12 @@ What a user changes of them, through ``replace``, is checked.
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -29,7 +30,7 @@ from quasistatic_ref.step.data import (
 )
 from quasistatic_ref.step.pivots import positive_definite
 
-T = TypeVar("T")
+T = TypeVar("T", bound=Plain)
 
 
 class Constants(NamedTuple):
@@ -62,6 +63,13 @@ class Constants(NamedTuple):
     def kind(self) -> type[StepData]:
         """The class of the steps, which keep M_u as it is kept here."""
         return StepData if self.M_u.ndim == 2 else BlockStep
+
+    def fields(self) -> dict[str, object]:
+        """What the steps keep of it, by name."""
+        own = self._asdict()
+        if self.kind is BlockStep:
+            own["blocks"] = own.pop("M_u")
+        return own
 
     def at(self, M_u: Array) -> "Constants":
         """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration.
@@ -101,7 +109,20 @@ def constants(
 
 
 class BlockStep(StepData):
-    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks."""
+    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks.
+
+    Attributes
+    ----------
+    blocks : ndarray, shape (n_u / 6, 6, 6)
+        The diagonal blocks of M_u [kg, kg m, kg m^2].
+    """
+
+    blocks: Array
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of any step, with the blocks in the place of M_u."""
+        return tuple("blocks" if name == "M_u" else name for name in super().kept())
 
     @classmethod
     def compared_as(cls) -> type:
@@ -111,13 +132,12 @@ class BlockStep(StepData):
     @property
     def kept_M_u(self) -> Array:
         """The diagonal blocks of M_u, shape (n_u / 6, 6, 6)."""
-        blocks: Array = vars(self)["M_u"]
-        return blocks
+        return self.blocks
 
     @property
     def M_u(self) -> Array:
         """All of M_u, shape (n_u, n_u): formed whenever it is read, and not kept."""
-        return whole(self.kept_M_u)
+        return whole(self.blocks)
 
     @property
     def H(self) -> Array:
@@ -126,14 +146,14 @@ class BlockStep(StepData):
 
     def inertia(self, u: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
-        blocks = self.kept_M_u
+        blocks = self.blocks
         block, place = np.divmod(u, blocks.shape[-1])
         entries = blocks[block[:, None], place[:, None], place]
         return np.where(block[:, None] == block, entries, 0.0)
 
     def coupled(self) -> tuple[Indices, Indices]:
         """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
-        blocks = self.kept_M_u
+        blocks = self.blocks
         block, one, other = np.nonzero(np.tril(blocks, -1))
         first = self.n_a + blocks.shape[-1] * block
         of_a, with_a = np.nonzero(np.tril(self.K_q, -1))
@@ -141,18 +161,16 @@ class BlockStep(StepData):
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
-        blocks = self.kept_M_u
+        blocks = self.blocks
         momentum: Array = blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)
         return momentum.ravel()
 
 
-def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
+def posed(kind: type[T], same: Mapping[str, object], own: Mapping[str, object]) -> T:
     """Data of a `kind`, unchecked: of fields that are the `same` at each step, and of their `own`.
 
     The arrays must be read-only; they are not copied.
     """
     made = kind.__new__(kind)
-    fields = vars(made)
-    fields.update(same)
-    fields.update(own)
+    made.__setstate__(({**same, **own}, []))  # as a copy gets its fields
     return made

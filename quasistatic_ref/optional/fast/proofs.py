@@ -180,7 +180,7 @@ class KeptGroup:
             "delta_q_bar_a": read_only(step.delta_q_bar_a[a]),
         }
         contacts = posed(Contacts, of_contacts, {"name": names, "J": J})
-        return posed(StepData, constant._asdict(), {**loads, "contacts": contacts})
+        return posed(StepData, constant.fields(), {**loads, "contacts": contacts})
 
 
 class Proofs:

@@ -10,7 +10,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
-from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.formats.plain import bits, field_values
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.fast.backends import (
@@ -104,7 +104,7 @@ class FastSimulator(Simulator):
             columns = self.blocks
         M_u = system.M_u(system.q_start) if large is None else system.mass_blocks
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, layout.rows, self.cone)
-        self.same: dict[str, Any] = self.constant._asdict()
+        self.same = self.constant.fields()
         mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
         self.friction = {
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
@@ -156,7 +156,7 @@ class FastSimulator(Simulator):
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
         if self.forms_forces:
-            solution = posed(FastSolution, {"in_c": self.in_c}, vars(solution))
+            solution = posed(FastSolution, field_values(solution), {"in_c": self.in_c})
         delta_q = solution.delta_q[: self.system.n_v]
         q_next = self.screws.integrate(delta_q)
         if self.compares:
@@ -232,7 +232,7 @@ class FastSimulator(Simulator):
             constant = self.constant.at(mass.at(self.poses.kinematics()))
             if constant is not self.constant:
                 self.constant = constant
-                self.same = constant._asdict()
+                self.same = constant.fields()
                 self.fitted = None
         return self.constant
 

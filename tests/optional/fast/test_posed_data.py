@@ -80,7 +80,7 @@ def test_blocks_of_M_u_have_the_entries_and_couplings_of_the_whole():
     blocks = np.array([random_stiffness(rng, 6, 2.0) for _ in range(3)])
     blocks[1] = np.diag(np.arange(1.0, 7.0))
     K_q = np.array([[2.0, 1.0], [1.0, 3.0]])
-    step = posed(BlockStep, {"h": 0.1, "K_q": K_q, "M_u": blocks, "tau_a": np.zeros(2)}, {})
+    step = posed(BlockStep, {"h": 0.1, "K_q": K_q, "blocks": blocks, "tau_a": np.zeros(2)}, {})
     u = np.array([1, 4, 9, 13, 17])
     np.testing.assert_array_equal(step.inertia(u), step.M_u[np.ix_(u, u)])
     below_the_diagonal = np.argwhere(np.tril(step.H, -1))

@@ -1,5 +1,6 @@
 """The forces of single contacts in fixed point: those of ``optional/forces``, if it is there."""
 
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import accumulate, combinations
 from typing import Any
@@ -116,20 +117,27 @@ class ForcesOfSteps:
         return self._kept
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class FastSolution(StepSolution):
     """A solution whose forces come from compiled code: the same, in less time.
 
-    Attributes
+    Parameters
     ----------
-    in_c : ForcesOfSteps
-        Not copied, compared or pickled: a copy has the forces of the core.
+    in_c : ForcesOfSteps or None
+        Not compared or copied: a copy has the forces of the core.
     """
+
+    in_c: ForcesOfSteps | None = field(default=None, compare=False)
+
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of any solution."""
+        return StepSolution.kept()
 
     @cached_property
     def forces(self) -> Array:
         """As of the base, shape (n_c, 4) [N, N m]."""
-        in_c: ForcesOfSteps | None = vars(self).get("in_c")
-        return super().forces if in_c is None else in_c.wrench(self)
+        return super().forces if self.in_c is None else self.in_c.wrench(self)
 
     @classmethod
     def compared_as(cls) -> type:
