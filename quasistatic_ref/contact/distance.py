@@ -69,6 +69,25 @@ class ClosestPoints(NamedTuple):
         return ClosestPoints._make(field[index] for field in self)
 
 
+class Search(NamedTuple):
+    """What the contacts of a pair are chosen from: N candidates, or points of a cloud.
+
+    Parameters
+    ----------
+    rank : ndarray, shape (N,)
+        Signed distances by which they are chosen, infinite of those that rank last [m].
+    number : ndarray of int, shape (N,)
+        Their :attr:`ClosestPoints.point`.
+    nearest, candidates : ClosestPoints
+        The closest pair of two solids, and all candidates; of a cloud none.
+    """
+
+    rank: Array
+    number: Indices
+    nearest: ClosestPoints
+    candidates: ClosestPoints
+
+
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
     """The contacts of all pairs, in order, each pair's in ascending distance, by brute force.
 
@@ -115,14 +134,37 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
-    candidates = every_candidate(pair, a, b, nearest)
-    order = closest(np.where(ranked_last(candidates, pair.k), np.inf, candidates.phi), pair.k)
+    found = search(pair, a, b, nearest)
+    candidates = found.candidates
+    order = closest(found.rank, pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
     beyond = np.maximum(FILLED, 2 * nearest.phi)
     far = nearest._replace(phi=beyond, tie=np.array([OWN]))
     missing = np.arange(pair.n_c - len(order))
     filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
     return joined_contacts([kept, filling])
+
+
+def search(
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints | None = None
+) -> Search:
+    """What the contacts of a pair are chosen from; `nearest` is its closest pair, if it is known.
+
+    Raises
+    ------
+    ContactError
+        As of :func:`closest_points`.
+    """
+    if pair.has_cloud:
+        solid, cloud = (a, b) if isinstance(b.shape, PointCloud) else (b, a)
+        assert isinstance(cloud.shape, PointCloud)
+        x = moved(relative_pose(solid, cloud), cloud.shape.points)
+        none = joined_contacts([])
+        return Search(solid.shape.signed_distance(x)[0], np.arange(len(x)), none, none)
+    nearest = nearest_of_solids(pair, a, b) if nearest is None else nearest
+    every = every_candidate(pair, a, b, nearest)
+    rank = np.where(ranked_last(every, pair.k), np.inf, every.phi)
+    return Search(rank, every.point, nearest, every)
 
 
 def closest(phi: Array, k: int) -> Indices:
@@ -153,13 +195,10 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     within : float
         [m].
     """
-    whole = replace(pair, k=pair.candidates)
-    if pair.has_cloud:
-        phi = pair_closest_points(whole, R, t).phi
-    else:
-        a, b = in_world(pair, R, t)
-        every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
-        phi = every.phi[~ranked_last(every, 1)]  # without the closest pair, if a corner is as near
+    found = search(replace(pair, k=pair.candidates), *in_world(pair, R, t))
+    phi = found.rank
+    if not pair.has_cloud:  # without the closest pair, if a corner is as near
+        phi = found.candidates.phi[~ranked_last(found.candidates, 1)]
     return int(np.count_nonzero(phi <= phi.min() + within))
 
 

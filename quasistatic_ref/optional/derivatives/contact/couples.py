@@ -7,12 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import (
-    ClosestPoints,
-    every_candidate,
-    in_world,
-    nearest_of_solids,
-)
+from quasistatic_ref.contact.distance import ClosestPoints, Search, in_world, search
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
@@ -44,7 +39,7 @@ class Rim(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PairInWorld:
-    """A pair at one configuration, whose closest points are computed when they are first read.
+    """A pair at one configuration, which is searched when that is first read.
 
     Parameters
     ----------
@@ -73,19 +68,14 @@ class PairInWorld:
         return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
 
     @cached_property
-    def nearest(self) -> ClosestPoints:
-        """The closest pair of two solids, of one entry."""
-        return nearest_of_solids(self.pair, *self.bodies)
-
-    @cached_property
-    def candidates(self) -> ClosestPoints:
-        """All candidates of two solids."""
-        return every_candidate(self.pair, *self.bodies, self.nearest)
+    def search(self) -> Search:
+        """What its contacts are chosen from."""
+        return search(self.pair, *self.bodies)
 
     @cached_property
     def closest(self) -> "Couple":
         """The closest pair of two solids, of which several contacts are kept, as a couple."""
-        return _couple(self, self.nearest, 0)
+        return _couple(self, self.search.nearest, 0)
 
 
 class Couple(NamedTuple):

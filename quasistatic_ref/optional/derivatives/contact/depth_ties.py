@@ -2,15 +2,13 @@
 
 import numpy as np
 
-from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.separations import gaps, tied_normals
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.contact.solids.polytope_pair import gaps_between
+from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import (
-    Capsule,
     Ellipsoid,
     HalfSpace,
     PointCloud,
@@ -45,17 +43,11 @@ def depth_tie(couple: Couple) -> bool:
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
     if couple.phi > 0:
         return False
-    P = polytope(a.shape)
-    Q = polytope(b.shape)
-    if P is None or Q is None:
+    found, every = pair_and_gaps(couple.of.pair.name, a, b)
+    if every is None:
         return _rival(a, b, couple)
-    core = couple.phi + P.margin + Q.margin
     within = TIED * couple.of.size
-    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-        return core <= within  # where the axes cross
-    every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
-    level = every >= core - within
-    return core < 0 and _differ(normals[level], a.R.T @ couple.n)
+    return couple.phi < 0 and len(tied_normals(a, b, found, within, every)) > 1
 
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:

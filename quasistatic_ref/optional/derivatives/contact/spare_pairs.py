@@ -52,7 +52,7 @@ def _covered(of: PairInWorld) -> bool:
     """Whether the corners at the distance of the closest pair are all of a face, or edge."""
     a, b = of.bodies
     n = of.closest.n
-    every = of.candidates
+    every = of.search.candidates
     level = every.phi <= of.closest.phi + REPEATED
     of_alpha = every.point < a.shape.corner_count
     of_beta = (every.point < of.pair.corners) & ~of_alpha
