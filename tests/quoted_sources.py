@@ -34,7 +34,7 @@ from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.helpers import error, pinch
-from tests.lab.study.test_known_issues import highs_solved
+from tests.lab.study.calling.test_known_issues import highs_solved as highs  # noqa: F401 a source
 from validation.make.challenges import ANSWERS
 from validation.programs.engines.second_order import STUDY
 from validation.programs.engines.second_order_page import rows_with as second_order
@@ -213,10 +213,6 @@ def tracker():
     names = ("RATIO", "SHORT", "WIDE")
     found = {name: re.search(rf"\b{name}(?: =)? ([\d.]+)", source) for name in names}
     return {"UNSEEN": UNSEEN} | {name: float(value[1]) for name, value in found.items()}
-
-
-def highs():
-    return highs_solved()
 
 
 # -- Closed forms ---------------------------------------------------------------------------------

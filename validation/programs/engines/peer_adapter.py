@@ -120,10 +120,9 @@ class Parameters(SimpleNamespace):
         return Parameters(**copy.deepcopy(vars(self), memo))
 
 
-def stand_ins(source):
-    """Put what the source imports and this does not use in its place."""
+def stand_ins(source, folder):
+    """Put what the source imports and this does not use in its place; files, in a folder."""
     nothing = type("Nothing", (), {"__init__": lambda self, *given: None})
-    folder = tempfile.mkdtemp()
     for inner in ("manipulation/models", "models"):
         (Path(folder) / inner).mkdir(parents=True)
     pydrake.common.GetDrakePath = lambda: folder
@@ -219,12 +218,19 @@ def smooth(simulator, targets, loads):
 def main():
     """Run all models with all solvers, and write what comes of it."""
     source = Path(sys.argv[1])
-    stand_ins(source)
-    from qsim.parser import QuasistaticParser
-
     # It leaves the solver of its barriers to CVXPY, which takes Clarabel: here at 1e-12.
     tight = dict.fromkeys(OPTIONS, TOLERANCES[TIGHT])
     cp.Problem.solve = partialmethod(cp.Problem.solve, solver=cp.CLARABEL, **tight)
+    with tempfile.TemporaryDirectory() as folder:
+        stand_ins(source, folder)
+        found = runs_of_models(source)
+    Path(sys.argv[2]).write_text(json.dumps(found))
+
+
+def runs_of_models(source):
+    """What comes of all models with all solvers, by model."""
+    from qsim.parser import QuasistaticParser
+
     found = {}
     for name, model in MODELS.items():
         path = source / "models" / "q_sys" / f"{name}.yml"
@@ -234,7 +240,7 @@ def main():
             if solver == TIGHT:
                 result, of_model["gradients"], of_model["barriers"] = result
             of_model["runs"][solver] = result
-    Path(sys.argv[2]).write_text(json.dumps(found))
+    return found
 
 
 if __name__ == "__main__":

@@ -1,1 +1,4 @@
-"""Claims about measurements."""
+"""Claims about measured pushes.
+
+They state what ``lab/reality`` predicts, and predict nothing themselves.
+"""

@@ -26,8 +26,8 @@ from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
     with_q,
 )
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND
-from tests.lab.vectors import kinks
-from tests.lab.vectors.kinks import squeezed_ball
+from tests.lab.vectors.layers import kinks
+from tests.lab.vectors.layers.kinks import squeezed_ball
 
 Y = 1
 """Of delta_q of the ball."""

@@ -9,7 +9,7 @@ from quasistatic_ref import InputError
 from quasistatic_ref.lab.vectors.challenge.diagnosis import GIVEN_UP
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
-from tests.lab.vectors.programs import command
+from tests.lab.vectors.challenge.programs import command
 
 HANGS = ("hangs", "holds one answer back", "starts another")
 """What waits for an answer that does not come, after others that did."""
