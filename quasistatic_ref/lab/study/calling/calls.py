@@ -8,24 +8,25 @@ import subprocess
 import sys
 import tempfile
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
+from scipy.sparse import issparse
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
+from quasistatic_ref.lab.study.calling.options import Options, takes_sparse
 from quasistatic_ref.lab.study.calling.packages import announced_function, function_at
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
-Options = dict[str, Any]
 Call = Callable[[StandardForm, Options, Reply | None], Reply]
 """(problem, options, reply to start from or None) -> reply: to start from it is of a solver that
 can; others look only at the problem."""
@@ -55,7 +56,7 @@ def neighbour(form: StandardForm, name: str) -> StandardForm:
 
 
 def call_of(solver: Solver, folder: str = ".") -> Call:
-    """The function that puts a problem to a solver.
+    """The function that puts a problem to a solver, in matrices as its interface takes them.
 
     Parameters
     ----------
@@ -68,6 +69,21 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     InputError
         If a package, a callable or a guest cannot be imported, or there is no such executable.
     """
+    call = _as_given(solver, folder)
+    if takes_sparse(str(solver.target), solver.interface):
+        return call
+    return lambda form, options, before: call(_in_arrays(form), options, before)
+
+
+def _in_arrays(form: StandardForm) -> StandardForm:
+    """The same with H and A as arrays."""
+    matrices: Iterable[Any] = (form.H, form.A)
+    H, A = (M.toarray() if issparse(M) else M for M in matrices)
+    return form._replace(H=H, A=A)
+
+
+def _as_given(solver: Solver, folder: str) -> Call:
+    """The same function, of matrices as they are."""
     name = str(solver.target)
     if solver.interface == "cvxpy":
         return _by_cvxpy(name)

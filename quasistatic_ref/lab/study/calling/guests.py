@@ -140,12 +140,15 @@ def _mpax() -> Native:
 
 
 def _proxqp() -> Native:
+    from scipy.sparse import issparse
+
     proxqp = import_module("proxsuite").proxqp
 
     def native(form: StandardForm, options: Options) -> Reply:
         m, n = form.A.shape
+        kind = proxqp.sparse if issparse(form.H) else proxqp.dense
         begin = perf_counter()
-        solver = proxqp.dense.QP(n, 0, m)
+        solver = kind.QP(n, 0, m)
         for name, value in options.items():
             setattr(solver.settings, name, value)
         solver.init(form.H, -form.g, None, None, -form.A, np.full(m, -np.inf), -form.b)
@@ -188,11 +191,11 @@ def _highs() -> Native:
 
 def _highs_model(highspy: Any, form: StandardForm, m: int, n: int) -> Any:
     """The program as HiGHS takes it: the lower triangle of H, and A, by columns."""
-    from scipy.sparse import csc_matrix
+    from scipy.sparse import csc_matrix, tril
 
     model = highspy.HighsModel()
     A = csc_matrix(form.A)
-    H = csc_matrix(np.tril(form.H))
+    H = tril(csc_matrix(form.H), format="csc")
     lp = model.lp_
     lp.num_col_ = n
     lp.num_row_ = m

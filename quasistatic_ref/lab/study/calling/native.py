@@ -2,10 +2,12 @@
 
 import importlib
 from time import perf_counter
+from typing import Any
 
 import numpy as np
+from scipy.sparse import csc_matrix, issparse, triu
 
-from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
@@ -51,9 +53,7 @@ class Native:
         return self.adapter.reply(same_H=same_H, warm=before.x is not None)
 
     def _set_up(self, form: StandardForm, options: Options) -> Reply:
-        order = self.kind.ORDER
-        self.program = Program(form.H.copy(order=order), -form.g, form.A.copy(order=order),
-                               form.b.copy())  # fmt: skip
+        self.program = self._program(form)
         begin = perf_counter()
         self.adapter = self.kind(self.program, options | self.quiet)
         ready = perf_counter()
@@ -63,3 +63,12 @@ class Native:
         said.own = said.seconds
         said.setup = ready - begin
         return said
+
+    def _program(self, form: StandardForm) -> Any:
+        """The problem as the adapter takes it, dense or sparse as it is."""
+        if issparse(form.H):
+            P = csc_matrix(triu(form.H))
+            return SparseProgram(form.H.copy(), P, -form.g, form.A.copy(), form.b.copy())
+        order = self.kind.ORDER
+        H = form.H.copy(order=order)
+        return Program(H, -form.g, form.A.copy(order=order), form.b.copy())

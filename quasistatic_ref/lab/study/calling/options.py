@@ -4,8 +4,8 @@ Each names the page of the solver's documentation. An author of a solver can add
 which reports print. `accuracy` are the options that a setting sets to its accuracy: those of the
 residuals, of the duality gap, and of what proves that there is no solution; `others` go with them.
 `defaults` are the solver's own tolerances of residuals and gap, and `promise` says what it promises
-by them (``promises.py``). A table of an interface has what differs there, and what the interface
-refuses.
+by them (``promises.py``). `sparse` are the interfaces that take sparse matrices. A table of an
+interface has what differs there, and what the interface refuses.
 """
 
 import tomllib
@@ -45,6 +45,13 @@ def options_at(name: str, interface: str, accuracy: float) -> Options:
     names = [option for option in own["accuracy"] if option not in refused]
     others: Options = own.get("others", {})
     return dict.fromkeys(names, max(accuracy, own.get("floor", 0.0))) | others
+
+
+def takes_sparse(name: str, interface: str) -> bool:
+    """Whether a solver is given sparse matrices as they are; otherwise it is given arrays."""
+    if interface in ("qpsolvers", "native"):
+        return interface in option_file(name).get("sparse", ())
+    return interface != "executable"
 
 
 def tolerances(name: str, interface: str, options: Options) -> Options:

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import measured_row
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER
-from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
 from quasistatic_ref.lab.study.store.store import contents
 
@@ -118,9 +118,8 @@ def _problem(name: str, store: str | Path | None) -> Problem:
         (found,) = set_read(own, ids=[name])
     else:
         found = _of_an_edition(name)
-    if not found.dense:
-        words = "has cones or sparse matrices; studies contain dense rows only"
-        raise InputError(words, value=name)
+    if found.facts["kind"] != QP:
+        raise InputError("has cones; studies contain rows only", value=name)
     return found
 
 

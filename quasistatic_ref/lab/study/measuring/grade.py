@@ -18,6 +18,7 @@ from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.verdict import (
     Terms,
     certificate_holds,
+    exact_terms,
     judged,
     largest,
     terms_of,
@@ -57,8 +58,8 @@ class ProblemForms:
         Of the problem in natural units.
     free : float
         ||H^-1 g||_H in natural units [-].
-    terms : dict of str to mapping
-        By units, what promises are about.
+    terms : dict of str to mapping or None
+        By units, what promises are about; None where there is no solution.
     """
 
     forms: dict[str, StandardForm]
@@ -66,7 +67,7 @@ class ProblemForms:
     answer: Answer
     norm: EnergyNorm
     free: float
-    terms: dict[str, Terms]
+    terms: dict[str, Terms | None]
 
 
 @lru_cache(maxsize=8)  # of the problem at which all solvers are
@@ -74,10 +75,10 @@ def problem_forms(problem: Problem) -> ProblemForms:
     """A problem in both units, and the norm that errors are measured in."""
     natural = problem.natural
     form = natural.form
-    norm = energy_norm(form.H)
+    norm = energy_norm(natural.H.toarray())
     free = float(norm.of_impulses(form.g[None])[0])
     raw = problem.form
-    terms = {RAW: terms_of(raw, problem.answer), NATURAL: terms_of(form, natural.answer)}
+    terms = {RAW: exact_terms(raw, problem.answer), NATURAL: exact_terms(form, natural.answer)}
     return ProblemForms({RAW: raw, NATURAL: form}, problem.units, natural.answer, norm, free, terms)
 
 
@@ -104,6 +105,7 @@ def grades(
     outcome, x, lam = _usable(form, reply)
     row = ungraded(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
     with np.errstate(all="ignore"):
+        terms = ready.terms[units] or terms_of(form, x, lam)
         if x is not None:
             row["residuals"] = _residuals(form, x, lam)
             if units == RAW:
@@ -118,7 +120,7 @@ def grades(
     certified = False
     if claim == INFEASIBLE and reply.lam is not None and reply.lam.shape == form.b.shape:
         certified = certificate_holds(form, reply.lam, setting.accuracy or UNSTATED["abs"])
-    return judged(row, claim, solver.promises(setting), ready.terms[units], certified)
+    return judged(row, claim, solver.promises(setting), terms, certified)
 
 
 def ungraded(

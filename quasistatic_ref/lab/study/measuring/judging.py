@@ -8,7 +8,7 @@ from pathlib import Path
 from quasistatic_ref.lab.study.calling.claims import claim
 from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.promises import promise_of
-from quasistatic_ref.lab.study.measuring.verdict import judged, terms_of
+from quasistatic_ref.lab.study.measuring.verdict import exact_terms, judged
 from quasistatic_ref.lab.study.problems.names import NATURAL
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
@@ -29,12 +29,13 @@ def judged_again(found: Contents, problems: Iterable[Problem]) -> Contents:
     Returns
     -------
     Contents
-        A claim of infeasibility keeps its verdict, for which its certificate was needed.
+        A row keeps its verdict if that needs the answer, which is not in the store: one on a
+        problem without a solution, and a claim that there is none, which may have a certificate.
     """
     terms = {}
     for one in problems:
         for units, own in (("raw", one), (NATURAL, one.natural)):
-            terms[one.id, units] = terms_of(own.form, own.answer)
+            terms[one.id, units] = exact_terms(own.form, own.answer)
     digits = {one["name"]: one["promised"] for one in found.study["settings"]}
     solvers = {}
     for solver in found.study["solvers"]:
@@ -52,7 +53,10 @@ def judged_again(found: Contents, problems: Iterable[Problem]) -> Contents:
         solver = solvers[label_of(row)]
         said = claim(row["interface"], str(solver["target"]), row["claimed"])
         promise = solver["promise"][row["setting"]]
-        new = judged(row, said, promise, terms[row["problem"], row["units"]])
+        exact = terms[row["problem"], row["units"]]
+        if exact is None:
+            return row
+        new = judged(row, said, promise, exact)
         return new | ({"wrong": row["wrong"]} if new["said_infeasible"] else {})
 
     study = found.study | {"solvers": list(solvers.values())}

@@ -6,8 +6,8 @@ larger than the promise of it, evaluated at the exact answer:
 
     residual > FACTOR (abs + rel max(terms) + rounding).
 
-At the exact answer, because there every term but ``|lam|`` is unique: a huge x excuses nothing, and
-a store alone suffices to judge its rows again.
+At the exact answer, because there every term but ``|lam|`` is unique: a huge x excuses nothing. Of
+a problem without a solution they are taken at the answer that was returned, as the solver does.
 """
 
 from collections.abc import Mapping
@@ -35,14 +35,21 @@ FIGURES = 3
 Terms = Mapping[str, float]
 
 
-def terms_of(form: StandardForm, answer: Answer) -> Terms:
-    """The terms that promises name, at the exact answer; without one those of the data alone.
+def exact_terms(form: StandardForm, answer: Answer) -> Terms | None:
+    """The terms of a problem at its exact answer, in the same units; None if it has no solution."""
+    return None if answer.farkas else terms_of(form, answer.x, answer.lam, SPREAD)
+
+
+def terms_of(form: StandardForm, x: Array | None, lam: Array | None, spread: float = 1.0) -> Terms:
+    """The terms that promises name, at an answer.
 
     Parameters
     ----------
     form : StandardForm
-    answer : Answer
-        In the same units.
+    x, lam : ndarray, shapes (n,) and (m,), or None
+        In the same units; None counts as zeros.
+    spread : float
+        By how much ``|lam|`` counts larger [-].
 
     Returns
     -------
@@ -50,8 +57,8 @@ def terms_of(form: StandardForm, answer: Answer) -> Terms:
         Also the sizes of what each residual sums up, whose rounding is the solver's by no fault.
     """
     n, m = len(form.g), len(form.b)
-    x = np.zeros(n) if answer.farkas else answer.x
-    lam = np.zeros(m) if answer.farkas else answer.lam
+    x = np.zeros(n) if x is None else x
+    lam = np.zeros(m) if lam is None else lam
     s = form.A @ x - form.b
     absolute = StandardForm(abs(form.H), abs(form.g), abs(form.A), abs(form.b))
     primal = absolute.A @ abs(x) + absolute.b
@@ -70,7 +77,7 @@ def terms_of(form: StandardForm, answer: Answer) -> Terms:
         "|x|2": float(np.linalg.norm(x)),
         "|s|": largest(s),
         "|s|2": float(np.linalg.norm(s)),
-        "|lam|2": np.inf if answer.farkas else SPREAD * float(np.linalg.norm(lam)),
+        "|lam|2": spread * float(np.linalg.norm(lam)),
         "|Ax|": largest(form.A @ x),
         "|Hx|": largest(form.H @ x),
         "|A'lam|": largest(form.A.T @ lam),

@@ -19,13 +19,8 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.lab.processes import adopt_orphans
-from quasistatic_ref.lab.study.calling.calls import (
-    Crashed,
-    Options,
-    call_of,
-    on_path,
-    reply_or_failure,
-)
+from quasistatic_ref.lab.study.calling.calls import Crashed, call_of, on_path, reply_or_failure
+from quasistatic_ref.lab.study.calling.options import Options
 from quasistatic_ref.lab.study.calling.sessions import kept_reply, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.messages import KEPT, NOTHING, READY, Response, to_bytes

@@ -18,7 +18,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
 from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.names import PARQUET, QPS
-from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package
 
 CARRIED = ("LICENSE*", "CITATION.cff")
@@ -202,7 +202,7 @@ def parquet_written(path: Path, problems: Sequence[Problem]) -> Path:
 
 def _parts(one: Problem) -> dict[str, Any]:
     """Its numbers by name: matrices dense, unless it is a sparse problem."""
-    sparse = SPARSE in one.facts["tags"]
+    sparse = one.sparse
     found: dict[str, Any] = {
         "H": one.H if sparse else one.H.toarray(),
         "A": one.A if sparse else one.A.toarray(),

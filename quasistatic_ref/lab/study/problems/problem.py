@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
@@ -98,7 +98,12 @@ class Problem:
     @property
     def dense(self) -> bool:
         """Whether it has rows, and so few that solvers of dense matrices take it."""
-        return self.facts["kind"] == QP and SPARSE not in self.facts["tags"]
+        return self.facts["kind"] == QP and not self.sparse
+
+    @property
+    def sparse(self) -> bool:
+        """Whether its matrices are left without zeros."""
+        return SPARSE in self.facts["tags"]
 
     @property
     def natural(self) -> "Problem":
@@ -124,5 +129,7 @@ class Problem:
 
     @property
     def form(self) -> StandardForm:
-        """H, g, A, b as dense arrays."""
+        """H, g, A, b: arrays, but of a sparse problem H and A in compressed columns."""
+        if self.sparse:
+            return StandardForm(csc_matrix(self.H), self.g, csc_matrix(self.A), self.b)
         return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)

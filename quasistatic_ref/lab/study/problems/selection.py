@@ -11,7 +11,7 @@ from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
-from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
 
 
 def set_identity(source: str) -> dict[str, Any]:
@@ -38,15 +38,15 @@ def problems_taken(
     Raises
     ------
     InputError
-        If a family is not there, or has cones or sparse matrices, for which studies have no place.
+        If a family is not there, or has cones, for which studies have no place.
     """
     wanted = {name: count for name, count in families.items() if count}
     every = set_read(problem_set_folder(source), list(wanted))
     found: list[Problem] = []
     for family, count in wanted.items():
         own = [one for one in every if one.facts["family"] == family]
-        if not all(one.dense for one in own):
-            words = "has cones or sparse matrices; studies contain dense rows only"
+        if not all(one.facts["kind"] == QP for one in own):
+            words = "has cones; studies contain rows only"
             raise InputError(words, field="problems.families", value=family)
         found += chosen(own, family, count, most.get(family))
     return found

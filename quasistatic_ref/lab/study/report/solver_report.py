@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Section
 from quasistatic_ref.lab.study.measuring.verdict import FACTOR, SPREAD
-from quasistatic_ref.lab.study.report import tables
+from quasistatic_ref.lab.study.report import studied, tables
 from quasistatic_ref.lab.study.report.cheats import cheat_alone
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of
 from quasistatic_ref.lab.study.report.rows import Where, rows_of
@@ -50,13 +50,13 @@ def solver_report(found: Contents, store: str = ".") -> Report:
     method = sentences(
         "method", limit=study["time_limit"], shift=1e3 * SHIFT, factor=FACTOR, spread=SPREAD
     )
-    places = [*tables.place_tables(study), tables.options_table(study["solvers"])]
+    places = [*studied.place_tables(study), studied.options_table(study["solvers"])]
     sections |= {
         "Steps in order": tables.sequence_tables(every, facts),
         "How calls ended": [tables.outcome_table(first)],
         "Method": method,
         "Limitations": sentences("limitations"),
-        "Problems": [tables.problem_table(facts)],
+        "Problems": [studied.problem_table(facts)],
         "Machine, versions, options": places,
     }
     title = "Solvers on contact problems with exact answers"

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
-from quasistatic_ref.lab.study.report.tables import place_tables
+from quasistatic_ref.lab.study.report.studied import place_tables
 from quasistatic_ref.lab.study.report.words import sentences
 from quasistatic_ref.lab.study.store.rows import Row
 

@@ -9,8 +9,6 @@ import numpy as np
 from quasistatic_ref.certify.norm import digits_of_error
 from quasistatic_ref.lab.page.parts import Block, Table
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, claim
-from quasistatic_ref.lab.study.calling.options import option_file
-from quasistatic_ref.lab.study.calling.promises import promise_words
 from quasistatic_ref.lab.study.calling.sessions import COLD
 from quasistatic_ref.lab.study.report.cheats import cheat_alone, cheat_in_order
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest
@@ -42,8 +40,6 @@ HALF = "half = 1, or all where a half is empty; calls that a budget did not reac
 ALL = "from the first column of claims on, of all problems"
 KEPT: Where = {"outcome": "solved", "feasible": True, "wrong": False}
 SHARED = "; on the {} on which all these solvers were called"
-FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")
-"""Numbers of a problem whose smallest and largest are shown."""
 WAY = ("interface", "solver", "claimed")
 Cell = Callable[[Rows], str]
 Mask = Callable[[Rows], Any]
@@ -460,60 +456,3 @@ def _median_or_none(values: np.ndarray) -> float | None:
 def _median_known(values: np.ndarray) -> str:
     median = _median_or_none(values)
     return "-" if median is None else f"{median:g}"
-
-
-# -- What was studied, and where ------------------------------------------------------------------
-
-
-def problem_table(facts: Sequence[Mapping[str, Any]]) -> Table:
-    """What the problems are."""
-    families: dict[str, list[Mapping[str, Any]]] = {}
-    for fact in facts:
-        families.setdefault(fact["family"], []).append(fact)
-    rows = tuple(
-        (family, str(len(own)), str(sum(f["kind"] == "exact" for f in own)),
-         *(_span([f[name] for f in own if f[name] is not None]) for name in FACTS))
-        for family, own in families.items()
-    )  # fmt: skip
-    names = ("family", "problems", "exact answers", "coordinates n", "rows m", "contacts",
-             "h [s]", "mass ratio", "condition of H, raw", "condition of H, natural")  # fmt: skip
-    return Table("The problems.", "the store, problems", names, rows)
-
-
-def _span(values: Sequence[float]) -> str:
-    if not values:
-        return "-"
-    low, high = (f"{v:.0f}" if 10 <= v < 1e4 else f"{v:.2g}" for v in (min(values), max(values)))
-    return low if low == high else f"{low} to {high}"
-
-
-def place_tables(study: Mapping[str, Any]) -> list[Table]:
-    """Machine and versions."""
-    names = study.get("machines", [])
-    tables = []
-    for title, field, first, one in (
-        ("Machine", "machine", "what", "which"),
-        ("Versions", "versions", "package", "version"),
-    ):
-        parts = [study[field][name] for name in names] if names else [study[field]]
-        lines = tuple(
-            (str(key), *(str(part.get(key, "-")) for part in parts))
-            for key in dict.fromkeys(key for part in parts for key in part)
-        )
-        columns = (first, *(names or [one]))
-        tables.append(Table(f"{title}.", f"the store, {field}", columns, lines, len(columns)))
-    return tables
-
-
-def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
-    """Every solver's options at every setting, what they promise, and its author's note."""
-    rows = tuple(
-        (s["name"], s["interface"], setting, f"`{options_words(options)}`",
-         option_file(str(s["target"])).get("source", "-"),
-         option_file(str(s["target"])).get("author") or "-", promise_words(s["promise"][setting]))
-        for s in solvers
-        for setting, options in s["options"].items()
-    )  # fmt: skip
-    names = ("solver", "interface", "setting", "its own options", "documented at",
-             "its author's note", "promised")  # fmt: skip
-    return Table("Options.", "the store, options", names, rows, left=7)

@@ -98,6 +98,19 @@ def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
     assert row_of(none, *zeros, setting=TIGHT)["wrong"]
 
 
+def test_relative_tolerances_without_a_solution_are_those_of_the_answer():
+    """As a solver measures them: FACTOR 1e-3 |Ax|, to which the terms' rounding adds 1e-12."""
+    (none,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["infeasible/0.01/0"])
+    form = none.natural.form
+    relative = {"tight": {"primal": {"rel": 1e-3, "of": ["|Ax|"]}}}
+    solver = Solver("mine", "callable", "m:f", promised=relative)
+    for size in (1.0, 1e4):
+        x = np.full(len(form.g), size)
+        row = row_of(none, x, np.zeros(len(form.b)), solver=solver)
+        limit = FACTOR * 1e-3 * abs(form.A @ x).max()
+        assert row["allowed"]["primal"] == float(f"{limit:.3g}")
+
+
 def test_a_certificate_clears_a_claim_only_where_it_holds_to_the_accuracy(wedge, problem):
     """Scaled to 1, the multipliers of the wedge have |A'y| = 2e-9 and b'y > 0: a near proof."""
     form = wedge.natural.form
@@ -118,7 +131,7 @@ def test_a_certificate_clears_a_claim_only_where_it_holds_to_the_accuracy(wedge,
 
 def test_no_row_called_false_has_all_of_its_residuals_within_the_limits(committed):
     false = [row for row in committed.rows if row["wrong"] and row["said_optimal"]]
-    assert len(false) > 300
+    assert len(false) > 200
     for row in false:
         pairs = [(row["residuals"][name], most) for name, most in row["allowed"].items()]
         assert any(most is not None and value > most for value, most in pairs), row

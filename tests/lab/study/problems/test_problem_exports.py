@@ -102,7 +102,7 @@ def test_files_in_qps_are_read_by_highs_and_by_the_lines_of_the_readme(few, tmp_
 
 def of_rows(name, H, g, A, b):
     """A problem of which nothing but its numbers is known."""
-    return Problem({"id": name}, csr_matrix(H), g, csr_matrix(A), b, None, None)
+    return Problem({"id": name, "tags": []}, csr_matrix(H), g, csr_matrix(A), b, None, None)
 
 
 ROWS = [

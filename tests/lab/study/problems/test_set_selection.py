@@ -55,10 +55,9 @@ def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_pat
         study_problems(taken(study, "gaps = 2"), tmp_path, progress=False)
 
 
-@pytest.mark.parametrize("family", ["sparse", "ellipsoid"])
-def test_families_that_studies_have_no_place_for_are_refused(family):
-    with pytest.raises(InputError, match="studies contain dense rows only"):
-        problems_taken("contact-qp-1", {family: 2}, {})
+def test_a_family_of_cones_is_refused():
+    with pytest.raises(InputError, match="has cones; studies contain rows only"):
+        problems_taken("contact-qp-1", {"ellipsoid": 2}, {})
 
 
 @pytest.mark.parametrize(("text", "words"), [
