@@ -75,7 +75,7 @@ def _one_screen(
         words.append(f"Made on {len(machines)} machines: {', '.join(machines)}; this table and "
                      f"the figures are of {comparison.drawn}.")  # fmt: skip
     for one in comparison.soonest:
-        if cheat := cheat_alone(one.rows):
+        if cheat := cheat_alone(comparison.every_call(one).at(feasible=True)):
             words.append(f"{one.label} looks as if it {cheat}.")
     times = comparison.busy or comparison.noise.words
     again = (

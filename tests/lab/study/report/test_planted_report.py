@@ -32,7 +32,7 @@ NAMED = {  # what is false of it on three problems, and what it looks like
 
 @pytest.fixture(scope="module")
 def screen(harmless, tmp_path_factory):
-    """The first table, by solver; the last of them would spoil the process of all others."""
+    """The page, and its first table by solver; the last would spoil the process of all others."""
     problems = set_read(problem_set_folder(CONTACT_QP_2), ids=PROBLEMS)
     keys = {"interface": "callable", "setting": "default", "mode": "", "warm": False,
             "units": "natural", "repetition": 0}  # fmt: skip
@@ -63,15 +63,18 @@ def screen(harmless, tmp_path_factory):
             for one in problems:
                 own = {"problem": one.id, "family": one.facts["family"], "solver": name}
                 store.add({**keys, **own, **measured(name, one)})
-    (_, _, columns, body), *_ = plain_report.parsed(markdown_page(study_report(folder)))
-    return {line[0]: dict(zip(columns, line, strict=True)) for line in body}
+    page = markdown_page(study_report(folder))
+    (_, _, columns, body), *_ = plain_report.parsed(page)
+    return page, {line[0]: dict(zip(columns, line, strict=True)) for line in body}
 
 
 @pytest.mark.parametrize("name", NAMED)
 def test_a_planted_solver_is_named_on_the_first_screen(name, screen):
     false, looks = NAMED[name]
-    line = screen[name]
+    page, lines = screen
+    line = lines[name]
     assert line["looks as if it"] == looks
+    assert (f"callable:{name} looks as if it {looks}." in page) == (looks != "-")
     counts = {column: int(line[column]) for column in line if column.startswith("false: ")}
     assert {column for column, count in counts.items() if count} == ({false} if false else set())
     assert not false or counts[false] >= 2  # rows that are ignored need not be violated by much

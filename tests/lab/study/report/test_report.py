@@ -162,26 +162,6 @@ def headline(folder, rows, **changes):
     return page, [dict(zip(columns, line, strict=True)) for line in body]
 
 
-def test_solvers_that_remember_or_have_the_answers_are_named(store, tmp_path):
-    """Ant's first calls take 100 times as long as the same again; all of bee's digits are right."""
-    rows = contents(store).rows
-    for row in rows:
-        if row["solver"] == "ant":
-            row["seconds"]["first"] = 100 * row["seconds"]["call"]
-        if row["solver"] == "bee" and row["outcome"] == "solved":
-            row["digits"]["delta_q"] = 16.0
-    page, lines = headline(tmp_path / "tricks", rows)
-    tricks = {
-        "ant": "remembers the last problem, or knows the problems",
-        "bee": "has the exact answers",
-        "cat": "-",
-    }
-    assert {line["solver"]: line["looks as if it"] for line in lines} == tricks
-    screen = page[: page.index("| solver")]
-    assert screen.count("looks as if it") == 3  # ant by two interfaces, and bee
-    assert "qpsolvers:bee looks as if it has the exact answers." in screen
-
-
 def test_times_are_ranked_on_a_quiet_machine_only(store, tmp_path):
     rows = contents(store).rows
     for load, ranked in (("0.4 9 9", True), ("0.6 0 0", False)):
