@@ -315,11 +315,9 @@ def differs(q: Question, one: str, other: str) -> bool:
             return True
         size = max((abs(v) for v in mine.values() if isinstance(v, int | float)), default=0.0)
         for path, value in mine.items():
-            if isinstance(value, str) or value is None:
-                same = value == theirs[path]
-            else:
-                same = abs(value - theirs[path]) <= OTHER * size
-            if not same:
+            given = theirs[path]
+            numbers = isinstance(value, int | float) and isinstance(given, int | float)
+            if abs(value - given) > OTHER * size if numbers else value != given:
                 return True
     return False
 

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref.lab.vectors.check.table import MISTAKES
 from validation.make.port_changes import RULES, changes, switched
-from validation.make.port_mutants import causes, kept_apart
+from validation.make.port_mutants import Question, causes, differs, kept_apart
 from validation.tools.ports import PORTS, texts
 
 LIBRARIES = {
@@ -47,6 +47,14 @@ def test_a_line_in_cpp_is_the_old_one_or_the_new_one():
     assert switched(first, 7) == (
         f"double w = MUTANT == 7 ? double({new[11:-1]}) : double({old[11:-1]});"
     )
+
+
+def test_an_answer_without_a_number_is_another_answer():
+    asked = Question("qp/1", "qp", {}, {"flags": {}})
+    one, rounded, none = (f'{{"output": {{"b": [2, {x}]}}}}' for x in ("1", "1.0000001", "null"))
+    assert not differs(asked, one, rounded)
+    assert differs(asked, one, none)
+    assert differs(asked, none, one)
 
 
 def test_every_mistake_that_is_named_has_its_places():
