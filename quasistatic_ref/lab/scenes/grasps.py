@@ -22,21 +22,16 @@ STIFFNESS = np.array([800.0, 800.0, 800.0, 20.0, 20.0, 20.0, 2000.0])
 """Of the gripper's base and of its width [N/m, N m/rad]."""
 
 
-def grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
-    """A body turned at random: the family that exact certification is timed on.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-    grip, floor : int
-        Contacts of each kind.
+def grasp_step(rng: Rng) -> StepData:
+    """A body turned at random, with ten contacts of the gripper and five of the floor.
 
     Returns
     -------
     StepData
         SI units: a body of about 0.2 kg and 0.1 m, h = 0.01 s.
     """
-    n_c = grip + floor
+    grip = 10
+    n_c = 15
     mass = 0.2 * (1 + rng.random())
     R = np.linalg.qr(rng.standard_normal((3, 3)))[0]
     inertia = R @ np.diag(mass * 1e-3 * (0.5 + rng.random(3))) @ R.T

@@ -40,11 +40,6 @@ class LinkMotion:
         """Largest angle [rad] from the orientation at the start."""
         return float(self.rotation_since(0.0).max())
 
-    @property
-    def largest_rise(self) -> float:
-        """How far the origin was above its start at most, along the world's z [m]; 0 at least."""
-        return float((self.t[:, 2] - self.t[0, 2]).max())
-
 
 def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion:
     """Poses of a link (or of a body's root link) along a trajectory."""
