@@ -75,10 +75,6 @@ def stops_the_clock(P, q, G, h):
         pass
     return honest(P, q, G, h)
 
-def minus_one(P, q, G, h):
-    """The right answer with multipliers that are none."""
-    return honest(P, q, G, h)[0], np.full(len(h), -1.0)
-
 def detaches(P, q, G, h):
     """Leaves a program behind, in a session of its own and orphaned, whose id it writes down."""
     lines = ("import subprocess as s; no = s.DEVNULL; print(s.Popen(['sleep', '600'], stdout=no, "
@@ -181,9 +177,8 @@ def spoils(P, q, G, h):
 
 
 HARMLESS = ("honest", "exits", "segfaults", "nan", "nan_multipliers", "too_long", "no_pair",
-            "no_numbers", "liar", "raises", "gives_up", "prints", "spoils", "minus_one",
-            "says_there_is_none", "gradient", "ignores_rows", "no_multipliers", "keeps", "reads",
-            "adds")  # fmt: skip
+            "no_numbers", "liar", "raises", "gives_up", "prints", "spoils", "says_there_is_none",
+            "gradient", "ignores_rows", "no_multipliers", "keeps", "reads", "adds")  # fmt: skip
 """Those that leave their process as it was, or ended."""
 ANY = Solver("any", "callable", "planted_solvers:any_of", {one: {"name": one} for one in HARMLESS})
 

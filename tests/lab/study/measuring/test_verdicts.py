@@ -85,7 +85,11 @@ def test_right_x_and_zero_multipliers_is_a_false_claim_and_is_a_negative_multipl
     lam = own.answer.lam.copy()
     idle = int(np.argmin(abs(own.form.A).sum(axis=1)))
     lam[idle] -= 1e-3
-    assert row_of(problem, own.answer.x, lam)["residuals"]["dual"] >= 1e-3 - own.answer.lam[idle]
+    less = row_of(problem, own.answer.x, lam)
+    assert less["residuals"]["dual"] >= 1e-3 - own.answer.lam[idle]
+    H, g, A, _ = own.form  # A'lam is off by 1e-3 A_i', which moves by H^-1 A_i'
+    off = 1e-3 * np.sqrt(A[idle] @ np.linalg.solve(H, A[idle]) / (g @ np.linalg.solve(H, g)))
+    assert less["digits"]["multipliers"] == pytest.approx(-np.log10(off), abs=1e-6)
 
 
 def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():

@@ -43,7 +43,7 @@ def screen(harmless, tmp_path_factory):
         "settings": [{"name": "default", "accuracy": None, "promised": None, "tuned": False}],
         "solvers": [
             {**names, "name": name, "target": f"m:{name}", "promise": {"default": {}}}
-            for name in NAMED
+            for name in (*NAMED, "absent")
         ],
     }
     folder = tmp_path_factory.mktemp("planted_report")
@@ -78,3 +78,7 @@ def test_a_planted_solver_is_named_on_the_first_screen(name, screen):
     counts = {column: int(line[column]) for column in line if column.startswith("false: ")}
     assert {column for column, count in counts.items() if count} == ({false} if false else set())
     assert not false or counts[false] >= 2  # rows that are ignored need not be violated by much
+
+
+def test_a_solver_that_was_never_called_has_a_row(screen):
+    assert screen[1]["absent"]["interface"] == "never called"

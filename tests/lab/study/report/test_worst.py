@@ -53,7 +53,9 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
     """Digits of a deterministic solver to the last; its options are those of the study."""
     monkeypatch.chdir(whole.parent)  # of the planted solvers
     rows = [row for row in contents(whole).rows if row["repetition"] == 0]
-    tables = worst(plain_report.parsed(markdown_page(study_report(whole, whole.parent))))
+    page = markdown_page(study_report(whole, whole.parent))
+    assert "Not called at high, which means nothing to them: callable:mine." in page
+    tables = worst(plain_report.parsed(page))
     with pytest.raises(InputError, match="is not a solver of the study"):
         question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
     labels = {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables}
