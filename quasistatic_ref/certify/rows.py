@@ -3,20 +3,26 @@
 The rows of A are contact-major; the user's own rows come last, as if of one contact more.
 """
 
-from bisect import bisect_right
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.data import Indices, StepData, row_layout
 
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
     """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
-    offsets = step.offsets.tolist()
-    placed = ((i, bisect_right(offsets, i) - 1) for i in rows)
-    return tuple((contact, i - offsets[contact]) for i, contact in placed)
+    every = _every_row(step.cone, step.contacts.rows.tobytes(), len(step.extra.names))
+    return tuple([every[i] for i in rows])
+
+
+@lru_cache(maxsize=32)
+def _every_row(cone_name: str, rows: bytes, extra: int) -> list[tuple[int, int]]:
+    """(contact, row) of every row of A, from what decides its layout."""
+    counts = [*row_layout(cone_name, rows).counts.tolist(), extra]
+    return [(contact, row) for contact, count in enumerate(counts) for row in range(count)]
 
 
 def places(step: StepData, rows: Iterable[int]) -> Indices:

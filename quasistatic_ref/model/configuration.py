@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.step.arrays import Array, checked_numbers
-from quasistatic_ref.step.ordered import length
+from quasistatic_ref.step.ordered import length, norm
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 W_FIRST = [1.0, 0.0, 0.0, 0.0]
@@ -57,6 +57,27 @@ def unit_configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array
             problem = f"its {joint.unit} has length 0, which gives no direction"
             raise ModelError(problem, field=f"q[{joint.name}]")
     return normalised(joints, checked)
+
+
+def surely_configurations(joints: Sequence[Joint], q: Array) -> bool:
+    """Whether :func:`configuration` would surely change nothing but signs of zeros.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        All, or the first of them.
+    q : ndarray, shape (..., n)
+        The entries of these joints in each of several q.
+    """
+    if not np.isfinite(q).all():
+        return False
+    for joint in joints:
+        unit = q[..., joint.unit_part]
+        if joint.unit and not (np.abs(norm(unit) - 1) <= UNIT_ROUNDING).all():
+            return False
+        if unit.shape[-1] == len(W_FIRST) and (unit == W_FIRST).all(axis=-1).any():
+            return False
+    return True
 
 
 class UnitParts:

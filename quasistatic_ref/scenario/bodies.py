@@ -245,8 +245,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
             times.setdefault(name, []).append(t)
             values.setdefault(name, []).append(target)
     return [
-        JointTrack(system, joints[name], np.array(times[name]), np.array(values[name]))
-        for name in times
+        JointTrack(joints[name], np.array(times[name]), np.array(values[name])) for name in times
     ]
 
 

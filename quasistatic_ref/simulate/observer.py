@@ -1,13 +1,14 @@
 """What watches a run: before each step, after it, and at the end."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from numpy.typing import ArrayLike
+
 from quasistatic_ref.parts import part
-from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.recorder import Recorder
+    from quasistatic_ref.simulate.recorder import Recorder, StepArrays
     from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -19,19 +20,32 @@ class Observer:
     ----------
     notes : tuple of str
         Names of what :meth:`after` returns.
+    every_step : bool
+        Whether :meth:`after` is called after each step, and not once for several, in less time.
     """
 
     notes: tuple[str, ...] = ()
+    every_step: bool = False
 
     def before(self, recorder: "Recorder") -> None:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""
 
     def after(
-        self, recorder: "Recorder", result: "StepResult"
-    ) -> Mapping[str, Array | float | None]:
-        """After a step: numbers of any shape [any unit] that are kept with it, None for NaN.
+        self, recorder: "Recorder", results: "Sequence[StepResult]", arrays: "StepArrays"
+    ) -> Mapping[str, ArrayLike]:
+        """After a step, or several: numbers (steps, ...) [any unit] that are kept, None for NaN.
 
         They are no part of the trajectory; `recorder.noted` gives them to :meth:`end`.
+
+        Parameters
+        ----------
+        recorder : Recorder
+            Which has counted these steps.
+        results : sequence of StepResult
+            Of the last steps.
+        arrays : dict of str to ndarray
+            What the recorder keeps of them, by the names of a trajectory [of the notation]; of q
+            where each step has led.
         """
         return {}
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import needed_part
@@ -16,16 +17,20 @@ from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.simulator import Simulator
 
-PACKED = 1000
-"""Steps that are kept one by one before they become arrays, which take less memory."""
+PACKED = 100
+"""Steps that are kept one by one before they become arrays, all at once."""
+LARGEST = 1_000_000
+"""Entries of J that are kept so, beyond those of one step."""
+POINTS = ("phi", "alpha", "beta", "n", "point")
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
@@ -101,7 +106,7 @@ class Recorder(Shown):
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.parts: list[StepArrays] = []
-        self._rows: list[dict[str, Any]] = []
+        self._latest: list[tuple[Array, StepResult]] = []
 
     @property
     def t(self) -> float:
@@ -116,66 +121,81 @@ class Recorder(Shown):
         q_bar_a : ndarray, shape (n_q_a,)
             Its target.
         result : StepResult
+
+        Raises
+        ------
+        InputError
+            If the record holds forces and they are not known.
         """
-        step = result.step
         solution = result.solution
-        points = result.points
-        row: dict[str, Any] = {
-            "t": self.t,
-            "delta_q": solution.delta_q[: self.system.n_v],  # without private rises
-            "q_bar_a": q_bar_a,
-            "phi": points.phi,
-            "alpha": points.alpha,
-            "beta": points.beta,
-            "n": points.n,
-            "d1": step.contacts.d1,
-            "d2": step.contacts.d2,
-            "point": points.point,
-            "lam": solution.lam,
-            "wrench": solution.wrench,
-            "certificate": solution.certificate.kind,
-            "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
-            "digits": _or_nan(solution.statistics.digits),
-            "q": result.q,
-            "tau": np.concatenate([step.tau_a, step.tau_u])[: self.system.n_v],
-        }
-        for observer in self.observers:
-            notes = observer.after(self, result)
-            row |= {name: _or_nan(value) for name, value in notes.items()}
-        row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
-        if self.record == "full":
-            row |= program(step)
-        first: Any = self.parts or self._rows
-        known = self.record == "forces"
-        if self.record == "full":
-            known = "forces" in first[0] if first else self.simulator.records_forces(solution)
-        if known:
-            row["forces"] = solution.forces
-        if self.record == "forces":
-            row["imbalance"] = solution.imbalance
-            delta_q = solution.delta_q.copy()
-            delta_q[self.system.n_v :] = 0.0
-            row["motion"] = step.contacts.motion(delta_q)
-        if self.simulator.law == COULOMB:
-            row |= {name: getattr(solution, name) for name in ITERATED}
+        if self.record == "forces" and not solution.alone:
+            raise InputError(UNKNOWN, field="forces")
+        self._latest.append((q_bar_a, result))
         self.alone &= solution.alone
-        if step.extra.names:
-            row["lam_extra"] = solution.lam_extra
-        self.extra = step.extra.names
-        self._rows.append(row)
+        self.extra = result.step.extra.names
         self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
         self.steps += 1
-        if len(self._rows) == PACKED:
+        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.kept_J.size))
+        if len(self._latest) >= most or any(each.every_step for each in self.observers):
             self.packed()
 
     def packed(self) -> list[StepArrays]:
         """All steps so far as arrays, in parts: those added since the call before are the last."""
-        if self._rows:
-            self.parts.append(
-                {key: np.array([r[key] for r in self._rows]) for key in self._rows[0]}
-            )
-            self._rows = []
+        if self._latest:
+            q_bar_a, results = zip(*self._latest, strict=True)
+            self._latest = []
+            arrays = self._arrays(q_bar_a, results)
+            for observer in self.observers:
+                notes = observer.after(self, results, arrays)
+                arrays |= {name: np.array(one, np.float64) for name, one in notes.items()}
+            self.parts.append(arrays)
         return self.parts
+
+    def _arrays(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> StepArrays:
+        """What is kept of the last steps, which follow one another."""
+        solutions = [result.solution for result in results]
+        steps = [result.step for result in results]
+        first = steps[0]
+        certificates = [solution.certificate for solution in solutions]
+        n_v = self.system.n_v  # without private rises
+        lam = np.array([solution.lam for solution in solutions])
+        tau_a = np.array([step.tau_a for step in steps])
+        tau_u = np.array([step.tau_u for step in steps])
+        arrays: StepArrays = {
+            "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * self.h,
+            "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
+            "q_bar_a": np.array(q_bar_a),
+            **{name: _of_all([r.points for r in results], name) for name in POINTS},
+            **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
+            "lam": lam,
+            "wrench": without_warnings(contact_wrenches, first.contacts, lam, self.h, self.cone),
+            "certificate": np.array([one.kind for one in certificates]),
+            "worst_residual": np.array(
+                [max(one.residuals.values(), default=np.nan) for one in certificates]
+            ),
+            "digits": np.array([one.statistics.digits for one in solutions], np.float64),
+            "q": _of_all(results, "q"),
+            "tau": np.concatenate([tau_a, tau_u], axis=1)[:, :n_v],
+        }
+        for part in results[0].seconds:
+            arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
+        if self.record == "full":
+            arrays |= programs(steps)
+        known = self.record == "forces"
+        if self.record == "full" and self.parts:
+            known = "forces" in self.parts[0]
+        elif self.record == "full":
+            known = self.simulator.records_forces(solutions[0])
+        if known:
+            arrays["forces"] = _of_all(solutions, "forces")
+        if self.record == "forces":
+            arrays["imbalance"] = _of_all(solutions, "imbalance")
+            arrays["motion"] = motions(results, n_v)
+        if self.simulator.law == COULOMB:
+            arrays |= {name: _of_all(solutions, name) for name in ITERATED}
+        if first.extra.names:
+            arrays["lam_extra"] = _of_all(solutions, "lam_extra")
+        return arrays
 
     def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
         """Add steps that were taken before, as :meth:`packed` gave them.
@@ -255,27 +275,44 @@ class Recorder(Shown):
         return trajectory
 
 
-def program(step: StepData) -> dict[str, Array]:
-    """What a full record adds to a step: the quadratic program, and what that is made of.
+def motions(results: Sequence[StepResult], n_v: int) -> Array:
+    """J delta_q of the contacts of some steps, shape (steps, n_c, 4) [m, m, m, rad].
+
+    Of delta_q count the first n_v coordinates, without private rises.
+    """
+    found = []
+    for result in results:
+        delta_q = result.solution.delta_q
+        if len(delta_q) > n_v:
+            delta_q = np.concatenate([delta_q[:n_v], np.zeros(len(delta_q) - n_v)])
+        found.append(result.step.contacts.motion(delta_q))
+    return np.array(found)
+
+
+def programs(steps: Sequence[StepData]) -> StepArrays:
+    """What a full record adds to steps: the quadratic programs, and what those are made of.
 
     Returns
     -------
-    dict of str to ndarray, shape as in the notation
+    dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
         By the notation's names [in its units].
     """
-    form = standard_form(step)
-    row = {"H": form.H, "g": form.g, "A": form.A, "b": form.b, "J": step.contacts.J}
-    row |= {key: getattr(step, key) for key in PROGRAM if key not in row}
-    if step.extra.names:
-        row |= {"extra_A": step.extra.A, "extra_b": step.extra.b}
-    return row
+    forms = [standard_form(step) for step in steps]
+    arrays = {name: _of_all(forms, name) for name in StandardForm._fields}
+    arrays["J"] = np.array([step.contacts.J for step in steps])
+    arrays |= {name: _of_all(steps, name) for name in PROGRAM if name not in arrays}
+    if steps[0].extra.names:
+        extra = [step.extra for step in steps]
+        arrays |= {"extra_A": _of_all(extra, "A"), "extra_b": _of_all(extra, "b")}
+    return arrays
+
+
+def _of_all(objects: Sequence[Any], name: str) -> NDArray[Any]:
+    """One attribute of all objects as an array, which has them as its first axis."""
+    return np.array([getattr(one, name) for one in objects])
 
 
 def _over_all_steps(parts: list[StepArrays], key: str) -> NDArray[Any]:
     """One array of all steps, in which zero is 0.0, never -0.0."""
     array = np.concatenate([part[key] for part in parts])
     return array + 0.0 if array.dtype == np.float64 else array
-
-
-def _or_nan(value: Array | float | None) -> Array | float:
-    return np.nan if value is None else value

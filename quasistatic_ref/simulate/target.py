@@ -11,11 +11,10 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.model.system import System
-from quasistatic_ref.step.arrays import Array, freeze_copies
+from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 
 
-def piecewise_linear(times: Array, values: Array, t: float) -> Array:
+def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:
     """Linear between waypoints, held before the first and after the last.
 
     Parameters
@@ -24,15 +23,17 @@ def piecewise_linear(times: Array, values: Array, t: float) -> Array:
         Strictly increasing [s].
     values : ndarray, shape (w, d)
         [m, rad, -]
-    t : float
+    t : float or ndarray, shape (...)
         [s].
 
     Returns
     -------
-    ndarray, shape (d,)
+    ndarray, shape (..., d)
     """
     i, s = _interval(times, t)
-    return np.asarray(values[i] if s == 0 else (1 - s) * values[i] + s * values[i + 1])
+    after = values[np.minimum(i + 1, len(times) - 1)]
+    s = s[..., None]
+    return np.where(s == 0, values[i], (1 - s) * values[i] + s * after)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,6 @@ class JointTrack(Plain):
 
     Parameters
     ----------
-    system : System
     joint : Joint
     times : ndarray, shape (w,)
         Strictly increasing [s].
@@ -54,7 +54,6 @@ class JointTrack(Plain):
         If the times do not increase.
     """
 
-    system: System
     joint: Joint
     times: Array
     values: Array
@@ -65,31 +64,24 @@ class JointTrack(Plain):
             field = f"targets of {self.joint.name}"
             raise ScenarioError("waypoint times must increase", field=field, value=self.times)
 
-    def at(self, t: float) -> Array:
-        """The joint's entries of q at time t, shape (nq,)."""
-        if isinstance(self.joint, AxisJoint):
-            return np.array(self.joint.at(float(piecewise_linear(self.times, self.values, t)[0])))
-        i, s = _interval(self.times, t)
-        start = self._waypoints[i]
-        if s == 0:
-            return np.asarray(start[self.joint.q])
-        # The geodesic of (+): a screw when the base both moves and turns.
-        return np.asarray(self.system.integrate(start, s * self._ways[i])[self.joint.q])
+    def over(self, t: Array) -> Array:
+        """The joint's entries of q at times t, shape (T,): shape (T, nq)."""
+        joint = self.joint
+        if isinstance(joint, AxisJoint):
+            positions = piecewise_linear(self.times, self.values, t)[:, 0]
+            return np.array([joint.at(position) for position in positions.tolist()])
+        intervals, shares = _interval(self.times, t)
+        found = []
+        for i, s in zip(intervals.tolist(), shares.tolist(), strict=True):
+            start = self.values[i].tolist()
+            # The geodesic of (+): a screw when the base both moves and turns.
+            found.append(joint.moved(start, [s * x for x in self._ways[i]]) if s else start)
+        return np.array(found)
 
     @cached_property
-    def _waypoints(self) -> list[Array]:
-        """Each as q, in which all else is neutral, shape (n_q,)."""
-        return [self._placed(value) for value in self.values]
-
-    @cached_property
-    def _ways(self) -> list[Array]:
-        """The displacement from each to the next, shape (n_v,)."""
-        return [self.system.difference(*ends) for ends in pairwise(self._waypoints)]
-
-    def _placed(self, value: Array) -> Array:
-        q = self.system.neutral().copy()
-        q[self.joint.q] = value
-        return q
+    def _ways(self) -> list[list[float]]:
+        """The displacement from each waypoint to the next, n_v numbers of the joint."""
+        return [self.joint.change(*ends) for ends in pairwise(self.values.tolist())]
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,17 +103,19 @@ class Targets(Plain):
 
     def __call__(self, t: float) -> Array:
         """q_bar_a at time t [s], shape (n_q_a,)."""
-        q_bar_a = self.q_a_start.copy()
+        return np.asarray(self.over(np.array([t]))[0])
+
+    def over(self, t: Array) -> Array:
+        """q_bar_a at times t, shape (T,) [s]: shape (T, n_q_a)."""
+        q_bar_a = np.tile(self.q_a_start, (len(t), 1))
         for track in self.tracks:
-            q_bar_a[track.joint.q] = track.at(t)
+            q_bar_a[:, track.joint.q] = track.over(t)
         return q_bar_a
 
 
-def _interval(times: Array, t: float) -> tuple[int, float]:
-    """Index of the waypoint before t, and how far t is towards the next, in [0, 1)."""
-    i = int(np.searchsorted(times, t, side="right")) - 1
-    if i < 0:
-        return 0, 0.0
-    if i >= len(times) - 1:
-        return len(times) - 1, 0.0
-    return i, float((t - times[i]) / (times[i + 1] - times[i]))
+def _interval(times: Array, t: float | Array) -> tuple[Indices, Array]:
+    """Index of the waypoint before each t, and how far t is towards the next, in [0, 1)."""
+    last = len(times) - 1
+    i = np.clip(np.searchsorted(times, t, side="right") - 1, 0, last)
+    length = np.append(np.diff(times), np.inf)[i]
+    return i, np.maximum((t - times[i]) / length, 0.0)

@@ -4,6 +4,7 @@ They are functions of the time, of where the step starts, and of the result of t
 """
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.data import Array
 
@@ -28,6 +30,8 @@ Target = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike | Mapping[str, ArrayLi
 Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
+AT_ONCE = 100
+"""Steps whose targets are evaluated at once."""
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
@@ -59,6 +63,8 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     def unnamed(given: Any) -> Any:
         return named_target(system, given) if isinstance(given, Mapping) else given
 
+    if isinstance(target, Targets):
+        return _by_blocks(system, h, target, checked)
     if callable(target):
         goal = _returning(with_all_arguments(target, "target"), unnamed, (n,), "target")
         return lambda t, q, last: checked(goal(t, q, last))
@@ -72,6 +78,25 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         return lambda t, q, last: constant
     table = [checked(row) for row in values]
     return lambda t, q, last: table[round(t / h) - 1]
+
+
+def _by_blocks(
+    system: System, h: float, targets: Targets, checked: Callable[[Array], Array]
+) -> Checked:
+    """The targets of waypoints, evaluated and checked for many steps at once."""
+
+    @lru_cache(maxsize=1)
+    def block(first: int) -> Array | None:
+        t: Array = np.arange(first + 1.0, first + AT_ONCE + 1.0) * h
+        q_bar_a = targets.over(t) + 0.0
+        return q_bar_a if system.surely_actuated(q_bar_a) else None
+
+    def at(t: float, q: Array, last: "StepResult | None") -> Array:
+        k = round(t / h) - 1
+        values = block(k - k % AT_ONCE)
+        return checked(targets(t)) if values is None else np.asarray(values[k % AT_ONCE])
+
+    return at
 
 
 def named_target(system: System, values: Mapping[str, ArrayLike]) -> Array:

@@ -80,8 +80,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     Parameters
     ----------
     contacts : Contacts
-    lam : ndarray, shape (m,)
-        Multipliers, contact-major [N s]; in a curved cone each contact's impulse (n, d1, d2, spin).
+    lam : ndarray, shape (..., m)
+        Multipliers, contact-major [N s]; in a curved cone each contact's impulse (n, d1, d2, spin);
+        of one step, or of several.
     h : float
         Time step [s].
     name : str
@@ -89,7 +90,7 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
 
     Returns
     -------
-    ndarray, shape (n_c, 4)
+    ndarray, shape (..., n_c, 4)
         (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m]: a force at the point beta, and a torque
         about n.
     """
@@ -102,7 +103,7 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
 
 
 def impulses(contacts: Contacts, lam: Array, name: str) -> Array:
-    """The multiplier of each row of the cone, shape (n_c, R) [N s]; 0 where a contact lacks it.
+    """The multiplier of each row of the cone, (..., n_c, R) [N s]; 0 where a contact lacks it.
 
     Parameters
     ----------
@@ -110,23 +111,23 @@ def impulses(contacts: Contacts, lam: Array, name: str) -> Array:
         As in :func:`contact_wrenches`.
     """
     mask = row_layout(name, contacts.rows.tobytes()).mask
-    of_rows = np.zeros(mask.shape)
-    of_rows[mask] = lam
+    of_rows = np.zeros((*lam.shape[:-1], *mask.shape))
+    of_rows[..., mask] = lam
     return of_rows
 
 
 def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
-    """Wrenches times h, shape (n_c, 4) [N s, N m s], in floats or in fractions.
+    """Wrenches times h, shape (..., n_c, 4) [N s, N m s], in floats or in fractions.
 
     Parameters
     ----------
-    of_rows : ndarray, shape (n_c, R)
+    of_rows : ndarray, shape (..., n_c, R)
         Impulses [N s].
     matrix : ndarray, shape (R, 4)
         Of the cone [-].
     mu : ndarray, shape (n_c, 3)
         (mu_v, mu_v, mu_omega) [-, -, m].
     """
-    f_n, f_d1, f_d2, tau_n = (of_rows @ matrix).T
+    f_n, f_d1, f_d2, tau_n = np.moveaxis(of_rows @ matrix, -1, 0)
     mu_v, _, mu_omega = mu.T
-    return np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n]).T
+    return np.stack([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n], axis=-1)

@@ -31,8 +31,9 @@ lists would be counted, too."""
 LEFT = 50.0
 """Bytes that a step may leave between the 600th and the 1,000th, where NumPy still fills its cache
 of small arrays: 11 to 26 were seen; one number that is kept in a dictionary takes more than 60."""
-APIECE = 40
-"""Bytes a step beyond its numbers: of names and heads of arrays, which are there once."""
+STEPS = 10 * PACKED
+APIECE = 80
+"""Bytes a step beyond its numbers: of names and heads of arrays, once in PACKED steps."""
 
 
 def test_certified_steps_leave_nothing_behind():
@@ -50,9 +51,9 @@ def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     recorder = Recorder(simulator, q, "full")
     held = []
     tracemalloc.start()
-    for k in range(2 * PACKED):
+    for k in range(2 * STEPS):
         recorder.add(target, simulator.step(q, target))
-        if (k + 1) % PACKED == 0:
+        if (k + 1) % STEPS == 0:
             gc.collect()
             held.append(tracemalloc.get_traced_memory()[0])
     tracemalloc.stop()
@@ -60,4 +61,4 @@ def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     arrays = sum(array.nbytes for array in recorder.trajectory().arrays.values()) / 2
     # tau, the gap of each contact, three measures of artifacts, four wall times: 8 bytes each.
     more = 8 * (scenario.system.n_v + simulator.layout.rows.size + 3 + 4)
-    assert grown < arrays + PACKED * (more + APIECE)
+    assert grown < arrays + STEPS * (more + APIECE)

@@ -1,11 +1,14 @@
 """Observers of a run: when they are asked, what is kept of what they say, and how they end it."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Recorder, RunFailed, load_scenario, rollout
+from quasistatic_ref.simulate import recorder as recorder_module
+from quasistatic_ref.simulate import user_functions
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import PACKED
 
@@ -22,8 +25,9 @@ class Witness(Observer):
 
     notes = ("height", "unknown")
 
-    def __init__(self, ends_at=None):
+    def __init__(self, ends_at=None, every_step=True):
         self.ends_at = ends_at
+        self.every_step = every_step
         self.asked = []
 
     def before(self, recorder):
@@ -32,10 +36,11 @@ class Witness(Observer):
         if recorder.steps == self.ends_at:
             raise InputError("high enough")
 
-    def after(self, recorder, result):
-        """After it; the recorder counts it when all observers were asked."""
+    def after(self, recorder, results, arrays):
+        """After it, or several."""
+        assert [result.q.tolist() for result in results] == arrays["q"].tolist()
         self.asked.append(("after", recorder.steps))
-        return {"height": result.q[2], "unknown": None}
+        return {"height": arrays["q"][:, 2], "unknown": [None] * len(results)}
 
     def end(self, recorder, trajectory, interrupted):
         """At the end."""
@@ -55,12 +60,52 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
     witness = Witness()
     plain = scenario.run(progress=False)
     run = run_with(scenario, witness)
-    steps = [(when, k) for k in range(STEPS) for when in ("before", "after")]
+    steps = [each for k in range(STEPS) for each in (("before", k), ("after", k + 1))]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
     assert run.header == {**plain.header, "heights": run.q[1:, 2].tolist()}
     assert run.arrays.keys() == plain.arrays.keys()
     for name, array in plain.arrays.items():
         np.testing.assert_array_equal(run[name], array)
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "block_push"])
+def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
+    """In all arrays, notes and findings, also of targets that are evaluated one by one."""
+    scene = load_scenario(name, steps=30, record="full", fast=True)
+    whole = scene.run(progress=False)
+    witness = Witness(every_step=True)
+    monkeypatch.setattr(user_functions, "AT_ONCE", 1)
+    single = scene.run(progress=False, observers=[witness])
+    assert len(witness.asked) == 2 * len(whole) + 1
+    monkeypatch.undo()
+    monkeypatch.setattr(recorder_module, "PACKED", 7)
+    witness = Witness(every_step=False)
+    some = scene.run(progress=False, observers=[witness])
+    assert len(witness.asked) == len(whole) + math.ceil(len(whole) / 7) + 1
+    for run in (single, some):
+        assert run.header == {**whole.header, "heights": run.header["heights"]}
+        assert run.arrays.keys() == whole.arrays.keys()
+        for key, array in whole.arrays.items():
+            assert run[key].tobytes() == array.tobytes()
+
+
+def test_what_was_taken_is_kept_where_a_run_ends_between_two_packings(scenario):
+    whole = scenario.run(progress=False)
+
+    def target(t, q, last):
+        if last is not None and t > 2.5 * scenario.h:
+            raise KeyboardInterrupt
+        return scenario.targets(t)
+
+    with pytest.raises(RunFailed, match="step 2: interrupted") as caught:
+        rollout(
+            scenario.simulator(), scenario.system.q_start, target, STEPS,
+            force=scenario.force, progress=False,
+        )  # fmt: skip
+    kept = caught.value.trajectory
+    assert len(kept) == 2
+    for key in ("q", "lam", "wrench", "t"):
+        assert kept[key].tobytes() == whole[key][: len(kept[key])].tobytes()
 
 
 def test_an_observer_ends_a_run_as_any_failure_does(scenario):

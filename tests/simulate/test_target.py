@@ -5,8 +5,9 @@ import pytest
 from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import ScenarioError, load_scenario
-from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
+from quasistatic_ref import ModelError, ScenarioError, load_scenario
+from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
+from quasistatic_ref.simulate.user_functions import target_function
 from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
@@ -30,9 +31,10 @@ def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
 
 def test_a_continuous_joint_may_turn_beyond_pi(scene):
     angles = np.array([[0.0], [7.0]])
-    track = JointTrack(scene, scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
-    for t, angle in ((0.0, 0.0), (0.5, 3.5), (0.9, 6.3), (1.0, 7.0), (2.0, 7.0)):
-        assert_close(track.at(t), [np.cos(angle), np.sin(angle)], ROUNDING)
+    track = JointTrack(scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
+    angle = np.array([0.0, 3.5, 6.3, 7.0, 7.0])
+    found = track.over(np.array([0.0, 0.5, 0.9, 1.0, 2.0]))
+    assert_close(found, np.column_stack([np.cos(angle), np.sin(angle)]), ROUNDING)
 
 
 def transform(value):
@@ -48,20 +50,57 @@ def target_at_random(rng):
 
 def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
     values = np.array([target_at_random(rng), target_at_random(rng), target_at_random(rng)])
-    track = JointTrack(scene, scene.joint("arm/base"), TIMES, values)
+    track = JointTrack(scene.joint("arm/base"), TIMES, values)
     for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
         start = transform(values[i])
         end = transform(values[i + 1])
         xi = np.real(logm(np.linalg.inv(start) @ end))
         expected = start @ expm(s * xi)
-        assert_close(transform(track.at(t)), expected, DIFFERENCE)
+        assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])
 def test_times_that_do_not_increase_are_refused(scene, times):
     joint = scene.joint("desk/slide")
     with pytest.raises(ScenarioError, match="targets of desk/slide: waypoint times must increase"):
-        JointTrack(scene, joint, np.array(times), np.zeros((2, 1)))
+        JointTrack(joint, np.array(times), np.zeros((2, 1)))
+
+
+def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
+    """Of a base, a wheel and a slide, where each of them is between, at and beyond waypoints."""
+    tracks = [
+        JointTrack(
+            scene.joint("arm/base"), TIMES, np.array([target_at_random(rng) for _ in TIMES])
+        ),
+        JointTrack(scene.joint("arm/spin"), TIMES, rng.normal(size=(3, 1))),
+        JointTrack(scene.joint("desk/slide"), TIMES, rng.normal(size=(3, 1))),
+    ]
+    targets = Targets(scene.q_start[: scene.n_q_a], tracks)
+    h = 0.05
+    at = target_function(scene, h, targets, 100)
+    found = [at((k + 1) * h, scene.q_start, None) for k in range(100)]
+    for k, q_bar_a in enumerate(found):
+        t = (k + 1) * h
+        one = scene.checked(scene.with_actuated(scene.q_start, targets(t)))[: scene.n_q_a]
+        assert q_bar_a.tobytes() == one.tobytes()
+    slide = scene.joint("desk/slide").q.start
+    np.testing.assert_allclose(
+        np.array(found)[:, slide], np.interp(h * np.arange(1, 101), TIMES, tracks[2].values[:, 0]),
+        rtol=0, atol=ROUNDING,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("bad", [[1.0, 0, 0, 0], [0, 0, 0, 2.0], [0, 0, 0, np.nan]])
+def test_a_bad_waypoint_is_refused_at_its_step(scene, bad):
+    start = scene.q_start[scene.joint("arm/base").q]
+    values = np.array([start, start, [*start[:3], *bad]])
+    targets = Targets(
+        scene.q_start[: scene.n_q_a], [JointTrack(scene.joint("arm/base"), TIMES, values)]
+    )
+    at = target_function(scene, 1.0, targets, 10)
+    np.testing.assert_array_equal(at(2.0, scene.q_start, None), scene.q_start[: scene.n_q_a])
+    with pytest.raises(ModelError, match="arm/base"):
+        at(4.0, scene.q_start, None)
 
 
 TURNS = {

@@ -219,19 +219,13 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         If the file has no names of its positions or no scene, or its scene is none.
     """
     header = trajectory.header
-    if "scene" not in header or "positions" not in header:
-        problem = "has no scene: it is from before there were accounts; run it again"
-        raise InputError(problem, field="scene")
-    scene = TableReader(header["scene"], "scene")
+    scene = _scene(header)
     waypoints = scene.table("waypoints")
     times = {name: tuple(waypoints.sequence(name)) for name in waypoints.names_left()}
     stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
-    gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
     every = list(joints_of(header["positions"], header["n_a"]))
     missing: list[str] = []
-    pairs: tuple[PairAccount, ...] = ()
-    if trajectory.steps:
-        pairs = tuple(_pairs(trajectory, scene.sequence("pairs"), gravity, forces, missing))
+    pairs = pair_accounts(trajectory, forces, missing)
     free = [joint for joint in every if not joint.actuated]
     return Account(
         t=trajectory["t"],
@@ -247,6 +241,32 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         missing=tuple(missing),
         findings=tuple(str(finding) for finding in trajectory.findings),
     )
+
+
+def pair_accounts(
+    trajectory: Trajectory, forces: bool, missing: list[str]
+) -> tuple[PairAccount, ...]:
+    """The accounts of the pairs of a run; errors and `forces` as of :func:`account_of`.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    forces : bool
+    missing : list of str
+        To which what is not known is added.
+    """
+    scene = _scene(trajectory.header)
+    if not trajectory.steps:
+        return ()
+    gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
+    return tuple(_pairs(trajectory, scene.sequence("pairs"), gravity, forces, missing))
+
+
+def _scene(header: Mapping[str, Any]) -> TableReader:
+    if "scene" not in header or "positions" not in header:
+        problem = "has no scene: it is from before there were accounts; run it again"
+        raise InputError(problem, field="scene")
+    return TableReader(header["scene"], "scene")
 
 
 def joints_of(positions: list[str], n_a: int) -> Iterator[Joint]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.account.account import PairAccount, account_of
+from quasistatic_ref.optional.account.account import PairAccount, pair_accounts
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length, listed
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -70,7 +70,7 @@ class Task:
         self.steps = trajectory.steps
         self.end = trajectory.steps * run.h
         self.tracks = run.recorder.tracks
-        self.accounts = account_of(trajectory, forces=False).pairs
+        self.accounts = pair_accounts(trajectory, False, [])
         moves = self.system.column_map.of_coordinates(self.system.column_map.moves)[:, 0] != 0
         self.driven = moves[:, : self.system.n_a].any(axis=1)
         self.free = moves[:, self.system.n_a :].any(axis=1) & ~self.driven

@@ -1,102 +1,126 @@
-"""How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer."""
+"""How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer.
 
-from collections.abc import Iterable
-from typing import Any, NamedTuple
+They are measured of several steps of a simulator at once, along the first axis.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.doctor.start import free_bases
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import BEARS
 
 
-class Drag(NamedTuple):
-    """Spurious drag on a free body, and what its contacts can bear by friction.
+@dataclass(frozen=True, eq=False)
+class Drag:
+    """Spurious drag on a free body in each step, and what its contacts can bear by friction.
 
     Parameters
     ----------
     body : str
-    drag : float
-        ||M_u delta_q_u / h^2|| of its translation [N].
-    bears : float
+    drag : ndarray, shape (steps,)
+        ||M_u delta_q_u / h^2|| of its translation [N]; NaN where float64 has no number for it.
+    bears : ndarray, shape (steps,)
         Sum of mu_v f_n of its contacts [N]; where they bear nothing by friction, its weight.
-    touched, rubs : bool
+    touched, rubs : ndarray of bool, shape (steps,)
         Whether its contacts press at all, and whether they bear anything by friction.
     """
 
     body: str
-    drag: float
-    bears: float
-    touched: bool
-    rubs: bool
+    drag: Array
+    bears: Array
+    touched: Mask
+    rubs: Mask
 
     @property
-    def share(self) -> float | None:
-        """The quotient (R13) [-], 1 in free fall; None where float64 has no number for it."""
+    def share(self) -> Array:
+        """The quotient (R13), shape (steps,) [-], 1 in free fall; NaN as in `drag`."""
         return _quotient(self.drag, self.bears)
 
 
-def drags(system: System, step: StepData, delta_q: Array, wrench: Array, g: float) -> list[Drag]:
+def drags(
+    system: System, steps: Sequence[StepData], delta_q: Sequence[Array], wrench: Array, g: float
+) -> list[Drag]:
     """The drag on each floating base that is not actuated.
 
     Parameters
     ----------
     system : System
-    step : StepData
-    delta_q : ndarray, shape (n_v,)
-    wrench : ndarray, shape (n_c, 4)
-        Of its contacts [N, N m]: those of this delta_q, or of a step with another M_u.
+    steps : sequence of StepData
+    delta_q : sequence of ndarray, each of shape (n_v,)
+    wrench : ndarray, shape (steps, n_c, 4)
+        Of their contacts [N, N m]: those of this delta_q, or of steps with another M_u.
     g : float
         Length of gravity [m/s^2].
     """
-    momentum = step.momentum(delta_q)
+    first = steps[0]
+    bases = free_bases(system)
+    momentum = np.array([step.momentum(v) for step, v in zip(steps, delta_q, strict=True)])
+    presses = _loads(wrench)
+    rubs = first.contacts.mu_v * presses
     found = []
-    presses = _carried(step, np.ones(len(wrench)), wrench[:, 2])
-    friction = _carried(step, step.contacts.mu_v, wrench[:, 2])
-    for body, base in free_bases(system).items():
+    for body, base in bases.items():
         x = base.v.start
-        drag = _quotient(np.linalg.norm(momentum[x - step.n_a : x - step.n_a + 3]), step.h**2)
-        if drag is not None:
-            touched = bool(presses[x] > BEARS * drag)
-            rubs = bool(friction[x] > BEARS * drag)
-            bears = float(friction[x]) if rubs else system.mass(body) * g
-            found.append(Drag(body, drag, bears, touched, rubs))
+        own = _moved(first.contacts, x)
+        drag = _quotient(_lengths(momentum[:, x - first.n_a : x - first.n_a + 3]), first.h**2)
+        friction = _sums(rubs[:, own])
+        rubbed = friction > BEARS * drag
+        bears = np.where(rubbed, friction, system.mass(body) * g)
+        touched = _sums(presses[:, own]) > BEARS * drag
+        found.append(Drag(body, drag, bears, touched, rubbed))
     return found
 
 
-def largest_share(found: Iterable[Drag]) -> float | None:
-    """The largest share of some drags; None where none has any."""
-    return max((x.share for x in found if x.share is not None), default=None)
+def largest_share(shares: Iterable[Array], steps: int) -> Array:
+    """The largest of `shares` [-] in each of so many `steps`, (steps,); NaN where none is."""
+    return np.asarray(np.fmax.reduce([np.full(steps, np.nan), *shares]))
 
 
-def _quotient(over: Any, under: Any) -> float | None:
-    """Quotient of two numbers >= 0; None where it is beyond the range of float64, or 0/0.
+def _quotient(over: Any, under: Any) -> Array:
+    """Quotients of numbers >= 0; NaN where they are beyond the range of float64, or 0/0.
 
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.
     """
     with np.errstate(all="ignore"):
-        found = float(np.divide(over, under))
-    return found if np.isfinite(found) else None
+        found = np.divide(over, under)
+    return np.where(np.isfinite(found), found, np.nan)
 
 
-def _carried(step: StepData, factor: Array, f_n: Array) -> Array:
-    """For each coordinate that translates a base: sum of factor f_n [N] over its body's contacts.
+def _lengths(vectors: Array) -> Array:
+    """Lengths of vectors, shape (steps, 3), as ``np.linalg.norm`` has that of one."""
+    with np.errstate(all="ignore"):
+        return np.asarray(np.sqrt(np.vecdot(vectors, vectors)))
 
-    Shape (n_v,); other entries mean nothing. A coordinate that translates a base moves the points
-    of its body's contacts by one metre per metre, and others not at all.
+
+def _loads(wrench: Array) -> Array:
+    """f_n [N] of the contacts with load, 0 of the others, shape (steps, n_c)."""
+    f_n = wrench[:, :, 2]
+    return np.where(f_n > BEARS * f_n.max(axis=1, initial=0.0, keepdims=True), f_n, 0.0)
+
+
+def _moved(contacts: Contacts, x: int) -> Mask:
+    """Whether the coordinate x, which translates a base, moves each contact, shape (n_c,).
+
+    It moves the points of its body's contacts by one metre per metre, and others not at all: the
+    same in all steps.
     """
-    bears = factor * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
-    contact, coordinate, J = step.contacts.entries()
-    moved = np.linalg.norm(J[:, :3], axis=1) > 0.5  # it is 1 or 0, but for rounding
-    carried = np.bincount(coordinate[moved], bears[contact[moved]], step.n_v)
-    return carried.astype(np.float64)
+    column = contacts.columns(np.arange(contacts.n_c), np.array([x]))[:, :3, 0]
+    return np.asarray(np.linalg.norm(column, axis=1) > 0.5)  # it is 1 or 0, but for rounding
 
 
-def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:
-    """Pi = v / (mu_v g h) of one step: the drag m v / h over the friction mu_v m g.
+def _sums(loads: Array) -> Array:
+    """Sums over contacts, shape (steps,), in their order."""
+    return np.add.accumulate(np.pad(loads, ((0, 0), (1, 0))), axis=1)[:, -1]
+
+
+def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> Array:
+    """Pi = v / (mu_v g h) of each step: the drag m v / h over the friction mu_v m g.
 
     mu_v m g is the friction of a body that rests by its own weight, not of a body that is held. v
     is the speed of the fastest un-actuated floating base, mu_v the least of the contacts that rub.
@@ -105,47 +129,46 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     ----------
     system : System
     step : StepData
-    delta_q : ndarray, shape (n_v,)
+        One of them.
+    delta_q : ndarray, shape (steps, n_v)
     g : float
         Length of gravity [m/s^2].
 
     Returns
     -------
-    float or None
-        None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
+    ndarray, shape (steps,)
+        NaN where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
         for it, as with a mu_v of 1e-323.
     """
     bases = [base.v.start for base in free_bases(system).values()]
     rough = step.contacts.mu_v[step.contacts.mu_v > 0]
     if not (bases and rough.size and g > 0):
-        return None
-    moved = max(float(np.linalg.norm(delta_q[start : start + 3])) for start in bases)
-    v = _quotient(moved, step.h)
-    return None if v is None else _quotient(v, float(rough.min()) * g * step.h)
+        return np.full(len(delta_q), np.nan)
+    moved = np.max([_lengths(delta_q[:, start : start + 3]) for start in bases], axis=0)
+    return _quotient(_quotient(moved, step.h), float(rough.min()) * g * step.h)
 
 
-def gap_after(phi: Array, solution: StepSolution, n_v: int) -> Array:
-    """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,).
-
-    Of delta_q count the first n_v coordinates: private rises are not in the gap. phi, shape (n_c,),
-    is the distance [m], which Coulomb's law raises in the step.
-    """
-    contacts = solution.step.contacts
-    delta_q = solution.delta_q.copy()
-    delta_q[n_v:] = 0.0
-    motion = contacts.motion(delta_q)[:, :3]
-    return np.asarray(phi + np.sum(contacts.n * motion, axis=1))
-
-
-def boundary_layer(gap: Array, solution: StepSolution) -> float:
-    """Largest gap [m] that a contact with load has after the step; 0 without load.
+def gap_after(phi: Array, n: Array, motion: Array) -> Array:
+    """Gap phi + n'J delta_q [m] of each contact after its step, to first order, (steps, n_c).
 
     Parameters
     ----------
-    gap : ndarray, shape (n_c,)
-        Of :func:`gap_after` [m].
-    solution : StepSolution
+    phi, n : ndarray, shapes (steps, n_c) and (steps, n_c, 3)
+        The distance [m], which Coulomb's law raises in the step, and the normal.
+    motion : ndarray, shape (steps, n_c, 4)
+        J delta_q [m, rad]: private rises are not in the gap.
     """
-    force = solution.wrench[:, 2]
-    loaded = force > BEARS * force.max(initial=0.0)
-    return max(0.0, float(gap[loaded].max(initial=0.0)))
+    return np.asarray(phi + np.sum(n * motion[:, :, :3], axis=2))
+
+
+def boundary_layer(gap: Array, wrench: Array) -> Array:
+    """Largest gap [m] that a contact with load has after each step, (steps,); 0 without load.
+
+    Parameters
+    ----------
+    gap : ndarray, shape (steps, n_c)
+        Of :func:`gap_after` [m].
+    wrench : ndarray, shape (steps, n_c, 4)
+        [N, N m].
+    """
+    return np.asarray(gap.max(axis=1, where=_loads(wrench) > 0, initial=0.0))

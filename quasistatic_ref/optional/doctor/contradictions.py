@@ -1,16 +1,12 @@
 """Masses, inertias and sizes that contradict each other."""
 
 from collections.abc import Iterator
-from contextlib import suppress
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.doctor.start import Said, Start, body, sizes
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.data import Array
 
 DENSITIES = 10.0, 25_000.0
@@ -20,7 +16,6 @@ GYRATION = 1e-3, 10.0
 at most 1, but for what has no collision shape; of a homogeneous ball 0.4."""
 WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
 """To the faces, edges and corners of a cube [-]."""
-HULL = "hull of its points"
 OUTSIDE = 0.25
 """How far a centre of mass may be outside of shapes, or of the hull of a cloud, over their extent
 [-]: a cloud may be a part of a surface."""
@@ -30,7 +25,7 @@ RATIO = 1000.0
 
 def density(start: Start) -> Iterator[Said]:
     """Free links that are lighter than foam or heavier than gold."""
-    for link, name, shapes in _free_links(start):
+    for link, name, shapes in start.free_links:
         volume = sum(placed.shape.coal.computeVolume() for placed in shapes)
         mass = float(start.system.masses[link])
         if not DENSITIES[0] <= mass / volume <= DENSITIES[1]:
@@ -44,7 +39,7 @@ def density(start: Start) -> Iterator[Said]:
 
 def inertia(start: Start) -> Iterator[Said]:
     """Free links with an inertia that nothing of their mass and size has."""
-    for link, name, shapes in _free_links(start):
+    for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
         moment = start.system.inertias[link]
         points = np.concatenate([_points(placed) for placed in shapes])
@@ -62,7 +57,7 @@ def inertia(start: Start) -> Iterator[Said]:
 
 def centre(start: Start) -> Iterator[Said]:
     """Free links whose centre of mass is far outside of their shapes."""
-    for link, name, shapes in _free_links(start):
+    for link, name, shapes in start.free_links:
         at = start.system.centres[link]
         own = [(placed, (at - placed.t) @ placed.R) for placed in shapes]  # in each shape's frame
         away = min(float(placed.shape.signed_distance(x[None])[0][0]) for placed, x in own)
@@ -94,30 +89,6 @@ def sizes_apart(start: Start) -> Iterator[Said]:
             f"{extents[small]:.3g} m",
             {"ratio": extents[large] / extents[small]},
         )
-
-
-def _free_links(start: Start) -> Iterator[tuple[int, str, list[PlacedShape]]]:
-    """Links that a joint without actuator moves, with mass and shapes: number, name and shapes.
-
-    What is known by a cloud alone has the cloud's hull, if that has a volume.
-    """
-    system = start.system
-    free = np.flatnonzero(system.column_map.owner >= system.n_a)
-    moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
-    for link, name in enumerate(system.links):
-        shapes = [placed for placed in system.shapes if placed.link == link]
-        shapes = shapes or [*_hulls(start, link)]
-        if moved[link] and shapes and system.masses[link] > 0:
-            yield link, name, shapes
-
-
-def _hulls(start: Start, link: int) -> Iterator[PlacedShape]:
-    """Convex hulls of the clouds of a link."""
-    clouds = {id(p.shape): p for p in start.sides if p.link == link}
-    for placed in clouds.values():
-        if isinstance(placed.shape, PointCloud):
-            with suppress(ModelError):  # all of them in a plane
-                yield replace(placed, name=HULL, shape=convex_hull(placed.shape.points))
 
 
 def _points(placed: PlacedShape) -> Array:

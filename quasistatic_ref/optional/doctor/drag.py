@@ -30,19 +30,21 @@ def drag(run: Run) -> Iterator[Said]:
     if np.isnan(shares).all() or np.nanmax(shares) <= SLOW / 2:
         return  # what drag adds to friction is a share of itself
     k = int(np.nanargmax(shares))
-    found = _without_doing(run, k)
-    worst = max(found, key=lambda x: x.share or 0.0, default=None)
-    share = float(shares[k]) if worst is None else worst.share or 0.0
+    found = [x for x in _without_doing(run, k) if x.touched[0]]
+    worst = max(found, key=_share, default=None)
+    share = float(shares[k]) if worst is None else _share(worst)
     if share <= SLOW:
         return
     on = "a free body"
     of = "what its contacts can bear"
     numbers = {"share": share, "step": k}
     if worst is not None:
-        on = f"{worst.body}, {worst.drag:.3g} N"
-        friction = "friction that its contacts can bear" if worst.rubs else "its weight"
-        of = f"the {worst.bears:.3g} N of {friction}"
-        numbers |= {"drag_N": worst.drag, "bears_N": worst.bears}
+        drag_N = float(worst.drag[0])
+        bears_N = float(worst.bears[0])
+        on = f"{worst.body}, {drag_N:.3g} N"
+        friction = "friction that its contacts can bear" if worst.rubs[0] else "its weight"
+        of = f"the {bears_N:.3g} N of {friction}"
+        numbers |= {"drag_N": drag_N, "bears_N": bears_N}
     yield Said(
         "move more slowly or take larger steps",
         f"the spurious drag m v / h on {on}, is {share:.2g} times {of}, in step {k}",
@@ -68,5 +70,9 @@ def _without_doing(run: Run, k: int) -> list[Drag]:
     wrench: Array | None = wrenches(step.replace(M_u=step.M_u / SLOWER))
     if wrench is None:
         return []
-    found = drags(run.system, step, run["delta_q"][k], wrench, run.g)
-    return [x for x in found if x.touched]
+    return drags(run.system, [step], [run["delta_q"][k]], wrench[None], run.g)
+
+
+def _share(drag: Drag) -> float:
+    """The share of a drag in one step; 0 where there is none."""
+    return float(np.nan_to_num(drag.share[0]))

@@ -159,9 +159,12 @@ def locked(run: Run) -> Iterator[Said]:
         return
     k = int(rubbing.argmax())
     contacts = run.contacts(k)
+    found = list(guides(run, contacts))
+    if not found:
+        return
     wrench = run.forces(k)
     bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
-    found = [x for x in guides(run, contacts) if bears[list(x.contacts)].any()]
+    found = [x for x in found if bears[list(x.contacts)].any()]
     if not found:
         return
     step = run.step_data(k)

@@ -1,6 +1,7 @@
 """The observer of a run: it notes numbers of each step, and finds at the end."""
 
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -16,7 +17,7 @@ from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.table import AFTER, NO_STEPS, OF_SCENE, findings
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.recorder import Recorder, StepArrays, motions
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -36,24 +37,28 @@ class Doctor(Observer):
     def __init__(self, printed: bool) -> None:
         self.printed = printed
 
-    def after(self, recorder: Recorder, result: StepResult) -> dict[str, Array | float | None]:
-        """What is read at the end.
+    def after(
+        self, recorder: Recorder, results: Sequence[StepResult], arrays: StepArrays
+    ) -> dict[str, Array]:
+        """What is read at the end, of each step.
 
-        Gaps after the step, shape (n_c,) [m], Pi, share of drag, the same of bodies that something
-        touches [-], and boundary layer [m].
+        Gaps after the step, shape (steps, n_c) [m]; each (steps,): Pi, share of drag, the same of
+        bodies that something touches [-], and boundary layer [m].
         """
-        step = result.step
-        solution = result.solution
         system = recorder.system
+        steps = [result.step for result in results]
         g = float(np.linalg.norm(recorder.simulator.gravity))
-        gap = gap_after(result.points.phi, solution, system.n_v)
-        found = drags(system, step, solution.delta_q, solution.wrench, g)
+        motion = motions(results, system.n_v)
+        gap = gap_after(arrays["phi"], arrays["n"], motion)
+        delta_q = [result.solution.delta_q for result in results]
+        found = drags(system, steps, delta_q, arrays["wrench"], g)
+        touched = [np.where(x.touched, x.share, np.nan) for x in found]
         return {
             "gap": gap,
-            "Pi": quasi_dynamic_number(system, step, solution.delta_q, g),
-            "drag": largest_share(found),
-            "pushed": largest_share(x for x in found if x.touched),
-            "layer": boundary_layer(gap, solution),
+            "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
+            "drag": largest_share([x.share for x in found], len(steps)),
+            "pushed": largest_share(touched, len(steps)),
+            "layer": boundary_layer(gap, arrays["wrench"]),
         }
 
     def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:

@@ -37,6 +37,7 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
+        self._contacts: dict[int, Contacts] = {}
 
     @cached_property
     def task(self) -> Any:
@@ -58,9 +59,11 @@ class Run(Start):
 
     def contacts(self, k: int) -> Contacts:
         """The contacts of step k."""
-        kinematics = self.system.kinematics(self["q"][k])
-        points = self.simulator.closest_points(kinematics)
-        return contacts_of(self.system, self.pairs, points, kinematics)
+        if k not in self._contacts:
+            kinematics = self.system.kinematics(self["q"][k])
+            points = self.simulator.closest_points(kinematics)
+            self._contacts[k] = contacts_of(self.system, self.pairs, points, kinematics)
+        return self._contacts[k]
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k, up to rounding, with the paper's cone for a curved one."""
@@ -85,9 +88,10 @@ class Run(Start):
 
         Where they cannot be formed, what the multipliers of the step combine to.
         """
+        if self.searched and "forces" in self.arrays:
+            return np.asarray(self["forces"][k])
         found = self.compliant(k)
-        wrench: Array = self["wrench"][k] if found is None else found.wrench
-        return wrench
+        return np.asarray(self["wrench"][k] if found is None else found.wrench)
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""

@@ -1,6 +1,8 @@
 """A scene where a run starts: what findings before the run look at."""
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -9,16 +11,18 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import ContactError
+from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.extension import NO_RISES
 
+HULL = "hull of its points"
 SEARCHED = 200_000
 """Most entries of a step's J, 4 n_c n_v, of a scene in which J is formed and a step is solved once
 more: the exact method starts cold, and takes a second there."""
@@ -82,6 +86,31 @@ class Start:
         extension = self.simulator.extension
         rows = None if extension is None else extension(self.q_start).rows
         return np.zeros(0, dtype=np.int64) if rows is None else np.flatnonzero(rows.A.any(axis=0))
+
+    @cached_property
+    def free_links(self) -> list[tuple[int, str, list[PlacedShape]]]:
+        """Links that a joint without actuator moves, with mass and shapes: number, name and shapes.
+
+        What is known by a cloud alone has the cloud's hull, if that has a volume.
+        """
+        system = self.system
+        free = np.flatnonzero(system.column_map.owner >= system.n_a)
+        moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
+        found = []
+        for link in np.flatnonzero(moved & (system.masses > 0)).tolist():
+            shapes = [placed for placed in system.shapes if placed.link == link]
+            shapes = shapes or [*self._hulls(link)]
+            if shapes:
+                found.append((link, system.links[link], shapes))
+        return found
+
+    def _hulls(self, link: int) -> Iterator[PlacedShape]:
+        """Convex hulls of the clouds of a link."""
+        clouds = {id(p.shape): p for p in self.sides if p.link == link}
+        for placed in clouds.values():
+            if isinstance(placed.shape, PointCloud):
+                with suppress(ModelError):  # all of them in a plane
+                    yield replace(placed, name=HULL, shape=convex_hull(placed.shape.points))
 
     @property
     def sides(self) -> list[PlacedShape]:

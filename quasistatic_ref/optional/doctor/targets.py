@@ -10,6 +10,11 @@ from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
+NEAR = 0.3
+"""An entry of a joint's quaternion, or (cos, sin), is farther from its target's than this [-] where
+it lags by pi / 2: quaternions are 2 sin(pi / 8) = 0.77 apart then, and one of four entries half of
+that."""
+
 
 def beyond_limits(run: Run) -> Iterator[Said]:
     """Targets beyond a limit that the URDF names, of each joint the farthest."""
@@ -69,9 +74,11 @@ def half_turns(run: Run) -> Iterator[Said]:
     for joint in run.system.joints:
         if not joint.actuated or joint.unit is None:
             continue
-        here = run["q"][:-1, joint.q].tolist()
-        there = run["q_bar_a"][:, joint.q].tolist()
-        lag = np.array(list(map(joint.change, here, there)))[:, joint.lengths :]
+        here = run["q"][:-1, joint.q]
+        there = run["q_bar_a"][:, joint.q]
+        if np.abs(there - here)[:, joint.lengths :].max() < NEAR:
+            continue
+        lag = np.array(list(map(joint.change, here.tolist(), there.tolist())))[:, joint.lengths :]
         far = np.linalg.norm(lag, axis=1) > np.pi / 2
         turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
         if turned_over.any():

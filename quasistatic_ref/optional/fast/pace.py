@@ -1,12 +1,12 @@
 """What is said of a run that takes long: of `fast`."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from tqdm import tqdm
 
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.recorder import Recorder, StepArrays
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
@@ -33,6 +33,7 @@ class Pace(Observer):
 
     def __init__(self, fast: bool, steps: int) -> None:
         self.fast = fast
+        self.every_step = not fast  # until enough steps are measured
         self.left = steps
         self.times: list[float] = []
         self.opened = False
@@ -44,9 +45,12 @@ class Pace(Observer):
             said(self.opening(4 * len(simulator.layout.rows) * simulator.system.n_v))
         self.opened = True
 
-    def after(self, recorder: Recorder, result: StepResult) -> dict[str, None]:
-        """After each step, what `fast` would save."""
-        said(self.advice(result.seconds))
+    def after(
+        self, recorder: Recorder, results: Sequence[StepResult], arrays: StepArrays
+    ) -> dict[str, float]:
+        """After steps, what `fast` would save."""
+        for result in results:
+            said(self.advice(result.seconds))
         return {}
 
     def opening(self, entries: int) -> str | None:
@@ -70,6 +74,7 @@ class Pace(Observer):
         if self.fast or len(self.times) > FIRST:
             return None
         self.times.append(sum(seconds.values()))
+        self.every_step = len(self.times) <= FIRST
         rest = self.left * sum(self.times[1:]) / FIRST
         if len(self.times) <= FIRST or SAVED * rest < WORTH:
             return None

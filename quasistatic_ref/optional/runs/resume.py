@@ -13,7 +13,7 @@ from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_step, run_settings
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.recorder import Recorder, StepArrays, program
+from quasistatic_ref.simulate.recorder import Recorder, StepArrays, programs
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
@@ -99,7 +99,7 @@ def _posed_again(
     """
     simulator = recorder.simulator
     full = recorder.record == "full"
-    rows: list[dict[str, Array]] = []
+    steps: list[StepData] = []
     for i, q in enumerate([recorder.q, *part["q"][:-1]]):
         k = recorder.steps + i
         t = (k + 1) * recorder.h
@@ -115,8 +115,8 @@ def _posed_again(
                 _ask(simulator, step, linear)
             if "s" in part:
                 step = step.replace(contacts=step.contacts.raised(part["s"][i]))
-            rows.append(program(step) if full else {})
-    return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
+            steps.append(step)
+    return programs(steps) if full else {}
 
 
 def _step(simulator: Simulator, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:

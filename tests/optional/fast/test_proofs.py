@@ -136,7 +136,7 @@ def test_what_is_kept_for_a_step_refuses_numbers_of_another_shape():
     kept = Structure("groups.c", "Step")
     kept.put({"b": np.zeros(2)})
     with pytest.raises(ValueError, match=r"^b has shape \(1,\) in place of \(2,\)$"):
-        kept.lend("b", np.ones(1))
+        kept.write("b", np.ones(1))
 
 
 def test_one_solver_is_given_contacts_in_blocks_of_other_bodies():

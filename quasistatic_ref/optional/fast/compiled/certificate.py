@@ -248,12 +248,12 @@ def zeros_for_step(s: Structure, n_a: int, n: int, n_c: int, m: int) -> None:
     s["mu"][:] = 1.0
 
 
-def lend_data(s: Structure, step: StepData) -> None:
-    """Let C read the data of a step."""
+def write_data(s: Structure, step: StepData) -> None:
+    """Write the data of a step where C reads them."""
     contacts = step.contacts
-    s.lend("J", step.contacts.kept_J)
-    s.lend("delta_q_bar_a", step.delta_q_bar_a)
-    s.lend("phi", contacts.phi)
+    s.write("J", step.contacts.kept_J)
+    s.write("delta_q_bar_a", step.delta_q_bar_a)
+    s.write("phi", contacts.phi)
     s["tau"][: step.n_a] = step.tau_a
     s["tau"][step.n_a :] = step.tau_u
     s["mu"][:, 1:] = contacts.mu
@@ -319,7 +319,7 @@ class Prover:
             {
                 "groups": len(groups), "group": np.array(addresses, np.int64),
                 "code": np.zeros(len(groups), np.int64),
-                "J": step.contacts.kept_J, "A": _kept_A(A),
+                "J": np.array(step.contacts.kept_J), "A": np.array(_kept_A(A)),
             }
         )  # fmt: skip
         zeros_for_step(self.s, step.n_a, step.n_v, step.contacts.n_c, step.m)
@@ -337,8 +337,8 @@ class Prover:
         form = both.si_form
         given = {"g": form.g, "A": _kept_A(form.A), "b": form.b, "pressure": lam, "gap": slack}
         for name, value in given.items():
-            s.lend(name, value)
-        lend_data(s, both.si_step)
+            s.write(name, value)
+        write_data(s, both.si_step)
         if not self._prove(s.address):
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist())

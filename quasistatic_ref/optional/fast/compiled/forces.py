@@ -12,8 +12,8 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.optional.fast.compiled.certificate import (
     Places,
     group_proof,
-    lend_data,
     places,
+    write_data,
     zeros_for_step,
 )
 from quasistatic_ref.optional.fast.compiled.library import library
@@ -58,7 +58,7 @@ class Forces:
                 "groups": len(divided), "code": np.zeros(len(divided), np.int64),
                 "group": np.array([part.group for part in self._parts], np.int64),
                 "forces": np.array([part.s.address for part in self._parts], np.int64),
-                "J": step.contacts.kept_J,
+                "J": np.array(step.contacts.kept_J),
                 **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
             }
         )  # fmt: skip
@@ -75,8 +75,8 @@ class Forces:
         near : ndarray, shape (n_c, 4), optional
             The same without compliance: where to seek [N, N m].
         """
-        lend_data(self.s, step)
-        self.s.lend("near", self._none if near is None else near)
+        write_data(self.s, step)
+        self.s.write("near", self._none if near is None else near)
         self._form(self.s.address)
         left = self.s["code"].nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]

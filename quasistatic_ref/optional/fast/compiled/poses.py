@@ -51,17 +51,18 @@ class Poses:
         self._at: bytes | None = None
         self._kinematics: Kinematics | None = None
 
+    def are_at(self, q: Array) -> bool:
+        """Whether the poses of a configuration, shape (n_q,), are written."""
+        return q.tobytes() == self._at
+
     def move(self, q: Array) -> None:
-        """Have the poses of a configuration, shape (n_q,), written, unless they are there."""
-        at = q.tobytes()
-        if at == self._at:
-            return
+        """Have the poses of a configuration, shape (n_q,), written."""
         self._at = None  # of a failure
         self._kinematics = None
         self._model_q = self.order.model_q(q).copy()  # whoever has q may write into it
         self.q[:] = q
         self.workspace.move(self._model_q)
-        self._at = at
+        self._at = q.tobytes()
 
     def kinematics(self) -> Kinematics:
         """That of the configuration whose poses are written."""

@@ -37,14 +37,14 @@ class Structure:
         """One of its integers."""
         return int(getattr(self._fields, name))
 
-    def lend(self, name: str, value: NDArray[np.float64]) -> None:
-        """Let C read an array in the place of one of its own: nothing broadcasts.
+    def write(self, name: str, value: NDArray[np.float64]) -> None:
+        """Write an array's numbers into one of its own: nothing broadcasts.
 
         Parameters
         ----------
         name : str
         value : ndarray
-            Of the shape of the one before [in its unit].
+            Of the shape of that one [in its unit].
 
         Raises
         ------
@@ -54,7 +54,7 @@ class Structure:
         array = self._arrays[name]
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
-        self.put({name: value})
+        array[...] = value
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
