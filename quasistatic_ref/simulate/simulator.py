@@ -312,6 +312,17 @@ class Simulator(Settings, Shown):
         """
         return False
 
+    def forces_in_c(self, step: StepData, near: tuple[Array, Array]) -> Array | None:
+        """Forces of single contacts of a step, shape (n_c, 4) [N, N m]; None without `fast`.
+
+        Parameters
+        ----------
+        step : StepData
+        near : (ndarray, ndarray)
+            delta_q, (n_v,) [m, rad], and wrenches, (n_c, 4) [N, N m], as of its solution.
+        """
+        return None
+
     def step_data(
         self,
         q: Array,

@@ -128,6 +128,7 @@ def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
     mu : ndarray, shape (n_c, 3)
         (mu_v, mu_v, mu_omega) [-, -, m].
     """
-    f_n, f_d1, f_d2, tau_n = np.moveaxis(of_rows @ matrix, -1, 0)
-    mu_v, _, mu_omega = mu.T
-    return np.stack([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n], axis=-1)
+    wrench = (of_rows @ matrix)[..., [1, 2, 0, 3]]  # from (f_n, f_d1, f_d2, tau_n)
+    wrench[..., :2] *= mu[:, :2]
+    wrench[..., 3] *= mu[:, 2]
+    return wrench

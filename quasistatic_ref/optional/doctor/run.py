@@ -37,7 +37,7 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
-        self._contacts: dict[int, Contacts] = {}
+        self._steps: dict[int, StepData] = {}
 
     @cached_property
     def task(self) -> Any:
@@ -59,48 +59,59 @@ class Run(Start):
 
     def contacts(self, k: int) -> Contacts:
         """The contacts of step k."""
-        if k not in self._contacts:
-            kinematics = self.system.kinematics(self["q"][k])
-            points = self.simulator.closest_points(kinematics)
-            self._contacts[k] = contacts_of(self.system, self.pairs, points, kinematics)
-        return self._contacts[k]
+        return self.step_data(k).contacts
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k, up to rounding, with the paper's cone for a curved one."""
+        if k in self._steps:
+            return self._steps[k]
         simulator = self.simulator
         q = self["q"][k]
         n_a = self.system.n_a
         tau = self.noted("tau")[k]
         polyhedral = cone(simulator.cone).polyhedral
-        return StepData(
+        kinematics = self.system.kinematics(q)
+        points = simulator.closest_points(kinematics)
+        self._steps[k] = step = StepData(
             h=self.h,
             K_q=simulator.K_q,
             M_u=self.system.M_u(q),
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
             delta_q_bar_a=self.system.actuated_difference(q, self["q_bar_a"][k]),
-            contacts=self.contacts(k),
+            contacts=contacts_of(self.system, self.pairs, points, kinematics),
             cone=simulator.cone if polyhedral else PYRAMID,
         )
+        return step
 
     def forces(self, k: int) -> Array:
         """Forces of single contacts in step k, shape (n_c, 4) [N, N m].
 
         Where they cannot be formed, what the multipliers of the step combine to.
         """
-        if self.searched and "forces" in self.arrays:
+        if not self.searched or part("forces.forces") is None:
+            return np.asarray(self["wrench"][k])
+        if "forces" in self.arrays:
             return np.asarray(self["forces"][k])
-        found = self.compliant(k)
-        return np.asarray(self["wrench"][k] if found is None else found.wrench)
+        found = self._in_c(k)
+        return self._compliant(k).wrench if found is None else found
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
         if not self.searched or part("forces.forces") is None:
             return None
+        return self._compliant(k)
+
+    def _compliant(self, k: int) -> ContactForces:
         if k not in self._found:
-            near = self["delta_q"][k], self["wrench"][k]
-            self._found[k] = forces_near(self.step_data(k), near)
+            found = self._in_c(k)
+            near = self["wrench"][k] if found is None else found
+            self._found[k] = forces_near(self.step_data(k), (self["delta_q"][k], near))
         return self._found[k]
+
+    def _in_c(self, k: int) -> Array | None:
+        near = self["delta_q"][k], self["wrench"][k]
+        return self.simulator.forces_in_c(self.step_data(k), near)
 
 
 def wrenches(step: StepData) -> Array | None:

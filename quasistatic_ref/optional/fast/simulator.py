@@ -175,6 +175,10 @@ class FastSimulator(Simulator):
         """As in the base: where C decides those of the first step."""
         return self.by_c and self.forms_forces and knows(self.cone) and self.in_c.decided(solution)
 
+    def forces_in_c(self, step: StepData, near: tuple[Array, Array]) -> Array | None:
+        """As in the base, with its `near`: shape (n_c, 4) [N, N m], where C forms forces."""
+        return self.in_c.wrench(step, near) if self.by_c and self.forms_forces else None
+
     def posed_step(
         self, q: Array, q_bar_a: Array, force: Array | float
     ) -> tuple[StepData, StandardForm, ClosestPoints]:

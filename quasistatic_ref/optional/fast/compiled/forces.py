@@ -81,13 +81,20 @@ class Forces:
         left = self.s["code"].nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
 
-    def wrench(self, solution: StepSolution) -> Array:
-        """The same of a solution's step, shape (n_c, 4); what C leaves open comes from the core."""
-        step = solution.step
-        wrench, left = self.in_c(step, solution.wrench)
+    def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
+        """The same, shape (n_c, 4); what C leaves open comes from the core.
+
+        Parameters
+        ----------
+        step : StepData
+        near : (ndarray, ndarray)
+            delta_q, (n_v,) [m, rad], and wrenches, (n_c, 4) [N, N m], as of its solution.
+        """
+        delta_q, wrenches = near
+        wrench, left = self.in_c(step, wrenches)
         for group, own in [group_steps(step)[i] for i in left]:
-            near = solution.delta_q[group.coordinates], solution.wrench[group.contacts]
-            wrench[group.contacts] = forces_near(own, near).wrench
+            of_group = delta_q[group.coordinates], wrenches[group.contacts]
+            wrench[group.contacts] = forces_near(own, of_group).wrench
         if not left:
             check_forces(step, wrench)
         return read_only(wrench)
@@ -100,9 +107,9 @@ class ForcesOfSteps:
         self._of: Coupling = []
         self._kept: Forces | None = None
 
-    def wrench(self, solution: StepSolution) -> Array:
-        """As of :meth:`Forces.wrench`, shape (n_c, 4) [N, N m]."""
-        return self._of_steps_like(solution.step).wrench(solution)
+    def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
+        """As of :meth:`Forces.wrench`, which has `near`, too: shape (n_c, 4) [N, N m]."""
+        return self._of_steps_like(step).wrench(step, near)
 
     def decided(self, solution: StepSolution) -> bool:
         """Whether C leaves no force of a solution's step open."""
@@ -137,7 +144,9 @@ class FastSolution(StepSolution):
     @cached_property
     def forces(self) -> Array:
         """As of the base, shape (n_c, 4) [N, N m]."""
-        return super().forces if self.in_c is None else self.in_c.wrench(self)
+        if self.in_c is None:
+            return super().forces
+        return self.in_c.wrench(self.step, (self.delta_q, self.wrench))
 
     @classmethod
     def compared_as(cls) -> type:
