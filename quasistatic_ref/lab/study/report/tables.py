@@ -91,7 +91,9 @@ CELLS: dict[str, Cell] = {
 CLAIMS: dict[str, Cell] = {
     "false: rows": _count(_rows_alone),
     "false: multipliers": _count(lambda r: r["wrong_multipliers"] & r["feasible"]),
-    "false: no numbers": _count(lambda r: r["said_optimal"] & (r["outcome"] == NAN)),
+    "false: no numbers": _count(
+        lambda r: r["said_optimal"] & r["feasible"] & (r["outcome"] == NAN)
+    ),
     "false: no solution exists": _count(lambda r: r["said_optimal"] & r["wrong"] & ~r["feasible"]),
     "kept, no solution exists": _count(lambda r: r["said_optimal"] & ~r["wrong"] & ~r["feasible"]),
     "false: infeasible": _count(lambda r: r["said_infeasible"] & r["wrong"]),

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.calling.claims import (
     hides,
 )
 from quasistatic_ref.lab.study.calling.guests import installed_here
-from quasistatic_ref.lab.study.calling.options import option_file, options_at
+from quasistatic_ref.lab.study.calling.options import option_file
 from quasistatic_ref.lab.study.calling.promises import RESIDUALS, UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
@@ -103,12 +103,6 @@ def test_a_promise_is_of_the_defaults_of_an_interface_and_of_what_a_study_says_i
     assert (said["primal"]["abs"], said["gap"]) == (1e-8, None)
     assert said["dual"]["rel"] == UNSTATED["rel"]  # of which nothing is said
     assert own.promises(SETTINGS[2])["gap"]["abs"] == SETTINGS[2].accuracy
-
-
-def test_high_sets_what_proves_that_there_is_no_solution_where_the_interface_takes_it():
-    assert options_at("osqp", "native", 1e-9)["eps_prim_inf"] == 1e-9
-    assert options_at("proxqp", "native", 1e-9)["eps_primal_inf"] == 1e-9
-    assert "eps_primal_inf" not in options_at("proxqp", "qpsolvers", 1e-9)
 
 
 def test_an_option_that_an_interface_refuses_stops_the_solver_before_the_run():

@@ -34,6 +34,21 @@ def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
     assert plain_report.checked(tables, rows, made_store.LIMIT) > 150
 
 
+@pytest.fixture(scope="module")
+def mixed(store, tmp_path_factory):
+    """The folder of the same store, but for two of its twelve problems, which have no solution."""
+    found = contents(store)
+    for row in found.rows:
+        if row["problem"] in ("stack/4/0", "door/5/0"):
+            beyond = row["said_optimal"] and row["setting"] == "mid"
+            none = dict.fromkeys(row["digits"])
+            row |= {"feasible": False, "digits": none, "wrong": beyond, "wrong_multipliers": False}
+    folder = tmp_path_factory.mktemp("mixed")
+    with Store(folder, found.study, found.problems) as changed:
+        changed.add(*found.rows)
+    return folder
+
+
 def counted(rows):
     """Claims by kind, by plain loops."""
     kinds = dict.fromkeys(
@@ -62,8 +77,10 @@ def test_false_claims_are_those_of_the_rows(tables, rows):
             assert cell == f"{' + '.join(counted(own))} / {said}"
 
 
-def test_the_first_screen_counts_every_solver_on_every_problem(tables, rows):
-    """Its claims are of all problems, its digits and times of half of them."""
+def test_the_first_screen_counts_every_solver_on_every_problem(mixed):
+    """Its claims are of all problems, its digits and times of half of those with a solution."""
+    rows = [row for row in contents(mixed).rows if row["repetition"] == 0]
+    tables = plain_report.parsed(markdown_page(study_report(mixed)))
     (_, where, columns, body), *_ = tables
     shown = {line[0]: dict(zip(columns, line, strict=True)) for line in body}
     assert sorted(shown) == ["ant", "bee", "cat"]
@@ -91,9 +108,9 @@ def test_the_first_screen_counts_every_solver_on_every_problem(tables, rows):
         assert agrees(line["digits of A'lam, median"], quantile(net, 0.5))
 
 
-def test_the_sentences_above_the_first_table_are_counts_of_all_rows(store, report):
+def test_the_sentences_above_the_first_table_are_counts_of_all_rows(mixed):
     """Counted by SQL."""
-    with closing(sqlite3.connect(store / "study.sqlite")) as tables:
+    with closing(sqlite3.connect(mixed / "study.sqlite")) as tables:
 
         def count(where):
             return tables.execute(f"SELECT count(*) FROM rows WHERE {where}").fetchone()[0]
@@ -103,7 +120,15 @@ def test_the_sentences_above_the_first_table_are_counts_of_all_rows(store, repor
         multipliers = count("said_optimal AND feasible AND wrong AND wrong_multipliers")
         none = count("said_infeasible")
         untrue = count("said_infeasible AND wrong")
-    page = markdown_page(report)
+        there = count("said_optimal AND NOT feasible")
+        beyond = count("said_optimal AND NOT feasible AND wrong")
+        within = " AND ".join(
+            f"coalesce(residuals_{name}, 0) <= coalesce(allowed_{name}, 1e300)"
+            for name in ("primal", "dual", "gap")
+        )
+        judged = "coalesce(allowed_primal, allowed_dual, allowed_gap) IS NOT NULL"
+        kept = count(f"said_optimal AND wrong AND outcome = 'solved' AND {judged} AND {within}")
+    page = markdown_page(study_report(mixed))
     assert false > multipliers > 0
     assert (
         f"Of {said:,} claims of success on problems with a solution {false:,} are false: in "
@@ -111,6 +136,12 @@ def test_the_sentences_above_the_first_table_are_counts_of_all_rows(store, repor
         f"{false - multipliers:,} only"
     ) in page
     assert f"Of {none:,} claims that there is no solution {untrue:,} are false." in page
+    assert (
+        f"success was claimed {there:,} times: {beyond:,} times falsely, and {there - beyond:,} "
+        "times with residuals that keep their limits"
+    ) in page
+    assert f"{kept:,} of the false claims of success have all of their residuals within" in page
+    assert 0 < beyond < there
 
 
 def test_digits_by_family_are_those_of_the_rows(tables, rows):
@@ -123,10 +154,10 @@ def test_digits_by_family_are_those_of_the_rows(tables, rows):
     assert len(found) == 2 * len(made_store.FAMILIES)
 
 
-def test_the_lines_of_the_report_make_its_first_table_again(store, tmp_path, monkeypatch):
+def test_the_lines_of_the_report_make_its_first_table_again(mixed, tmp_path, monkeypatch):
     """Of every interface: setting, problems, digits, mean time, claims by kind."""
     monkeypatch.chdir(tmp_path)
-    page = markdown_page(study_report(store, tmp_path))
+    page = markdown_page(study_report(mixed, tmp_path))
     (command,) = re.findall(r"`quasistatic-ref (study pack .*?)`", page)
     assert main(command.split()) == 0
     (program,) = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
