@@ -160,7 +160,7 @@ class Recorder(Shown):
         n_v = self.system.n_v  # without private rises
         lam = np.array([solution.lam for solution in solutions])
         tau_a = np.array([step.tau_a for step in steps])
-        tau_u = np.array([step.tau_u for step in steps])
+        tau_u = np.array([step.tau_u[: self.system.n_u] for step in steps])
         arrays: StepArrays = {
             "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * self.h,
             "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
@@ -175,7 +175,7 @@ class Recorder(Shown):
             ),
             "digits": np.array([one.statistics.digits for one in solutions], np.float64),
             "q": _of_all(results, "q"),
-            "tau": np.concatenate([tau_a, tau_u], axis=1)[:, :n_v],
+            "tau": np.concatenate([tau_a, tau_u], axis=1),
         }
         for part in results[0].seconds:
             arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])

@@ -60,7 +60,9 @@ def drags(
     """
     first = steps[0]
     bases = free_bases(system)
-    momentum = np.array([step.momentum(v) for step, v in zip(steps, delta_q, strict=True)])
+    end = max((base.v.stop for base in bases.values()), default=first.n_a) - first.n_a
+    each = zip(steps, delta_q, strict=True)
+    momentum = np.array([step.momentum(v)[:end] for step, v in each])  # without private rises
     presses = _loads(wrench)
     rubs = first.contacts.mu_v * presses
     found = []
