@@ -68,8 +68,8 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     home = _HOME[name]
     if home.startswith("optional."):
-        door = import_module(f"{__name__}.parts")
-        return getattr(door.needed_part(home.removeprefix("optional."), name), name)
+        with import_module(f"{__name__}.parts").needing(name):
+            return getattr(import_module(f"{__name__}.{home}"), name)
     return getattr(import_module(f"{__name__}.{home}"), name)
 
 

@@ -1,53 +1,97 @@
-"""Access to the optional parts: a module of ``optional``, or None where its folder is missing.
+"""Access to the optional parts, of which the core imports none.
 
-The core imports no optional part. It asks for one here, under the word that users write.
+Where the core calls a part, it declares a :class:`Slot` with the type of what it calls. The part's
+module fills the slot, and a type checker compares the two.
 """
 
-from functools import cache
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from importlib import import_module
-from types import ModuleType
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from quasistatic_ref.errors import InputError
 
 OPTIONAL = "quasistatic_ref.optional"
+T = TypeVar("T")
 
 
-@cache
-def part(module: str) -> ModuleType | None:
-    """A module of an optional part, such as ``"runs.resume"``; None where that part is missing."""
-    try:
-        return import_module(f"{OPTIONAL}.{module}")
-    except ModuleNotFoundError as error:
-        if error.name not in (OPTIONAL, _folder(module)):
-            raise  # a package that the part itself needs
-        return None
+class Slot(Generic[T]):
+    """A place of the core for what an optional part adds: a function, a class or an object.
 
-
-def needed_part(module: str, word: str) -> ModuleType:
-    """The same for a word that means nothing without it, such as ``save``.
-
-    Raises
-    ------
-    InputError
-        If that part is missing.
+    Parameters
+    ----------
+    module : str
+        The module that fills it, such as ``"runs.resume"``: imported when it is asked for.
     """
-    found = part(module)
-    if found is None:
-        raise InputError(f"{word} needs {_folder(module).replace('.', '/')}")
-    return found
+
+    def __init__(self, module: str) -> None:
+        self.module = module
+        self._filling: T | None = None
+
+    @property
+    def folder(self) -> str:
+        """The folder of the part."""
+        return f"{OPTIONAL}.{self.module.partition('.')[0]}"
+
+    def fill(self, filling: T) -> None:
+        """Put something there, as the last thing that the module does."""
+        self._filling = filling
+
+    def found(self) -> T | None:
+        """What is there; None where the folder of the part is missing."""
+        try:
+            import_module(f"{OPTIONAL}.{self.module}")
+        except ModuleNotFoundError as error:
+            if error.name not in (OPTIONAL, self.folder):
+                raise  # a package that the part itself needs
+            return None
+        return self._filling
+
+    def needed(self, word: str) -> T:
+        """The same for a word that means nothing without it, such as ``save``.
+
+        Raises
+        ------
+        InputError
+            If the folder is missing.
+        """
+        found = self.found()
+        if found is None:
+            raise InputError(_needs(word, self.folder))
+        return found
 
 
-def fast_part(module: str) -> ModuleType | None:
-    """A module of ``optional/fast``, which means nothing without compiled code; None, and said.
+USABLE: Slot[Callable[[], bool]] = Slot("fast.speed")
+"""Whether there is compiled code; if not, it is said."""
+
+
+def compiled(slot: Slot[T]) -> T | None:
+    """What fills a slot of ``optional/fast``; None without compiled code, where it has no meaning.
 
     Raises
     ------
     InputError
         If that folder is missing.
     """
-    usable = needed_part("fast.speed", "fast").usable()
-    return needed_part(f"fast.{module}", "fast") if usable else None
+    return slot.needed("fast") if USABLE.needed("fast")() else None
+
+
+@contextmanager
+def needing(word: str) -> Iterator[None]:
+    """Around imports of an optional part, for a word that means nothing without it.
+
+    Raises
+    ------
+    InputError
+        If its folder is missing.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        name = str(error.name)
+        if not (name.startswith(OPTIONAL) and name.count(".") == 2):
+            raise
+        raise InputError(_needs(word, name)) from None
 
 
 def needed_package(package: str, extra: str, what: str) -> Any:
@@ -71,5 +115,5 @@ def needed_package(package: str, extra: str, what: str) -> Any:
         raise InputError(problem) from None
 
 
-def _folder(module: str) -> str:
-    return f"{OPTIONAL}.{module.partition('.')[0]}"
+def _needs(word: str, folder: str) -> str:
+    return f"{word} needs {folder.replace('.', '/')}"

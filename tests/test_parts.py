@@ -1,20 +1,22 @@
 """Optional parts that are missing: one sentence for a word that needs one, all else as it was."""
 
-import importlib
+import sys
 
 import numpy as np
 import pytest
 
 import quasistatic_ref
-from quasistatic_ref import parts
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.optional.show.table import data_frame
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
-from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.simulate.simulator import SCENE_FINDINGS
+from quasistatic_ref.simulate.trajectory import STEPS_TABLE, trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
@@ -27,27 +29,45 @@ def without(monkeypatch):
 
     def hide(folder):
         missing = f"quasistatic_ref.optional.{folder}"
+        for name in [name for name in sys.modules if f"{name}.".startswith(f"{missing}.")]:
+            monkeypatch.delitem(sys.modules, name)
+        monkeypatch.setattr(sys, "meta_path", [Missing(missing), *sys.meta_path])
 
-        def found(name):
-            if name.startswith(f"{missing}."):
-                raise ModuleNotFoundError(name=missing)
-            return importlib.import_module(name)
-
-        monkeypatch.setattr(parts, "import_module", found)
-        parts.part.cache_clear()
-
-    yield hide
-    parts.part.cache_clear()
+    return hide
 
 
-def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(without):
-    assert parts.part("show.table").__name__ == "quasistatic_ref.optional.show.table"
-    assert parts.part("nothing.at_all") is None
+class Missing:
+    """A finder of modules to which the folder of a part is missing."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def find_spec(self, name, path, target=None):
+        """As Python asks for it."""
+        if name == self.folder:
+            raise ModuleNotFoundError(name=name)
+
+
+def test_what_fills_a_slot_is_there_or_none_and_a_mistaken_name_is_no_missing_part(without):
+    assert STEPS_TABLE.found() is data_frame
+    assert Slot("nothing.at_all").found() is None
     with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"):
-        parts.part("show.tabel")
+        Slot("show.tabel").found()
     without("show")
-    assert parts.part("show.table") is None
-    assert parts.part("doctor.table") is not None
+    assert STEPS_TABLE.found() is None
+    assert SCENE_FINDINGS.found() is not None
+
+
+def test_every_slot_is_filled_by_the_module_that_it_names():
+    loaded = [module for name, module in sys.modules.items() if name.startswith("quasistatic_ref.")]
+    slots = {
+        f"{module.__name__}.{name}": slot
+        for module in loaded
+        for name, slot in vars(module).items()
+        if isinstance(slot, Slot)
+    }
+    assert len(slots) > 40
+    assert [name for name, slot in slots.items() if slot.found() is None] == []
 
 
 @pytest.mark.parametrize(

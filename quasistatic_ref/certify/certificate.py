@@ -12,7 +12,7 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -27,7 +27,7 @@ from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
@@ -128,6 +128,11 @@ def exact_certificate(
     )
 
 
+BOUND_VERDICT: Slot[Callable[[StepData, Array, Array | None, float | None], Verdict]] = Slot(
+    "large.judged"
+)
+
+
 def verify(
     step: StepData,
     delta_q: Array,
@@ -172,9 +177,8 @@ def verify(
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
     if claims is not None and claims.kind == "residual":
-        judged = needed_part("large.judged", 'a certificate of kind "residual"')
-        verdict: Verdict = judged.bound_verdict(step, delta_q, lam, claims.error_bound)
-        return verdict
+        judged = BOUND_VERDICT.needed('a certificate of kind "residual"')
+        return judged(step, delta_q, lam, claims.error_bound)
     curved = cone(step.cone).curved
     if curved is not None:
         return curved.verdict(step, delta_q, active, lam, claims)

@@ -1,8 +1,9 @@
 """Forces of single contacts, as ``optional/forces`` finds them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 
@@ -39,6 +40,11 @@ class ContactForces:
             read_only(array)
 
 
+CONTACT_FORCES: Slot[Callable[[StepData, tuple[Array, Array] | None], ContactForces]] = Slot(
+    "forces.forces"
+)
+
+
 def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForces:
     """The forces of a step's contacts, sought from where a solution shows them to be.
 
@@ -53,5 +59,4 @@ def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForc
     InputError
         If there is no ``optional/forces``.
     """
-    found: ContactForces = needed_part("forces.forces", "forces").contact_forces(step, near=near)
-    return found
+    return CONTACT_FORCES.needed("forces")(step, near)

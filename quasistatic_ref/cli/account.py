@@ -6,7 +6,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import about_file
 from quasistatic_ref.formats.files import bytes_written, text_written
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.trajectory import trajectory_read
 
 
@@ -24,13 +24,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the account, and write what was asked for."""
-    words = needed_part("account.words", "account")
+    with needing("account"):
+        from quasistatic_ref.optional.account import words
     trajectory = trajectory_read(options.trajectory)
     with about_file(options.trajectory):
         account = trajectory.account()
     png = b""
     if options.figure is not None or options.html is not None:
-        png = needed_part("show.figures.account", "--figure and --html").page(account)
+        with needing("--figure and --html"):
+            from quasistatic_ref.optional.show.figures.account import page
+        png = page(account)
     if options.figure is not None:
         bytes_written(options.figure, png)
     if options.html is not None:

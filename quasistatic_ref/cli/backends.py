@@ -4,7 +4,7 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
@@ -46,7 +46,8 @@ def run(options: argparse.Namespace) -> int:
 def fast_default() -> str | None:
     """The backend of `fast` where none is named; None if that folder is not there."""
     try:
-        name: str = needed_part("fast.backends", "fast").DEFAULT_OF_FAST
+        with needing("fast"):
+            from quasistatic_ref.optional.fast.backends import DEFAULT_OF_FAST
     except InputError:
         return None
-    return name
+    return DEFAULT_OF_FAST

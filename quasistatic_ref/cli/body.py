@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needing
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +26,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the files, say on standard error what was done, and print a scenario."""
-    made = needed_part("scans.body", "body").scanned_body(
+    with needing("body"):
+        from quasistatic_ref.optional.scans.body import scanned_body
+    made = scanned_body(
         options.scan,
         mass=options.mass,
         density=options.density,

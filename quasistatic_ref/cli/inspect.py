@@ -19,9 +19,9 @@ from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.parts import part
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
+from quasistatic_ref.simulate.simulator import SCENE_FINDINGS
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"
@@ -106,8 +106,8 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
-    doctor = part("doctor.table") is not None
-    record["findings"] = [asdict(found) for found in scenario.findings()] if doctor else []
+    known = SCENE_FINDINGS.found() is not None
+    record["findings"] = [asdict(found) for found in scenario.findings()] if known else []
     record["fields"] = named_fields(scenario.path)
     return record
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.parts import needed_package, needed_part
+from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.tolerances import CREEP
 
 SETTLE = 2.0
@@ -40,24 +40,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
-    guests = needed_part("guests.mujoco_opinion", "opinion")
-    mjcf = needed_part("mjcf.mjcf", "opinion")
+    with needing("opinion"):
+        from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion
+        from quasistatic_ref.optional.guests.settled import settled
+        from quasistatic_ref.optional.mjcf.mjcf import compiled_model
     control = controls(options.control)
     with about_file(options.scene):
-        model, _ = mjcf.compiled_model(options.scene, options.roots, simulated=True)
+        model, _ = compiled_model(options.scene, options.roots, simulated=True)
         mujoco = needed_package("mujoco", "engines", "opinion")
         mujoco.set_mju_user_warning(lambda text: None)  # or it writes a file where it is called
-        settled = needed_part("guests.settled", "opinion").settled
         data = settled(model, options.settle, options.keyframe, control)
-        opinion = guests.second_opinion(model, data, options.tolerance)
+        opinion = second_opinion(model, data, options.tolerance)
     if options.json:
         shared.print_json(opinion.record)
     else:
         print(opinion)
     if options.out is not None:
-        drawn = needed_part("show.figures.opinion", "--out").opinion_figure(opinion)
-        write = needed_part("show.figures.style", "--out").figure_written
-        paths = write(drawn, options.out, "opinion")
+        with needing("--out"):
+            from quasistatic_ref.optional.show.figures.opinion import opinion_figure
+            from quasistatic_ref.optional.show.figures.style import figure_written
+        paths = figure_written(opinion_figure(opinion), options.out, "opinion")
         paths += [text_written(options.out / "opinion.json", json_text(opinion.record) + "\n")]
         shared.progress_line(options, f"wrote {', '.join(map(str, paths))}")
     return int(bool(opinion.findings))

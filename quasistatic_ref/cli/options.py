@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.parts import part
+from quasistatic_ref.optional.between import SAVED_STEPS
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
@@ -98,8 +98,6 @@ def completed(
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
-    saved = part("runs.saved_files")
-    usual = "" if saved is None else f" ({saved.EVERY:g} by default)"
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
     )
@@ -107,7 +105,7 @@ def add_resume(parser: argparse.ArgumentParser) -> None:
         "--save-every",
         type=float,
         metavar="SECONDS",
-        help=f"time between two saves of the steps so far{usual}",
+        help="time between two saves of the steps so far (60 by default)",
     )
 
 
@@ -183,13 +181,13 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say where the steps of a failed run are; write its failing step; its status."""
-    saved = part("runs.saved_files")
+    saved_steps = SAVED_STEPS.found()
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {failure.file or path}"
     if failure.step is not None:
         step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
-    if saved is not None and saved.saved_steps(path):
+    if saved_steps is not None and saved_steps(path):
         kept += "; --resume goes on from there"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
     return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

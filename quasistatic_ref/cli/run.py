@@ -13,10 +13,12 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.parts import needed_package, needed_part, part
+from quasistatic_ref.optional.between import FIRST_STEP
+from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.trajectory import Trajectory, certified
+from quasistatic_ref.simulate.observer import DOCTOR
+from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory, certified
 from quasistatic_ref.step.cones import cone
 
 
@@ -81,28 +83,28 @@ def run(options: argparse.Namespace) -> int:
     """
     scenario = scenario_given(options)
     path = options.out / f"{scenario.path.stem}.npz"
-    saved = (
-        needed_part("runs.saved_files", "--resume") if options.resume else part("runs.saved_files")
-    )
-    first = 0 if saved is None else saved.first_step(path, scenario.steps, options.resume)
+    first_step = FIRST_STEP.needed("--resume") if options.resume else FIRST_STEP.found()
+    first = 0 if first_step is None else first_step(path, scenario.steps, options.resume)
     writable_folder(options.out)  # known before the work, not after it
-    viewer = None
     if options.view:
-        viewer = needed_part("show.figures.viewer", "--view")
-        viewer.viewer_script()  # so that a missing extra is known before the work, too
+        with needing("--view"):
+            from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_script
+        viewer_script()  # so that a missing extra is known before the work, too
     given = {"--table": options.table, "--contacts-table": options.contacts_table}
     tables = {option: path for option, path in given.items() if path is not None}
     for option, file in tables.items():
-        needed_part("show.table", option).check_table_path(file, option)
+        with needing(option):
+            from quasistatic_ref.optional.show.table import check_table_path, table_written
+        check_table_path(file, option)
     if options.strict:
-        needed_part("doctor.observer", "--strict")
+        DOCTOR.needed("--strict")
     if options.resume:
         start = "nothing is saved; begins from the start"
         if first:
             start = f"goes on from step {first}"
         shared.progress_line(options, start)
     saving = {"save": path, "save_every": options.save_every, "resume": options.resume}
-    if saved is None:
+    if first_step is None:
         saving = {}
     failure: RunFailed | None = None
     try:
@@ -118,10 +120,10 @@ def run(options: argparse.Namespace) -> int:
     if failure is not None:
         return shared.failed_run(failure, path)
     view = None
-    if viewer is not None:
-        view = viewer.view_written(scenario, path.with_suffix(".html"), trajectory)
+    if options.view:
+        view = view_written(scenario, path.with_suffix(".html"), trajectory)
     for option, file in tables.items():
-        needed_part("show.table", option).table_written(trajectory, file, option)
+        table_written(trajectory, file, option)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
@@ -145,10 +147,13 @@ def run(options: argparse.Namespace) -> int:
     status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
-    words = part("account.words")
-    account = None if words is None else trajectory.account(forces=False)
+    account = None
+    if ACCOUNT.found() is not None:
+        from quasistatic_ref.optional.account import words
+
+        account = trajectory.account(forces=False)
     if options.json:
-        if words is not None:
+        if account is not None:
             summary["account"] = words.tables(account)
         shared.print_json(summary)
         return status
@@ -166,9 +171,9 @@ def run(options: argparse.Namespace) -> int:
             f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
             f"s is its own to within {off:.1e} m"
         )
-    if part("doctor.observer") is not None:
+    if DOCTOR.found() is not None:
         print(_artifacts(trajectory.header))
-    if words is not None:
+    if account is not None:
         for line in words.short(account):
             print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
@@ -193,18 +198,20 @@ def scenario_given(options: argparse.Namespace) -> Scenario:
             if getattr(options, option) is not None:
                 raise InputError("is for a MuJoCo scene (.xml)", field=f"--{option}")
         return load_scenario(options.scenario, settings)
-    guests = needed_part("guests.scene", "a MuJoCo scene")
-    mjcf = needed_part("mjcf.mjcf", "a MuJoCo scene")
+    with needing("a MuJoCo scene"):
+        from quasistatic_ref.optional.guests.scene import mujoco_scenario, words
+        from quasistatic_ref.optional.guests.settled import settled
+        from quasistatic_ref.optional.mjcf.mjcf import compiled_model
     with about_file(path):
-        model, _ = mjcf.compiled_model(path, options.roots, simulated=True)
+        model, _ = compiled_model(path, options.roots, simulated=True)
         needed_package("mujoco", "engines", "run").set_mju_user_warning(lambda text: None)
-        start = needed_part("guests.settled", "--keyframe").settled(model, 0.0, options.keyframe)
+        start = settled(model, 0.0, options.keyframe)
         data = None if options.keyframe is None else start
         given = options.targets
         table = given is None or given.endswith(".csv")
         targets = given if table else given.split(",")
-        scene: Scenario = guests.mujoco_scenario(model, data, targets, settings, path)
-    shared.progress_line(options, guests.words(scene))
+        scene = mujoco_scenario(model, data, targets, settings, path)
+    shared.progress_line(options, words(scene))
     return scene
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from quasistatic_ref.errors import InputError, ScenarioError, about_file
 from quasistatic_ref.formats.files import text_written, toml_read
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.scenario import load_scenario
 
 
@@ -50,7 +50,9 @@ def run(options: argparse.Namespace) -> int:
         top = TableReader(toml_read(options.poses), error=ScenarioError)
         poses = top.sequence("poses")
         top.close()
-        found = needed_part("targets.joint_targets", "targets").joint_targets(
+        with needing("targets"):
+            from quasistatic_ref.optional.targets.joint_targets import joint_targets
+        found = joint_targets(
             scenario,
             options.link,
             poses,

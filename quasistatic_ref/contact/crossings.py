@@ -6,6 +6,7 @@ angle has a sine of at most SKEW have no crossing. docs/conventions.md states th
 rims are in ``optional/curved``.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.step.data import Array, Indices
@@ -63,6 +64,11 @@ class Crossings(NamedTuple):
     number: Indices
 
 
+RIMS: Slot[Callable[[ShapeInWorld, ShapeInWorld, Array, Array, Array], Crossings]] = Slot(
+    "curved.rims"
+)
+
+
 def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Array) -> Crossings:
     """All crossings of two solids, in the world frame.
 
@@ -79,8 +85,7 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
         return edge_crossings(edges(a, alpha, n), edges(b, beta, -n), n)
     rimmed = [isinstance(solid.shape, Cylinder | Cone) for solid in (a, b)]
     if all(np.logical_or(flat, rimmed)):
-        found: Crossings = needed_part("curved.rims", "a rim").curve_crossings(a, b, alpha, beta, n)
-        return found
+        return RIMS.needed("a rim")(a, b, alpha, beta, n)
     return Crossings(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
 
 

@@ -1,8 +1,12 @@
 """Objects that show themselves: in words where they are printed, as HTML in a notebook."""
 
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 
-from quasistatic_ref.parts import part
+from quasistatic_ref.parts import Slot
+
+TEXT: Slot[Callable[[object], str]] = Slot("show.pages")
+HTML: Slot[Callable[[object], str]] = Slot("show.pages")
 
 
 class Shown:
@@ -21,9 +25,9 @@ class Shown:
 
 def text_of(shown: object) -> str:
     """An object in words."""
-    show = part("show.pages")
-    if show is not None:
-        return str(show.text(shown))
+    text = TEXT.found()
+    if text is not None:
+        return text(shown)
     if not is_dataclass(shown):
         return object.__repr__(shown)
     values = ", ".join(f"{field.name}={getattr(shown, field.name)!r}" for field in fields(shown))
@@ -32,5 +36,5 @@ def text_of(shown: object) -> str:
 
 def html_of(shown: object) -> str | None:
     """An object as HTML; None where the part that writes it is missing."""
-    show = part("show.pages")
-    return None if show is None else str(show.html(shown))
+    html = HTML.found()
+    return None if html is None else html(shown)

@@ -1,6 +1,6 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf.urdf import BASE
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
@@ -29,6 +29,8 @@ from quasistatic_ref.scenario.scenario_table import (
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.pivots import positive_definite
+
+MJCF_URDF: Slot[Callable[[Path, str, Sequence[Path]], str]] = Slot("mjcf.mjcf")
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +151,7 @@ def body_entry(
         folders += shared_folders(urdf)
     else:
         assert mjcf is not None
-        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base, folders)
+        robot = MJCF_URDF.needed("mjcf")(mjcf, base, folders)
     try:
         body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:

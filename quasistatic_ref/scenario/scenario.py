@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
@@ -17,7 +18,7 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     Wrenches,
@@ -54,6 +55,12 @@ from quasistatic_ref.step.ordered import total
 SAVING = ("save", "save_every", "resume", "observers")
 """What `run` hands on to a rollout."""
 MOST_BODIES = 1000
+EXTENDED_BODIES: Slot[
+    Callable[
+        [System, tuple[ContactPair, ...], Mapping[str, BodyEntry], float, Array, Array],
+        tuple[tuple[ContactPair, ...], OfBodies],
+    ]
+] = Slot("extensions.of_scenario")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -248,8 +255,8 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     K_q = total(stiffness(system, entry) for entry in entries.values())
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
-        part = needed_part("extensions.of_scenario", "joint_friction, support and joint_limits")
-        pairs, of_bodies = part.of_scenario(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
+        more = EXTENDED_BODIES.needed("joint_friction, support and joint_limits")
+        pairs, of_bodies = more(system, pairs, entries, h, K_q, gravity)
     ordinary = law == CONVEX and of_bodies is None
     try:  # here rather than in the first step
         backend = usable_backend(

@@ -1,10 +1,16 @@
 """The law of friction that steps obey: the model's own, or Coulomb's of ``optional/coulomb``."""
 
-from types import ModuleType
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
+
+if TYPE_CHECKING:
+    from quasistatic_ref.certify.solution import StepSolution
+    from quasistatic_ref.solve.solver import Solver
+    from quasistatic_ref.step.data import StepData
 
 CONVEX = "convex"
 COULOMB = "coulomb"
@@ -14,15 +20,11 @@ ITERATED = ("s", "s_residual", "s_iterations")
 by how much that is not its own [m]; and how many convex steps were solved."""
 
 
-def coulomb() -> ModuleType:
-    """What takes steps under Coulomb's law.
-
-    Raises
-    ------
-    InputError
-        If ``optional/coulomb`` is missing.
-    """
-    return needed_part("coulomb.fixed_point", f'law = "{COULOMB}"')
+COULOMB_LAW = f'law = "{COULOMB}"'
+COULOMB_STEP: "Slot[Callable[[StepData, Solver, float], StepSolution]]" = Slot(
+    "coulomb.fixed_point"
+)
+"""A step under Coulomb's law, by a solver, with its accuracy."""
 
 
 def check_law(law: str, certify: str) -> None:
@@ -31,12 +33,12 @@ def check_law(law: str, certify: str) -> None:
     Raises
     ------
     InputError
-        Also if :func:`coulomb` does.
+        Also if ``optional/coulomb`` is missing.
     """
     if law not in LAWS:
         raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
     if law == COULOMB:
-        coulomb()
+        COULOMB_STEP.needed(COULOMB_LAW)
         if certify != "full":
             problem = (
                 f'needs certify = "full", not "{certify}": the iteration ends where exact steps '

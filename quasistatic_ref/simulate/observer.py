@@ -1,11 +1,11 @@
 """What watches a run: before each step, after it, and at the end."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.parts import part
+from quasistatic_ref.parts import Slot
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.recorder import Recorder, StepArrays
@@ -56,12 +56,16 @@ class Observer:
         return trajectory
 
 
+NOTING: Slot[Callable[[], Observer]] = Slot("account.observer")
+DOCTOR: Slot[Callable[[bool], Observer]] = Slot("doctor.observer")
+
+
 def doctors(printed: bool = False) -> list[Observer]:
     """The observers that note a run's scene, and find at its end, perhaps printing what they find.
 
     They are of ``optional/account`` and ``optional/doctor``, where these are there.
     """
-    account = part("account.observer")
-    doctor = part("doctor.observer")
-    noting = [] if account is None else [account.Noting()]
-    return noting if doctor is None else [*noting, doctor.Doctor(printed)]
+    noting = NOTING.found()
+    doctor = DOCTOR.found()
+    found = [] if noting is None else [noting()]
+    return found if doctor is None else [*found, doctor(printed)]

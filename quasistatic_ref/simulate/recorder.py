@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.contact_forces import CONTACT_FORCES
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
@@ -89,7 +89,7 @@ class Recorder(Shown):
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
-            needed_part("forces.forces", 'record = "forces"')
+            CONTACT_FORCES.needed('record = "forces"')
         self.simulator = simulator
         self.scene = simulator.scene
         self.system = simulator.system

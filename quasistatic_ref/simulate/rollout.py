@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import nullcontext
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked, checked_items
-from quasistatic_ref.parts import needed_part, part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
+    Checked,
     Force,
     Target,
     force_function,
@@ -35,6 +36,25 @@ COLD_EVERY = 1000
 What a solver keeps of earlier steps decides the last bits of multipliers, and of answers that are
 not certified. A run that is resumed must take these steps again.
 """
+
+
+class SavedRun(Protocol):
+    """The saved steps of a run."""
+
+    @property
+    def lock(self) -> AbstractContextManager[object]:
+        """Released when the run ends."""
+
+    @property
+    def written(self) -> Path:
+        """Where its trajectory is."""
+
+
+Given = Mapping[str, tuple[object, Checked]]
+BEGUN_OR_RESUMED: Slot[
+    Callable[[str | Path, float | None, bool, int, Recorder, Given, int], SavedRun]
+] = Slot("runs.resume")
+PACE: Slot[Callable[[bool, int], Observer]] = Slot("fast.pace")
 
 
 @arguments_checked
@@ -125,18 +145,17 @@ def rollout(
     saved = None
     if save is not None:
         given = {"target": (target, q_bar_a_at), "force": (force, force_at)}
-        runs = needed_part("runs.resume", "save")
-        saved = runs.begun_or_resumed(save, save_every, resume, steps, recorder, given, COLD_EVERY)
+        begun = BEGUN_OR_RESUMED.needed("save")
+        saved = begun(save, save_every, resume, steps, recorder, given, COLD_EVERY)
     remaining = range(recorder.steps, steps)
     # Of a run that takes long, it prints that `fast` would shorten it.
-    if progress and (fast := part("fast.pace")) is not None:
-        recorder.observers.append(fast.Pace(simulator.fast, len(remaining)))
+    if progress and (pace := PACE.found()) is not None:
+        recorder.observers.append(pace(simulator.fast, len(remaining)))
     bar: Any = progress_bar(
         remaining, unit="step", total=steps, done=remaining.start, shown=progress
     )
     last: StepResult | None = None
-    lock: Any = nullcontext() if saved is None else saved.lock
-    with lock, Interrupt() as interrupt:
+    with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt:
         for k in bar:
             t = recorder.t
             q = recorder.q

@@ -1,11 +1,12 @@
 """What a scenario and a simulator have in common: bodies, contacts, and how steps are solved."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from typing import Any
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import fast_part
+from quasistatic_ref.parts import Slot, compiled
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
@@ -61,6 +62,11 @@ class Settings:
         return {setting.name: getattr(self, setting.name) for setting in fields(Settings)}
 
 
+FAST_BACKEND: Slot[Callable[[str | None, System, tuple[ContactPair, ...], str, str, bool], str]] = (
+    Slot("fast.simulator")
+)
+
+
 def usable_backend(
     name: str | None,
     system: System,
@@ -87,11 +93,9 @@ def usable_backend(
     InputError
         If `fast` is wanted, and its folder is not there.
     """
-    backends = fast_part("backends") if fast else None
-    if backends is not None:
-        entries = backends.entries_of_J(system, pairs, ordinary)
-        backend: str = backends.fast_backend(name, cone, certify, entries)
-        return backend
+    fast_backend = compiled(FAST_BACKEND) if fast else None
+    if fast_backend is not None:
+        return fast_backend(name, system, pairs, cone, certify, ordinary)
     name = DEFAULT if name is None else name
     check_backend(name, cone, certify)
     return name

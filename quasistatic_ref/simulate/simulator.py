@@ -20,9 +20,15 @@ from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked, check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.parts import fast_part, needed_part
+from quasistatic_ref.parts import Slot, compiled
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
+from quasistatic_ref.simulate.law import (
+    CONVEX,
+    COULOMB,
+    COULOMB_LAW,
+    COULOMB_STEP,
+    check_law,
+)
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.scene import Scene
@@ -30,7 +36,7 @@ from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
-from quasistatic_ref.solve.solve import check_accuracy, solve_step
+from quasistatic_ref.solve.solve import EXTENDED_STEP, check_accuracy, solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
@@ -43,6 +49,11 @@ FIXED = {
     *("accuracy", "certify", "cone", "law", "limits", "backend"),
 }
 """What a simulator is made of: its problem, and what C keeps of it, are of these."""
+FAST_SIMULATOR: Slot[type[Simulator]] = Slot("fast.simulator")
+SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor.table")
+EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
+    EXTENDED_STEP.module
+)
 Step = TypeVar("Step", bound=Callable[..., Any])
 
 
@@ -163,9 +174,8 @@ class Simulator(Settings, Shown):
 
     def __new__(cls, *arguments: Any, fast: bool = False, **settings: Any) -> Simulator:
         """A simulator, or the one of `optional/fast`; its arguments are those of the class."""
-        compiled = fast_part("simulator") if fast else None
-        kind: type[Simulator] = cls if compiled is None else compiled.FastSimulator
-        return super().__new__(kind)
+        kind = compiled(FAST_SIMULATOR) if fast else None
+        return super().__new__(kind or cls)
 
     __signature__: ClassVar[Signature]
     default_backend = DEFAULT
@@ -365,17 +375,14 @@ class Simulator(Settings, Shown):
         InputError
             If there is no ``optional/doctor``.
         """
-        doctor = needed_part("doctor.table", "findings")
+        found = SCENE_FINDINGS.needed("findings")
         q = self.system.q_start if q is None else self.system.checked(q)
-        findings: list[Finding] = doctor.scene_findings(self, q)
-        return tuple(findings)
+        return tuple(found(self, q))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """A step solved with the user's own constraints and costs at q, shape (n_q,)."""
         assert self.extension is not None
-        extended = needed_part("extensions.extended", "extension")  # it needs CVXPY
-        solution: StepSolution = extended.simulated_solution(self, step, self.extension(q))
-        return solution
+        return EXTENDED.needed("extension")(self, step, self.extension(q))
 
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
@@ -387,8 +394,7 @@ class Simulator(Settings, Shown):
         """A step solved under the simulator's law, by the solver that is kept."""
         solver = self.fitting_solver(step)
         if self.law == COULOMB:
-            found: StepSolution = coulomb().simulated_solution(step, solver, self.accuracy)
-            return found
+            return COULOMB_STEP.needed(COULOMB_LAW)(step, solver, self.accuracy)
         try:
             return solve_step(step, solver, accuracy=self.accuracy, certify=self.certify)
         except StepNotSolved as failure:

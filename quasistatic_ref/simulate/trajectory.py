@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +20,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import needed_part, part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
@@ -34,6 +34,11 @@ if TYPE_CHECKING:
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
 WHAT = "a trajectory written by this program"
+TIME_FINDINGS: Slot[Callable[[Trajectory], list[Finding]]] = Slot("doctor.table")
+ACCOUNT: Slot[Callable[[Trajectory, bool], Any]] = Slot("account.account")
+STEPS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
+COORDINATES_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
+CONTACTS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -139,8 +144,8 @@ class Trajectory(Plain, Shown):
         """
         listed = enumerate(self.header.get("findings", ()))
         findings = [finding_read(table, f"findings[{i}]") for i, table in listed]
-        if self.seconds and (doctor := part("doctor.table")) is not None:
-            findings += doctor.findings(doctor.OF_TIME, self)
+        if self.seconds and (of_time := TIME_FINDINGS.found()) is not None:
+            findings += of_time(self)
         return tuple(findings)
 
     def step_data(self, k: int) -> StepData:
@@ -312,7 +317,7 @@ class Trajectory(Plain, Shown):
         InputError
             If there is no ``optional/account``, or the file has no names or no scene.
         """
-        return needed_part("account.account", "account").account_of(self, forces)
+        return ACCOUNT.needed("account")(self, forces)
 
     def _scene(self, given: HasScene | None) -> HasScene:
         scene = self.scene if given is None else given
@@ -331,8 +336,7 @@ class Trajectory(Plain, Shown):
         InputError
             If pandas is not installed, or that part is missing.
         """
-        frame: DataFrame = needed_part("show.table", "to_pandas").data_frame(self)
-        return frame
+        return STEPS_TABLE.needed("to_pandas")(self)
 
     def coordinates_to_pandas(self) -> DataFrame:
         """One row a step and entry of q: its name, unit, value and target.
@@ -342,8 +346,7 @@ class Trajectory(Plain, Shown):
         InputError
             As for :meth:`to_pandas`.
         """
-        frame: DataFrame = needed_part("show.table", "to_pandas").coordinate_frame(self)
-        return frame
+        return COORDINATES_TABLE.needed("to_pandas")(self)
 
     def contacts_to_pandas(self) -> DataFrame:
         """One row a step and contact: its pair, point, gap, forces, points and frame.
@@ -353,8 +356,7 @@ class Trajectory(Plain, Shown):
         InputError
             As for :meth:`to_pandas`.
         """
-        frame: DataFrame = needed_part("show.table", "to_pandas").contact_frame(self)
-        return frame
+        return CONTACTS_TABLE.needed("to_pandas")(self)
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""

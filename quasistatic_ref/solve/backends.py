@@ -13,15 +13,17 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import needed_part, part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_DAQP, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
-THROUGH_QPSOLVERS = "qpsolvers.through_qpsolvers"
-"""The optional part that reaches backends through it."""
+AVAILABLE: Slot[Callable[[], list[str]]] = Slot("qpsolvers.through_qpsolvers")
+"""The backends that qpsolvers reaches here."""
+ERROR_BOUND: Slot[Callable[[StepData, Array, Array], float]] = Slot("large.bound")
 
 
 @dataclass(frozen=True)
@@ -214,8 +216,8 @@ def installed(interface: str) -> tuple[str, ...]:
     if interface == "native":
         return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.to_install))
     if interface == "qpsolvers":
-        through = part(THROUGH_QPSOLVERS)
-        there = () if through is None else through.available_solvers()
+        available = AVAILABLE.found()
+        there = [] if available is None else available()
         return tuple(name for name in BACKENDS if name in there)
     import cvxpy
 
@@ -243,7 +245,7 @@ def backend(name: str) -> Backend:
         If the name is unknown, or its solver is not installed.
     """
     if str(name).startswith(QPSOLVERS):
-        needed_part(THROUGH_QPSOLVERS, name)
+        AVAILABLE.needed(name)
     known = backend_names()
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None or not entry.steps:
@@ -324,7 +326,7 @@ def check_certify(name: str | None, certify: str) -> None:
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if certify == "residual":
-        needed_part("large.bound", RESIDUAL)
+        ERROR_BOUND.needed(RESIDUAL)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)

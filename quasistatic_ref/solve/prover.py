@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.parts import needed_part
-from quasistatic_ref.solve.backends import RESIDUAL
+from quasistatic_ref.solve.backends import ERROR_BOUND, RESIDUAL
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
@@ -45,9 +44,7 @@ class Prover:
         """
         if not cone(both.si_step.cone).polyhedral:
             return math.inf
-        bounds = needed_part("large.bound", RESIDUAL)
-        bound: float = bounds.error_bound(both.si_step, delta_q, lam)
-        return bound
+        return ERROR_BOUND.needed(RESIDUAL)(both.si_step, delta_q, lam)
 
 
 class OnwardProver(Prover):

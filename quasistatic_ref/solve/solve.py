@@ -15,7 +15,7 @@ from quasistatic_ref.certify.norm import relative_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
@@ -29,6 +29,10 @@ from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
 NOTHING_CLAIMED = Certificate("none")
+
+EXTENDED_STEP: Slot[
+    Callable[[StepData, Extension, str | Solver | None, bool, float, str], StepSolution]
+] = Slot("extensions.extended")
 
 
 def solve_step(
@@ -104,11 +108,8 @@ def solve_step(
         raise InputError(problem, field="fast", value=fast)
     check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:
-        extended = needed_part("extensions.extended", "extension")
-        solution: StepSolution = extended.extended_step(
-            step, extension, solver, fast, accuracy, certify
-        )
-        return solution
+        extended = EXTENDED_STEP.needed("extension")
+        return extended(step, extension, solver, fast, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)
     else:

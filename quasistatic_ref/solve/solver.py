@@ -6,18 +6,19 @@ of its own, and :func:`solver_for` chooses among them.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.parts import fast_part, needed_part
+from quasistatic_ref.parts import Slot, compiled
 from quasistatic_ref.solve.backends import (
+    AVAILABLE,
     BACKENDS,
     DEFAULT,
     NONE,
     QPSOLVERS,
-    THROUGH_QPSOLVERS,
     UNSAFE,
     Options,
     check_backend,
@@ -72,7 +73,7 @@ class OptionSet:
 
     accuracy: float
     options: Options
-    kept: Any = None
+    kept: object = None
 
 
 class Solver(ABC):
@@ -114,7 +115,7 @@ class Solver(ABC):
         self.prover = Prover()
         self._option_sets: dict[float, list[OptionSet]] = {}
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.template, self.name)
 
     def fits(self, step: StepData) -> bool:
@@ -165,7 +166,7 @@ class BackendSolver(Solver):
     """A solver that writes steps into a problem of a backend, and reads its replies."""
 
     @abstractmethod
-    def write(self, both: Any) -> Mask | None:
+    def write(self, both: StepInBothUnits) -> Mask | None:
         """Write a step into the problem, in natural units.
 
         Gaps of contacts out of reach are written smaller than they are: numbers of very different
@@ -178,7 +179,7 @@ class BackendSolver(Solver):
         """
 
     @abstractmethod
-    def reply(self, option_set: OptionSet, both: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """What the backend says to the problem as it is written."""
 
     def option_sets(self, accuracy: float) -> list[OptionSet]:
@@ -265,6 +266,10 @@ class NoSolver(Solver):
         raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
 
 
+FAST_SOLVER: Slot[Callable[[StepData, str | None], Solver]] = Slot("fast.solver")
+QPSOLVERS_SOLVER: Slot[Callable[[StepData, str], Solver]] = Slot(AVAILABLE.module)
+
+
 def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:
     """A solver of steps like this one.
 
@@ -286,17 +291,15 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     InputError
         If `fast` is wanted, and its folder is not there.
     """
-    compiled = fast_part("solver") if fast else None
-    if compiled is not None:
-        solver: Solver = compiled.fast_solver(step, name)
-        return solver
+    fast_solver = compiled(FAST_SOLVER) if fast else None
+    if fast_solver is not None:
+        return fast_solver(step, name)
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
-        other: Solver = needed_part(THROUGH_QPSOLVERS, name).QpsolversSolver(step, name)
-        return other
+        return QPSOLVERS_SOLVER.needed(name)(step, name)
     # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 

@@ -63,15 +63,16 @@ class CvxpySolver(BackendSolver):
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
         return super().answer(both, accuracy)
 
-    def write(self, both: DenseStepInBothUnits) -> Mask:
+    def write(self, both: StepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
+        assert isinstance(both, DenseStepInBothUnits)
         natural = both.natural_step
         near = phi_within_reach(natural)
         self.problem.fill(natural)
         self.problem.parameters["phi"].value = near
         return np.repeat(near < natural.contacts.phi, natural.counts)
 
-    def reply(self, option_set: OptionSet, both: DenseStepInBothUnits) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY

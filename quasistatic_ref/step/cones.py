@@ -31,7 +31,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
@@ -307,6 +307,9 @@ def facets(K: int) -> ConeFunction:
     return rows
 
 
+CURVED_CONE: Slot[CurvedCone] = Slot("ellipsoid.cone")
+
+
 @cache
 def cone(name: str) -> FrictionCone:
     """The cone of a name.
@@ -333,8 +336,7 @@ def cone(name: str) -> FrictionCone:
     if name == "frictionless":
         return PolyhedralCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
-        curved: FrictionCone = needed_part("ellipsoid.cone", f'cone = "{name}"').ELLIPSOID_CONE
-        return curved
+        return CURVED_CONE.needed(f'cone = "{name}"')
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)

@@ -101,6 +101,11 @@ class Contacts(Plain, Shown):
         """J as it is kept: shape (n_c, 4, n_v), or without its zeros in a step of many bodies."""
         return self.J
 
+    @property
+    def kept_columns(self) -> Indices | None:
+        """Which columns of J `kept_J` has, shape (n_c, w), n_v where none; None if all."""
+        return None
+
     def raised(self, s: Array) -> Contacts:
         """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
         return replace(self, phi=self.phi + s)

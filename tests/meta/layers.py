@@ -16,6 +16,9 @@ CORE = (
     ("scenario",),
 )
 
+# What parts ask of each other, which all of them import.
+BETWEEN = "optional/between"
+
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
     "optional/account",
@@ -163,10 +166,12 @@ def rank(folder):
     for place, together in enumerate(CORE):
         if folder in together:
             return place
-    if folder in OPTIONAL:
+    if folder == BETWEEN:
         return len(CORE)
+    if folder in OPTIONAL:
+        return len(CORE) + 1
     if folder in LAB:
-        return len(CORE) + 1 + LAB.index(folder)
+        return len(CORE) + 2 + LAB.index(folder)
     return None
 
 

@@ -57,7 +57,6 @@ def test_the_plain_path_asks_for_nothing_of_fast(monkeypatch):
     asked = []
     imported = parts.import_module
     monkeypatch.setattr(parts, "import_module", lambda name: asked.append(name) or imported(name))
-    parts.part.cache_clear()
     load_scenario("sphere_spin", steps=1).run(progress=False)
     assert asked
     assert not any(name.startswith("quasistatic_ref.optional.fast") for name in asked)

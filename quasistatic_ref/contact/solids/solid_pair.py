@@ -6,15 +6,19 @@ all others, a cylinder, cone or ellipsoid and any of these or of those, ``option
 and checks coal's answer.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
+
+COAL_WITNESS: Slot[Callable[[str, ShapeInWorld, ShapeInWorld], Witness]] = Slot("curved.by_coal")
 
 
 def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
@@ -65,10 +69,7 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
     kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
-    witness: Witness = needed_part("curved.by_coal", f"{name}: contact of {kinds}").coal_witness(
-        name, a, b
-    )
-    return witness
+    return COAL_WITNESS.needed(f"{name}: contact of {kinds}")(name, a, b)
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.bench.grasp import (
 from quasistatic_ref.lab.bench.solids import LARGE, SCENES, solid_scenes
 from quasistatic_ref.lab.bench.whole_run import whole_run
 from quasistatic_ref.lab.study.measuring import environment
-from quasistatic_ref.parts import fast_part
+from quasistatic_ref.optional.fast.speed import usable
 from quasistatic_ref.solve.backends import installed
 
 Tell = Callable[[str], None]
@@ -52,7 +52,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     """
     if "daqp" not in installed("native"):
         raise InputError("compares the step with DAQP: pip install daqp", field="bench")
-    if fast_part("simulator") is None:
+    if not usable():
         raise InputError("measures compiled steps", field="bench")
     steps = 6 if quick else 250
     repeat = 1 if quick else REPEAT

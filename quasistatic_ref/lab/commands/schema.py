@@ -7,7 +7,7 @@ from typing import Any
 
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.file.fields import study_schema
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
     CONTACT,
@@ -42,8 +42,10 @@ def scenario_schema() -> dict[str, Any]:
 
 def opinion_schema() -> dict[str, Any]:
     """The JSON Schema of a second opinion."""
-    fields = needed_part("guests.opinion_fields", "opinion")
-    return json_schema("A second opinion", fields.TABLES, {}, fields.TOP)
+    with needing("opinion"):
+        from quasistatic_ref.optional.guests.opinion_fields import TABLES as TABLES_OF_OPINION
+        from quasistatic_ref.optional.guests.opinion_fields import TOP as TOP_OF_OPINION
+    return json_schema("A second opinion", TABLES_OF_OPINION, {}, TOP_OF_OPINION)
 
 
 SCHEMAS = {"scenario": scenario_schema, "study": study_schema, "opinion": opinion_schema}

@@ -13,7 +13,7 @@ from quasistatic_ref.errors import InputError, ModelError, about_field, about_fi
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.text import decimal, point_lines
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
@@ -137,11 +137,11 @@ WORDS_OF: dict[str, Callable[[Lines], Iterator[Point]]] = {
 """Extension of a text file -> the words of each of its points."""
 OF_PART = (".ply", ".pcd", ".npy", ".npz")
 """Extensions of files that ``optional/readers`` reads."""
+POINTS_OF: Slot[dict[str, Callable[[Path], Array]]] = Slot("readers.points")
 KINDS = (*WORDS_OF, *OF_PART)
 
 
 def _points(path: Path, kind: str) -> list[list[float]] | Array:
     if kind in WORDS_OF:
         return _of_lines(path, WORDS_OF[kind])
-    points: Array = needed_part("readers.points", f"a {kind} cloud").POINTS[kind](path)
-    return points
+    return POINTS_OF.needed(f"a {kind} cloud")[kind](path)

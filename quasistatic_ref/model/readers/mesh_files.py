@@ -1,6 +1,6 @@
 """Mesh files: which file a URI means, and the convex hull of what it holds."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,12 +10,13 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
 
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
+CHECK_DAE: Slot[Callable[[Path], None]] = Slot("readers.dae")
 LARGEST_MESHES = 16 * 2**20
 """Largest sum of the meshes of all URDFs, and of a scenario's own [bytes]; each takes up to 7 s
 and 1.6 GiB."""
@@ -99,7 +100,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path], size: 
         problem = f"brings the meshes to more than {most:g} MiB; give it simpler ones"
         raise ModelError(problem, value=size)
     if path.suffix.lower() == ".dae":
-        needed_part("readers.dae", "a .dae mesh").check_dae(path)
+        CHECK_DAE.needed("a .dae mesh")(path)
     return path
 
 

@@ -14,7 +14,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.spans import Span, spans
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, TOUCHES
@@ -440,3 +440,6 @@ def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[flo
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
     return Drive(joint, error, spring, waypoints)
+
+
+ACCOUNT.fill(account_of)

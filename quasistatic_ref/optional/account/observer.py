@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape
-from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.observer import NOTING, Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -45,3 +45,6 @@ def side(system: System, placed: PlacedShape) -> str:
     if not placed.link:
         return placed.name
     return body if own == body else link
+
+
+NOTING.fill(Noting)

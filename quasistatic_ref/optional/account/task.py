@@ -1,17 +1,16 @@
 """Whether a run did what its scene was made for: the findings of the task."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from itertools import chain, product
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.account import PairAccount, pair_accounts
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length, listed
+from quasistatic_ref.optional.between import OF_TASK, TASK, FinishedRun, Said
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, Mask
@@ -37,21 +36,6 @@ MOST = 300
 """Pairs of shapes that are looked at."""
 
 
-class Said(NamedTuple):
-    """What a finding says: its sentence is ``remedy: cause``.
-
-    Parameters
-    ----------
-    remedy, cause : str
-    numbers : dict of str to float
-        By names that end in their unit [any unit].
-    """
-
-    remedy: str
-    cause: str
-    numbers: dict[str, float]
-
-
 class Task:
     """A run, and who was to do what in it.
 
@@ -62,24 +46,29 @@ class Task:
     trajectory : Trajectory
     """
 
-    def __init__(self, run: Any, trajectory: Trajectory) -> None:
+    def __init__(self, run: FinishedRun, trajectory: Trajectory) -> None:
         self.run = run
         self.trajectory = trajectory
-        self.system = run.system
-        self.pairs: tuple[ContactPair, ...] = run.pairs
+        self.system = run.simulator.system
+        self.pairs = run.simulator.pairs
+        self.h = run.simulator.h
         self.steps = trajectory.steps
-        self.end = trajectory.steps * run.h
+        self.end = trajectory.steps * self.h
         self.tracks = run.recorder.tracks
         self.accounts = pair_accounts(trajectory, False, [])
         moves = self.system.column_map.of_coordinates(self.system.column_map.moves)[:, 0] != 0
         self.driven = moves[:, : self.system.n_a].any(axis=1)
         self.free = moves[:, self.system.n_a :].any(axis=1) & ~self.driven
 
+    def found(self, name: str) -> Iterator[Said]:
+        """What the finding of a name has to say."""
+        return FINDINGS[name][1](self)
+
     @property
     def finished(self) -> bool:
         """Whether there are waypoints, and the run goes on to the last of them."""
         times = [float(track.times[-1]) for track in self.tracks]
-        return bool(times) and max(times) <= self.end + self.run.h / 2
+        return bool(times) and max(times) <= self.end + self.h / 2
 
     @cached_property
     def tables(self) -> dict[str, list[int]]:
@@ -126,7 +115,7 @@ def late(task: Task) -> Iterator[Said]:
     joint = min(first, key=first.__getitem__)
     yield Said(
         "raise steps or h, or check the times of waypoints, which are in seconds",
-        f"the run ends at {task.end:.4g} s ({task.steps} steps of {task.run.h:g} s), before the "
+        f"the run ends at {task.end:.4g} s ({task.steps} steps of {task.h:g} s), before the "
         f"first waypoint of {joint}, at {first[joint]:.4g} s",
         {"end_s": task.end, "waypoint_s": first[joint]},
     )
@@ -183,7 +172,7 @@ def through(task: Task) -> Iterator[Said]:
                 said[key] = Said(
                     f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
                     f"no table joins them, and they pass through each other, {length(depth)} deep "
-                    f"at {k * task.run.h:.2f} s",
+                    f"at {k * task.h:.2f} s",
                     {"depth_mm": 1e3 * depth, "step": k - 1},
                 )
     yield from said.values()
@@ -355,12 +344,16 @@ def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     return error > STALLED * task.size(i) and moved < SUNK * task.size(i)
 
 
-KINDS = (
-    ("late waypoints", True, late),
-    ("no motion", True, still),
-    ("passes through", True, through),
-    ("idle contacts", True, idle),
-    ("lost grip", True, lost),
-    ("far from target", True, short),
-)
-"""Name, whether it is grave, and what finds it; causes come first."""
+FINDINGS: dict[str, tuple[bool, Callable[[Task], Iterator[Said]]]] = {
+    "late waypoints": (True, late),
+    "no motion": (True, still),
+    "passes through": (True, through),
+    "idle contacts": (True, idle),
+    "lost grip": (True, lost),
+    "far from target": (True, short),
+}
+"""By its name: whether it is grave, and what finds it; causes come first."""
+
+
+TASK.fill(Task)
+OF_TASK.fill([(name, grave) for name, (grave, _) in FINDINGS.items()])

@@ -22,6 +22,7 @@ from flint import fmpq, fmpz, fmpz_mat
 from quasistatic_ref.certify.rational import exact_form, matrix
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.optional.between import COULOMB_COUNT
 from quasistatic_ref.optional.coulomb.cone_faces import Rows, faces
 from quasistatic_ref.optional.coulomb.systems import Integers, System
 from quasistatic_ref.step.arrays import Array, Indices, read_only
@@ -377,3 +378,6 @@ def _product(a: Integers, x: Sequence[fmpq]) -> fmpq:
 
 def _ratio(number: fmpq) -> tuple[int, int]:
     return int(number.p), int(number.q)
+
+
+COULOMB_COUNT.fill(lambda step, most: coulomb_solutions(step, most).count)

@@ -18,6 +18,7 @@ import numpy as np
 
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.solid_pair import COAL_WITNESS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
@@ -219,3 +220,6 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
         n = n + (n - before)
         n = n / np.sqrt(n @ n)
     return best
+
+
+COAL_WITNESS.fill(coal_witness)

@@ -5,7 +5,8 @@ from itertools import product
 
 import numpy as np
 
-from quasistatic_ref.optional.doctor.start import Said, Start, body, sizes
+from quasistatic_ref.optional.between import Said
+from quasistatic_ref.optional.doctor.start import Start, body, sizes
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.data import Array
 

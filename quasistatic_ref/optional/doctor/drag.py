@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.artifacts import Drag, drags
 from quasistatic_ref.optional.doctor.run import Run, wrenches
-from quasistatic_ref.optional.doctor.start import Said, free_bases
+from quasistatic_ref.optional.doctor.start import free_bases
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SLOW
 

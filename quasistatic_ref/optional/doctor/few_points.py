@@ -9,15 +9,8 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.doctor.start import (
-    Said,
-    Start,
-    bodies,
-    body,
-    free_bases,
-    least,
-    table,
-)
+from quasistatic_ref.optional.between import Said
+from quasistatic_ref.optional.doctor.start import Start, bodies, body, free_bases, least, table
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, SUNK
 

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run, wrenches
-from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
+from quasistatic_ref.optional.doctor.start import Start, contacts_of
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices

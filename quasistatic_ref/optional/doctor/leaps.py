@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, sizes
+from quasistatic_ref.optional.doctor.start import sizes
 from quasistatic_ref.tolerances import LEAP
 
 

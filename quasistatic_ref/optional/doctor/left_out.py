@@ -7,8 +7,9 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, contacts_of, least, slices, table
+from quasistatic_ref.optional.doctor.start import contacts_of, least, slices, table
 from quasistatic_ref.tolerances import BEARS, SUNK
 
 DEEP = SUNK / 100

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.optional.doctor.start import Said, Start, table
+from quasistatic_ref.optional.between import Said
+from quasistatic_ref.optional.doctor.start import Start, table
 from quasistatic_ref.tolerances import ROUGH
 
 MANY = 10

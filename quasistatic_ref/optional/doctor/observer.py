@@ -16,7 +16,7 @@ from quasistatic_ref.optional.doctor.artifacts import (
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.table import AFTER, NO_STEPS, OF_SCENE, findings
-from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.observer import DOCTOR, Observer
 from quasistatic_ref.simulate.recorder import Recorder, StepArrays, motions
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -82,3 +82,6 @@ class Doctor(Observer):
             for finding in trajectory.findings:
                 print(f"quasistatic-ref: {finding}", file=sys.stderr)
         return trajectory
+
+
+DOCTOR.fill(Doctor)

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.start import (
-    Said,
     Start,
     bodies,
     body,

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import ContactForces, forces_near
+from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces, forces_near
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.between import TASK, TaskOfRun
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
-from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -40,9 +40,9 @@ class Run(Start):
         self._steps: dict[int, StepData] = {}
 
     @cached_property
-    def task(self) -> Any:
+    def task(self) -> TaskOfRun:
         """What it was made for, which ``optional/account`` knows."""
-        return needed_part("account.task", "a finding of the task").Task(self, self.trajectory)
+        return TASK.needed("a finding of the task")(self, self.trajectory)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -98,7 +98,7 @@ class Run(Start):
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
-        if not self.searched or part("forces.forces") is None:
+        if not self.searched or CONTACT_FORCES.found() is None:
             return None
         return self._compliant(k)
 

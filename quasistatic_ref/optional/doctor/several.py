@@ -4,9 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import COULOMB_COUNT, Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said
-from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.cones import cone
 
@@ -25,16 +24,16 @@ def several(run: Run) -> Iterator[Said]:
     posed = run.small and simulator.extension is None and cone(simulator.cone).polyhedral
     if simulator.law != COULOMB or not posed:
         return
-    modes = part("coulomb.modes")
-    if modes is None:
+    count = COULOMB_COUNT.found()
+    if count is None:
         return
     steps = np.unique(np.linspace(0, run.steps - 1, LOOKED).round().astype(int)).tolist()
     found = []
     for k in steps:
-        solutions = modes.coulomb_solutions(run.step_data(k), SYSTEMS)
-        if solutions.count == modes.UNKNOWN:
+        solutions = count(run.step_data(k), SYSTEMS)
+        if solutions == "unknown":
             break
-        if solutions.count == modes.SEVERAL:
+        if solutions == "several":
             found.append(k)
     if found:
         yield Said(

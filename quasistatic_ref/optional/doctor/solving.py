@@ -5,8 +5,8 @@ from math import log10
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE

@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,21 +25,6 @@ HULL = "hull of its points"
 SEARCHED = 200_000
 """Most entries of a step's J, 4 n_c n_v, of a scene in which J is formed and a step is solved once
 more: the exact method starts cold, and takes a second there."""
-
-
-class Said(NamedTuple):
-    """What a finding says: its sentence is ``remedy: cause``.
-
-    Parameters
-    ----------
-    remedy, cause : str
-    numbers : dict of str to float
-        By names that end in their unit [any unit].
-    """
-
-    remedy: str
-    cause: str
-    numbers: dict[str, float]
 
 
 class Start:

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from quasistatic_ref.optional.doctor.start import Said, Start, body
-from quasistatic_ref.parts import part
+from quasistatic_ref.optional.between import STRAY, Said
+from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.placed_shape import PointCloud
 
 FEWEST, MOST = 50, 200_000
@@ -18,11 +18,11 @@ def strays(start: Start) -> Iterator[Said]:
         for p in start.sides
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MOST
     }
-    scans = part("scans.cloud") if clouds else None  # it loads SciPy, which takes a second
-    if scans is None:
+    stray = STRAY.found() if clouds else None  # it loads SciPy, which takes a second
+    if stray is None:
         return
     for shape, name in clouds.values():
-        found = shape.points[scans.stray(shape.points)]
+        found = shape.points[stray(shape.points)]
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
             more = ["..."] if len(found) > SHOWN else []

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, least, slices, table
+from quasistatic_ref.optional.doctor.start import least, slices, table
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUNK
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
+from quasistatic_ref.optional.between import OF_TASK, Said
 from quasistatic_ref.optional.doctor import (
     contradictions,
     drag,
@@ -22,11 +23,10 @@ from quasistatic_ref.optional.doctor import (
     unsupported,
 )
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, Start
-from quasistatic_ref.parts import part
+from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.simulator import SCENE_FINDINGS, Simulator
+from quasistatic_ref.simulate.trajectory import TIME_FINDINGS, Trajectory
 from quasistatic_ref.step.data import Array
 
 
@@ -74,13 +74,11 @@ OF_TARGETS = (
 
 def of_task() -> tuple[Kind, ...]:
     """What ``optional/account`` finds of a run's task, where it is there."""
-    task = part("account.task")
-    kinds = () if task is None else task.KINDS
-    return tuple(Kind(name, grave, _of_task(found)) for name, grave, found in kinds)
+    return tuple(Kind(name, grave, _of_task(name)) for name, grave in OF_TASK.found() or ())
 
 
-def _of_task(found: Callable[..., Iterator[Said]]) -> Callable[[Run], Iterator[Said]]:
-    return lambda run: found(run.task) if run.complete else iter(())
+def _of_task(name: str) -> Callable[[Run], Iterator[Said]]:
+    return lambda run: run.task.found(name) if run.complete else iter(())
 
 
 AFTER = (
@@ -124,3 +122,7 @@ def findings(kinds: Iterable[Kind], of: Start | Trajectory) -> list[Finding]:
         for kind in kinds
         for said in kind.found(of)
     ]
+
+
+SCENE_FINDINGS.fill(scene_findings)
+TIME_FINDINGS.fill(lambda trajectory: findings(OF_TIME, trajectory))

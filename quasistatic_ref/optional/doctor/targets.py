@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 

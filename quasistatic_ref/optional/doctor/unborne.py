@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.tolerances import BORNE, SURE
 
 

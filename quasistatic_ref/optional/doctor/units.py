@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, Start, least, table
+from quasistatic_ref.optional.doctor.start import Start, least, table
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import IN_METRES

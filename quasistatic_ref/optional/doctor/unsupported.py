@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, Start, bodies, free_bases
+from quasistatic_ref.optional.doctor.start import Start, bodies, free_bases
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS
 

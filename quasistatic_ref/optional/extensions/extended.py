@@ -17,13 +17,14 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.optional.between import POSED
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.simulator import EXTENDED, Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solve import EXTENDED_STEP, solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, in_si, natural_step, natural_units
@@ -295,3 +296,8 @@ def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Arr
         dense = block.toarray() if hasattr(block, "toarray") else np.asarray(block)
         blocks.append(dense.reshape(x.size, size).T)
     return np.asarray(np.hstack(blocks), dtype=np.float64)
+
+
+EXTENDED_STEP.fill(extended_step)
+EXTENDED.fill(simulated_solution)
+POSED.fill(posed)

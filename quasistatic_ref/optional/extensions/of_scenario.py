@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
@@ -13,6 +12,7 @@ from quasistatic_ref.optional.extensions.rises import private_rises, urdf_fricti
 from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
+from quasistatic_ref.scenario.scenario import EXTENDED_BODIES
 from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.extension import Extension, ExtensionOfQ, Rises
@@ -46,7 +46,12 @@ class OfScenario(Plain):
 
 
 def of_scenario(
-    system: System, pairs: tuple[ContactPair, ...], entries: Mapping[str, BodyEntry], **more: Any
+    system: System,
+    pairs: tuple[ContactPair, ...],
+    entries: Mapping[str, BodyEntry],
+    h: float,
+    K_q: Array,
+    gravity: Array,
 ) -> tuple[tuple[ContactPair, ...], OfScenario]:
     """The pairs with those of supports, and what else the tables of bodies add to each step.
 
@@ -55,8 +60,8 @@ def of_scenario(
     system : System
     pairs : tuple of ContactPair
     entries : mapping of str to BodyEntry
-    more : object
-        h, K_q and gravity as of :func:`~quasistatic_ref.optional.extensions.rises.private_rises`.
+    h, K_q, gravity
+        As of :func:`~quasistatic_ref.optional.extensions.rises.private_rises`.
 
     Raises
     ------
@@ -69,7 +74,9 @@ def of_scenario(
     for entry in entries.values():
         friction |= joint_friction(system, entry)
     support = {name: _support(e, e.support) for name, e in entries.items() if e.support is not None}
-    pairs, rises = private_rises(system, pairs, friction=friction, support=support, **more)
+    pairs, rises = private_rises(
+        system, pairs, h=h, K_q=K_q, gravity=gravity, friction=friction, support=support
+    )
     return pairs, OfScenario(rises, limits)
 
 
@@ -108,3 +115,6 @@ def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:
         raise entry.table.error_about("support", 'is for a body with base = "planar"')
     check_names(rubs, SUPPORT)
     return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")
+
+
+EXTENDED_BODIES.fill(of_scenario)

@@ -10,6 +10,7 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.optional.between import WITH_RISES
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
@@ -56,7 +57,7 @@ def private_rises(
     *,
     h: float,
     K_q: Array,
-    gravity: Sequence[float],
+    gravity: Sequence[float] | Array,
     friction: Mapping[str, float] | None = None,
     support: Mapping[str, tuple[float, float]] | None = None,
 ) -> tuple[tuple[ContactPair, ...], Rises]:
@@ -152,3 +153,6 @@ def urdf_friction(system: System, name: str) -> dict[str, float]:
             friction = abs(factor) * says.number("friction", default=0.0)
             found[coordinate] = found.get(coordinate, 0.0) + friction
     return found
+
+
+WITH_RISES.fill(with_rises)

@@ -7,18 +7,22 @@ can, it starts from its answer to the step before.
 
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import HessianInBothUnits, Units, reach
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    StepInBothUnits,
+    Units,
+    reach,
+)
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import FAR
 
 
@@ -68,7 +72,7 @@ class NativeSolver(BackendSolver):
         alike = step.row_layout is self.template.row_layout and sizes(step) == self.sizes
         return alike or super().fits(step)
 
-    def write(self, both: Any) -> NDArray[np.bool_] | None:
+    def write(self, both: StepInBothUnits) -> Mask | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
         self.write_program(both)
         program = self.program
@@ -78,8 +82,9 @@ class NativeSolver(BackendSolver):
         np.maximum(program.b, least, out=program.b)
         return np.asarray(program.b == least)
 
-    def write_program(self, both: Any) -> None:
+    def write_program(self, both: StepInBothUnits) -> None:
         """Write the program in natural units as it is; H only where it is another array."""
+        assert isinstance(both, DenseStepInBothUnits)
         form = both.si_form
         program = self.program
         S = both.units.coordinate
@@ -92,14 +97,14 @@ class NativeSolver(BackendSolver):
         np.multiply(form.A, S / ell, out=program.A)
         np.multiply(form.b, 1 / (rho * ell), out=program.b)
 
-    def reply(self, option_set: OptionSet, both: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits | None) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
         if isinstance(program, Program) and not program.b.size:
             return program.unconstrained()
-        held: _SetUpAdapter | None = option_set.kept
+        held = option_set.kept
         option_set.kept = None  # an adapter that raises is set up again
-        if held is None:
+        if not isinstance(held, _SetUpAdapter):
             held = _SetUpAdapter(self.adapter(program, option_set.options), self.hessian)
         warm = self.adapter.WARM and held.warm
         reply = held.adapter.reply(held.hessian is self.hessian, warm)

@@ -8,6 +8,7 @@ from tqdm import tqdm
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder, StepArrays
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.rollout import PACE
 from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
 FIRST = 5
@@ -88,3 +89,6 @@ def said(sentence: str | None) -> None:
     """Print a sentence, if there is one, above the bar of progress."""
     if sentence is not None:
         tqdm.write(f"quasistatic-ref: {sentence}", file=sys.stderr)
+
+
+PACE.fill(Pace)

@@ -1,13 +1,12 @@
 """The ellipsoid natively: one second-order cone a contact, gap >= ||(slip_1, slip_2, spin)||."""
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import OptionSet
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import Array, Mask, StepData
 
 
@@ -37,7 +36,7 @@ class ConeSolver(NativeSolver):
         assert isinstance(program, Program)
         return Program(program.H, program.f, program.A, program.b, self.template.contacts.n_c)
 
-    def write(self, both: Any) -> Mask | None:
+    def write(self, both: StepInBothUnits) -> Mask | None:
         """Write the program in natural units; a contact out of reach bears no impulse at all."""
         out_of_reach = super().write(both)
         self.mu = coefficients(both.si_step)
@@ -48,7 +47,7 @@ class ConeSolver(NativeSolver):
             contacts[:] = contacts[:, :1]
         return out_of_reach
 
-    def reply(self, option_set: OptionSet, both: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits | None) -> Reply:
         """One attempt, its multipliers those of the unscaled rows: impulses (n, d1, d2, spin)."""
         reply = super().reply(option_set, both)
         if reply.lam is not None:

@@ -1,21 +1,24 @@
 """The simulator of `fast`: the same steps, with their data from compiled code."""
 
 from operator import itemgetter
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits, field_values
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.between import BLOCK_COLUMNS, BlockColumns
 from quasistatic_ref.optional.fast.backends import (
     default_backend,
     entries_of_J,
+    fast_backend,
     sparse_from,
 )
 from quasistatic_ref.optional.fast.compiled.answer import as_said
@@ -34,10 +37,15 @@ from quasistatic_ref.optional.fast.posed import (
 )
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
-from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
+from quasistatic_ref.simulate.settings import FAST_BACKEND
+from quasistatic_ref.simulate.simulator import (
+    FAST_SIMULATOR,
+    Simulator,
+    Stopwatch,
+    by_one_thread,
+)
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
@@ -93,16 +101,16 @@ class FastSimulator(Simulator):
         entries = entries_of_J(system, self.pairs, ordinary)
         self.default_backend = default_backend(self.cone, self.certify, entries)
         least = sparse_from(self.backend, self.cone)
-        large = part("large.block_columns") if 0 < least <= entries.every else None
-        columns: Columns
-        if large is None:
-            self.blocks: Any = None
+        block_columns = BLOCK_COLUMNS.found() if 0 < least <= entries.every else None
+        self.blocks: BlockColumns | None = None
+        if block_columns is None:
             self.geometry = ContactGeometry(layout, system.column_map)
             columns = every_column(self.geometry)
+            M_u = system.M_u(system.q_start)
         else:
-            self.blocks = large.block_columns(layout, system.column_map)
-            columns = self.blocks
-        M_u = system.M_u(system.q_start) if large is None else system.mass_blocks
+            self.blocks = kept = block_columns(layout, system.column_map)
+            columns = Columns(*kept.columns())
+            M_u = system.mass_blocks
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, layout.rows, self.cone)
         self.same = self.constant.fields()
         mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
@@ -249,8 +257,7 @@ class FastSimulator(Simulator):
             self.named = listed, layout.contact_names(points.point)
         name = self.named[1]
         if self.blocks is not None:
-            made: Contacts = self.blocks.contacts(layout, name, points, d1, d2, J)
-            return made
+            return self.blocks.contacts(layout, name, points, d1, d2, J)
         own = {"name": name, "phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}
         return posed(Contacts, self.friction, own)
 
@@ -310,3 +317,19 @@ class FastSimulator(Simulator):
         if program is None or not program.fits(solver, step):
             self.program = program = natural_program(self.numbers, solver, step)
         return None if program is None else program.written()
+
+
+def backend_of(
+    name: str | None,
+    system: System,
+    pairs: tuple[ContactPair, ...],
+    cone: str,
+    certify: str,
+    ordinary: bool,
+) -> str:
+    """As :func:`~quasistatic_ref.simulate.settings.usable_backend`, with `fast`."""
+    return fast_backend(name, cone, certify, entries_of_J(system, pairs, ordinary))
+
+
+FAST_SIMULATOR.fill(FastSimulator)
+FAST_BACKEND.fill(backend_of)

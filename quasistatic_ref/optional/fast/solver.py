@@ -1,24 +1,20 @@
 """Solvers that keep what steps have in common, and try a guessed working set before all else."""
 
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
-
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
+from quasistatic_ref.optional.between import FLOAT_BOUND, FloatBound
+from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
-from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.prover import Prover
-from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.solver import FAST_SOLVER, NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import BOUNDED
 
@@ -40,8 +36,7 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
         return solver_for(step, name)
     if cone(step.cone).curved is not None:
         return ConeSolver(step, name)
-    large = part("large.sparse_contacts")
-    if large is not None and isinstance(step.contacts, large.SparseContacts):
+    if step.contacts.kept_columns is not None:
         return SparseSolver(step, name)
     return FastSolver(step, name)
 
@@ -59,7 +54,7 @@ class GuessProver(Prover):
 
     def __init__(self) -> None:
         self.proofs = Proofs()
-        self.bound: Any = None
+        self.bound: FloatBound | None = None
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method."""
@@ -75,8 +70,8 @@ class GuessProver(Prover):
         assert isinstance(both, DenseStepInBothUnits)
         H = both.hessian.natural_H
         if self.bound is None or self.bound.H is not H:
-            self.bound = needed_part("large.float_bound", RESIDUAL).FloatBound(H)
-        error: float = self.bound.step_error(both, delta_q, lam)
+            self.bound = FLOAT_BOUND.needed(RESIDUAL)(H)
+        error = self.bound.step_error(both, delta_q, lam)
         return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
 
 
@@ -105,16 +100,20 @@ class FastSolver(NativeSolver):
         """The step in both units; what H gives of them is kept while H is the same array."""
         return DenseStepInBothUnits(step, self.hessian)
 
-    def write_program(self, both: DenseStepInBothUnits) -> None:
+    def write_program(self, both: StepInBothUnits) -> None:
         """Write the program in natural units, unless compiled code has."""
         if self.written is not both.units:
             super().write_program(both)
         self.written = None
 
-    def write(self, both: DenseStepInBothUnits) -> NDArray[np.bool_] | None:
+    def write(self, both: StepInBothUnits) -> Mask | None:
         """Write the program, mostly the natural standard form; rows out of reach, shape (m,)."""
+        assert isinstance(both, DenseStepInBothUnits)
         out_of_reach = super().write(both)
-        p: Any = self.program
-        if out_of_reach is None and self.adapter.ORDER == "C":
+        p = self.program
+        if out_of_reach is None and self.adapter.ORDER == "C" and isinstance(p, Program):
             both.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
         return out_of_reach
+
+
+FAST_SOLVER.fill(fast_solver)

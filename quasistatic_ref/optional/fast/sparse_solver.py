@@ -5,17 +5,17 @@ entries that are not zero. Answers are judged by residuals and a bound of the er
 (:mod:`~quasistatic_ref.optional.large.float_bound`), or proved group by group.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.errors import BackendError
+from quasistatic_ref.optional.between import LARGE_STEPS, LargeSteps
 from quasistatic_ref.optional.fast.adapters.program import SparseProgram
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.proofs import Proofs
-from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
@@ -23,6 +23,9 @@ from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
 """Options that ask for a duality gap: Clarabel's, then PIQP's."""
@@ -49,8 +52,9 @@ def reachable(options: Options, rows: int) -> Options:
 class SparseProver(Prover):
     """What proves large steps, group by group."""
 
-    def __init__(self) -> None:
+    def __init__(self, kind: LargeSteps) -> None:
         self.proofs = Proofs()
+        self.kind = kind
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum."""
@@ -60,9 +64,9 @@ class SparseProver(Prover):
         """The norm ||.||_H of a step."""
         return self.proofs.norm()
 
-    def error_bound(self, both: Any, delta_q: Array, lam: Array) -> float:
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        return float(both.error_bound(delta_q, lam))
+        return self.kind.error_bound(both, delta_q, lam)
 
 
 class SparseSolver(NativeSolver):
@@ -89,19 +93,18 @@ class SparseSolver(NativeSolver):
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
         super().__init__(template, name)
-        self.prover = SparseProver()
+        self.prover = SparseProver(self.kind)
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""
-        kind: Any = needed_part("large.sparse", "a step in blocks").LargeSteps(self.template)
-        self.kind = kind
-        A = kind.pattern.A.copy()
+        self.kind = LARGE_STEPS.needed("a step in blocks")(self.template)
+        H, P, A = self.kind.matrices()
         m, n = A.shape
-        return SparseProgram(kind.bound.H, kind.P, np.zeros(n), A, np.zeros(m))
+        return SparseProgram(H, P, np.zeros(n), A, np.zeros(m))
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
-        return bool(self.kind.pattern.fits(step))
+        return self.kind.fits(step)
 
     def differences(self, step: StepData) -> list[str]:
         """In what a step is not like the one that the pattern was made for."""
@@ -116,20 +119,18 @@ class SparseSolver(NativeSolver):
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in SI units and in natural units."""
-        both: StepInBothUnits = self.kind.in_both_units(step)
-        return both
+        return self.kind.in_both_units(step)
 
     def from_blocks(self, step: StepData, form: StandardForm) -> StepInBothUnits:
         """The same from the matrices of a step, of which A has the columns of its blocks."""
-        A = self.kind.pattern.matrix(form.A)
-        own: Any = StandardForm(self.kind.pattern.H, form.g, A, form.b)
-        both: StepInBothUnits = self.kind.in_both_units(step, own)
-        return both
+        return self.kind.from_blocks(step, form)
 
-    def write(self, both: Any) -> Mask:
+    def write(self, both: StepInBothUnits) -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
-        _, g, A, b = both.natural_form
+        assert isinstance(program, SparseProgram)
+        _, g, _, b = both.natural_form
+        A: csc_matrix = both.natural_form.A
         squares = np.bincount(A.indices, A.data**2, minlength=len(b))
         reach = -FAR * np.maximum(1.0, np.sqrt(squares))
         program.f[:] = -g

@@ -5,6 +5,7 @@ import sys
 from functools import cache
 
 from quasistatic_ref.optional.fast.compiled.library import why_not
+from quasistatic_ref.parts import USABLE
 
 
 @cache
@@ -24,3 +25,6 @@ def said(reason: str) -> str:
         f"fast needs compiled code: {reason}{more}; the plain path takes the steps, with the same "
         "certified bits, later"
     )
+
+
+USABLE.fill(usable)

@@ -13,6 +13,7 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.rational import Dyadic, dyadic, fraction, in_integers
+from quasistatic_ref.optional.between import FACE
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -99,3 +100,20 @@ def nearest_face(name: str, count: int, z: Dyadic) -> Rows:
     end = dual_active_set(form)
     assert isinstance(end, Optimum)
     return tuple(sorted(end.minimiser.working))
+
+
+def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Array, int] | None:
+    """What a :class:`Face` holds; None of rows that are dependent.
+
+    Returns
+    -------
+    (ndarray, int) or None
+        Integers, shape (R + 4, 4), and their denominator.
+    """
+    if np.linalg.matrix_rank(rows_of(name, count)[list(rows)]) < len(rows):
+        return None
+    found = face(name, count, rows)
+    return found.integers, found.denominator
+
+
+FACE.fill(face_of_rows)

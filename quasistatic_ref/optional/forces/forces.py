@@ -29,7 +29,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.contact_forces import ContactForces
+from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.norm import energy_norm
@@ -234,3 +234,6 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     rounded = [nearest_numbers(end.minimiser, "x", unit, [i]) for i, unit in enumerate(units)]
     numbers = np.concatenate(rounded)
     return numbers[step.n_v :].reshape(-1, 4), numbers[: step.n_v]
+
+
+CONTACT_FORCES.fill(lambda step, near: contact_forces(step, near=near))

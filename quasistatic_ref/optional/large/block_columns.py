@@ -7,6 +7,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.optional.between import BLOCK_COLUMNS
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Array, Indices, Mask
@@ -36,10 +37,9 @@ class BlockColumns:
     beta: Array
     n_v: int
 
-    @property
-    def kept(self) -> int:
-        """How many columns of its J a contact keeps."""
-        return int(self.column.shape[1])
+    def columns(self) -> tuple[Indices, Indices, Array, Array, int]:
+        """The fields from the second to the fifth, of shape (n_c, n_x), and w."""
+        return self.joint_column, self.place, self.alpha, self.beta, int(self.column.shape[1])
 
     def contacts(
         self,
@@ -85,3 +85,6 @@ def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
     """Row, rank in the row and column of each mark."""
     row, column = np.nonzero(marked)
     return row, marked.cumsum(axis=1)[row, column] - 1, column
+
+
+BLOCK_COLUMNS.fill(block_columns)

@@ -30,6 +30,7 @@ from quasistatic_ref.certify.minimiser import (
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above
 from quasistatic_ref.optional.large.opening import opening
+from quasistatic_ref.solve.backends import ERROR_BOUND
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -98,3 +99,6 @@ def opening_direction(step: StepData) -> Array | None:
 
 def _column(values: Array, unit: fmpq) -> arb_mat:
     return arb_mat([[arb(float(v)) / unit] for v in values]) if len(values) else arb_mat(0, 1)
+
+
+ERROR_BOUND.fill(error_bound)

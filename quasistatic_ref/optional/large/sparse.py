@@ -6,16 +6,17 @@ hands them to a backend.
 """
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
+from quasistatic_ref.optional.between import LARGE_STEPS
 from quasistatic_ref.optional.large.float_bound import FloatBound
 from quasistatic_ref.optional.large.sizes import row_sizes, step_sizes
 from quasistatic_ref.optional.large.sparse_form import Pattern, in_blocks, sparse_form
 from quasistatic_ref.solve.units import (
+    StepInBothUnits,
     check_units,
     coordinate_units,
     in_natural,
@@ -59,9 +60,31 @@ class LargeSteps:
         self.P = triu(natural, format="csc")
         self.bound = FloatBound(natural)
 
-    def in_both_units(self, step: StepData, form: StandardForm | None = None) -> "SparseStep":
-        """A step of this kind in both units, from its sparse standard form if that is known."""
-        return SparseStep(step, self, sparse_form(step, self.pattern) if form is None else form)
+    def matrices(self) -> tuple[csc_matrix, csc_matrix, csc_matrix]:
+        """H in natural units, its upper triangle, and a matrix with the pattern of A."""
+        return self.bound.H, self.P, self.pattern.A.copy()
+
+    def fits(self, step: StepData) -> bool:
+        """Whether a step has its entries where these have them, and the same H."""
+        return self.pattern.fits(step)
+
+    def in_both_units(self, step: StepData) -> "SparseStep":
+        """A step of this kind in both units."""
+        return SparseStep(step, self, sparse_form(step, self.pattern))
+
+    def from_blocks(self, step: StepData, form: StandardForm) -> "SparseStep":
+        """The same from the matrices of a step, of which A has the columns of its blocks."""
+        A = self.pattern.matrix(form.A)
+        return SparseStep(step, self, StandardForm(self.pattern.H, form.g, A, form.b))
+
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        step = both.si_step
+        units = both.units
+        A = self.pattern.matrix(row_sizes(step, in_blocks(step).J))
+        A.data *= (units.coordinate / units.length)[self.pattern.column]
+        x, y = in_natural(delta_q, lam, units)
+        return self.bound.error(both.natural_form, step_sizes(step, A, units), x, y)
 
 
 class SparseStep:
@@ -81,12 +104,13 @@ class SparseStep:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, step: StepData, kind: LargeSteps, form: Any) -> None:
+    def __init__(self, step: StepData, kind: LargeSteps, form: StandardForm) -> None:
         self.si_step = step
         self.kind = kind
         S = kind.coordinate
-        rows = form.A.data * S[kind.pattern.column]
-        squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
+        sparse: csc_matrix = form.A
+        rows = sparse.data * S[kind.pattern.column]
+        squares = np.bincount(sparse.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
         power = small_power(y)
         near_one = np.ldexp(y, -power) if power else y
@@ -95,20 +119,13 @@ class SparseStep:
         self.units = units = units_from(S, np.sort(squares), free_length, form.b)
         check_units(units, step)
         self.si_form = form
-        A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
+        A = csc_matrix((rows / units.length, sparse.indices, sparse.indptr), sparse.shape)
         b = form.b / (units.size * units.length)
-        self.natural_form: Any = StandardForm(kind.bound.H, y / units.size, A, b)
+        self.natural_form = StandardForm(kind.bound.H, y / units.size, A, b)
 
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         return optimality_residuals(self.natural_form, delta_q, lam)
 
-    def error_bound(self, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        step = self.si_step
-        units = self.units
-        pattern = self.kind.pattern
-        A = pattern.matrix(row_sizes(step, in_blocks(step).J))
-        A.data *= (units.coordinate / units.length)[pattern.column]
-        x, y = in_natural(delta_q, lam, units)
-        return self.kind.bound.error(self.natural_form, step_sizes(step, A, units), x, y)
+
+LARGE_STEPS.fill(LargeSteps)

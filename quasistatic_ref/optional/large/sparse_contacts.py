@@ -64,6 +64,11 @@ class SparseContacts(Contacts):
         return self.blocks.J
 
     @property
+    def kept_columns(self) -> Indices:
+        """Those of the blocks, shape (n_c, w)."""
+        return self.blocks.column
+
+    @property
     def n_v(self) -> int:
         """Number of columns of J."""
         return self.blocks.n_v

@@ -33,6 +33,7 @@ from quasistatic_ref.optional.mjcf.geoms import (
 )
 from quasistatic_ref.optional.mjcf.ignored import ignored_of_free
 from quasistatic_ref.optional.mjcf.names import Names
+from quasistatic_ref.scenario.bodies import MJCF_URDF
 from quasistatic_ref.step.arrays import Array
 
 
@@ -268,3 +269,6 @@ def _origin(element: Element, pose: pin.SE3) -> None:
 
 def _text(numbers: ArrayLike) -> str:
     return " ".join(repr(float(x)) for x in np.ravel(numbers))
+
+
+MJCF_URDF.fill(mjcf_urdf)

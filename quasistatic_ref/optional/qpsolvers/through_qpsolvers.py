@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import qpsolvers
 
-from quasistatic_ref.solve.backends import QPSOLVERS, Options
+from quasistatic_ref.solve.backends import AVAILABLE, QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, phi_within_reach
+from quasistatic_ref.solve.solver import QPSOLVERS_SOLVER, BackendSolver, OptionSet
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, phi_within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -35,15 +35,16 @@ class QpsolversSolver(BackendSolver):
     interface = "qpsolvers"
     fixed = ("cone",)
 
-    def write(self, both: DenseStepInBothUnits) -> Mask:
+    def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
+        assert isinstance(both, DenseStepInBothUnits)
         natural = both.natural_step
         contacts = natural.contacts
         near = replace(contacts, phi=phi_within_reach(natural))
         self.form = standard_form(natural.replace(contacts=near))
         return np.repeat(near.phi < contacts.phi, natural.counts)
 
-    def reply(self, option_set: OptionSet, both: DenseStepInBothUnits) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         return qpsolvers_reply(self.form, name, option_set.options)
@@ -111,3 +112,7 @@ def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:
         iterations = np.ravel(extras["iterations"])[0]
     words = str(status) if status is not None else "found" if solution.found else "not found"
     return words.rpartition(".")[2], None if iterations is None else int(iterations)
+
+
+AVAILABLE.fill(available_solvers)
+QPSOLVERS_SOLVER.fill(QpsolversSolver)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.model.readers.mesh_files import CHECK_DAE
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
 
 INDICES = ("p", "v", "h", "vcount")
@@ -46,3 +47,6 @@ def _check(word: str, most: int, where: str) -> None:
     if int(word) > most:
         problem = f"is larger than {most}, which is all there can be"
         raise ModelError(problem, field=where, value=word)
+
+
+CHECK_DAE.fill(check_dae)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.optional.between import POSED
 from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_step, run_settings
-from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Recorder, StepArrays, programs
-from quasistatic_ref.simulate.rollout import start_cold
+from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, start_cold
 from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
@@ -31,7 +31,7 @@ def begun_or_resumed(
     resume: bool,
     steps: int,
     recorder: Recorder,
-    given: Mapping[str, tuple[Any, Checked]],
+    given: Mapping[str, tuple[object, Checked]],
     cold_every: int,
 ) -> SavedSteps:
     """Add the observer that saves a run to the recorder; with `resume`, load the saved steps.
@@ -77,7 +77,7 @@ def begun_or_resumed(
 
 
 def _taken_over(
-    saved: SavedSteps, recorder: Recorder, given: Mapping[str, tuple[Any, Checked]], cold: int
+    saved: SavedSteps, recorder: Recorder, given: Mapping[str, tuple[object, Checked]], cold: int
 ) -> None:
     """Hand the saved steps to the recorder, and those from the step `cold` on to the solver."""
     for name, (function, _) in given.items():
@@ -126,9 +126,7 @@ def _step(simulator: Simulator, q: Array, goal: Array, pushed: Array) -> tuple[S
     step = simulator.step_data(q, goal, pushed, points, kinematics)
     if simulator.extension is None:
         return step, True
-    extended = needed_part("extensions.extended", "extension")
-    posed: tuple[StepData, bool] = extended.posed(step, simulator.extension(q))
-    return posed
+    return POSED.needed("extension")(step, simulator.extension(q))
 
 
 def _ask(simulator: Simulator, step: StepData, linear: bool) -> None:
@@ -147,3 +145,6 @@ def _check(what: str, k: int, then: Array, now: Array) -> None:
     if not np.array_equal(then, now):
         problem = f"is not what the saved steps were taken with, from step {k} on; give the same"
         raise InputError(problem, field=what)
+
+
+BEGUN_OR_RESUMED.fill(begun_or_resumed)

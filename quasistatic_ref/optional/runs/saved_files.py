@@ -28,6 +28,7 @@ from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import header_of, json_array, npz_arrays, npz_record
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.optional.between import FIRST_STEP, SAVED_STEPS
 from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, FORCES, PER_STEP, PROGRAM
@@ -421,3 +422,7 @@ def fingerprint(value: Any) -> str:
     is not.
     """
     return hashlib.sha256(repr(bits(value)).encode()).hexdigest()
+
+
+FIRST_STEP.fill(first_step)
+SAVED_STEPS.fill(saved_steps)

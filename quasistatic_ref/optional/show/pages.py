@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+from quasistatic_ref.formats.shown import HTML, TEXT
 from quasistatic_ref.optional.show.derivative_words import derivatives_page
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
@@ -59,3 +60,7 @@ def html(shown: object) -> str:
 
 def _class_with_page(shown: object) -> str:
     return next(kind.__name__ for kind in type(shown).__mro__ if kind.__name__ in PAGES)
+
+
+TEXT.fill(text)
+HTML.fill(html)

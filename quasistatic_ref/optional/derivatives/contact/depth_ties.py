@@ -3,11 +3,11 @@
 import numpy as np
 
 from quasistatic_ref.contact.separations import gaps, tied_normals
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
+from quasistatic_ref.optional.between import RIVALS
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
-from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import (
     Ellipsoid,
     HalfSpace,
@@ -52,12 +52,9 @@ def depth_tie(couple: Couple) -> bool:
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:
     size = couple.of.size
-    rival_directions = needed_part("curved.ways_out", CURVED).rival_directions
-    settled = needed_part("curved.settle", CURVED).settled
-    ways = rival_directions(a, b, couple.n, couple.phi, size)
-    if not ways:
+    every = RIVALS.needed(CURVED)(a, b, couple.n, couple.phi, size)
+    if not every:
         return False
-    every = ways + [w.n for way in ways for w in settled(a, b, Witness(0.0, a.t, b.t, way))]
     level = gaps(a, b, np.array(every)) >= couple.phi - TIED * size
     return _differ(np.array(every)[level], couple.n)
 

@@ -79,15 +79,15 @@ def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
 
 def _in_J(step: StepData, groups: Sequence[Group], column: Indices) -> Iterator[Indices]:
     """Of each group; `column` (2, n_v + 1): the group of a coordinate, and its number there."""
-    contacts: Any = step.contacts
+    columns = step.contacts.kept_columns
     J = step.contacts.kept_J
     numbers = np.arange(J.size).reshape(J.shape)
     for k, group in enumerate(groups):
         own = numbers[group.contacts]
-        if not hasattr(contacts, "blocks"):
+        if columns is None:
             yield own[:, :, group.coordinates]
             continue
-        of, place = column[:, contacts.blocks.column[group.contacts]]
+        of, place = column[:, columns[group.contacts]]
         n = len(group.coordinates)
         wide = np.full((len(own), 4, n + 1), -1)
         of_contact = np.arange(len(own))[:, None, None]

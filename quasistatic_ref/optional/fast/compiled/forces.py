@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import accumulate, combinations
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.optional.between import FACE, SIDES
 from quasistatic_ref.optional.fast.compiled.certificate import (
     Places,
     group_proof,
@@ -20,7 +20,6 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
 from quasistatic_ref.optional.fast.rechecked import check_forces
-from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.units import hessian_in_both_units
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.cones import cone, cone_matrix
@@ -181,7 +180,7 @@ class _GroupForces:
             self.group = 0
             return
         self.group = self._proof.s.address
-        of_sides: list[Indices] = needed_part("forces.of_group", "forces").sides(own)
+        of_sides = SIDES.needed("forces")(own)
         integers = [each for each, _ in tables]
         width = max(each.shape[1] for each in integers)
         wide = [np.pad(each, ((0, 0), (0, width - each.shape[1]), (0, 0))) for each in integers]
@@ -214,20 +213,20 @@ def _faces(name: str, count: int) -> tuple[Indices, Indices] | None:
         (2^count, count + 4, 4), and denominators, (2^count,), zero of rows that depend on each
         other. None if C cannot hold them.
     """
-    forces: Any = part("forces.faces")
-    if forces is None or count > MOST_ROWS:
+    face = FACE.found()
+    if face is None or count > MOST_ROWS:
         return None
-    C = forces.rows_of(name, count)
     integers = np.zeros((1 << count, count + 4, 4), np.int64)
     denominators = np.zeros(1 << count, np.int64)
     for size in range(5):
         for rows in combinations(range(count), size):
-            if np.linalg.matrix_rank(C[list(rows)]) < size:
+            found = face(name, count, rows)
+            if found is None:
                 continue
-            one = forces.face(name, count, rows)
-            if abs(one.integers).max() >= LARGEST or one.denominator >= LARGEST:
+            numbers, denominator = found
+            if abs(numbers).max() >= LARGEST or denominator >= LARGEST:
                 return None
             bits = sum(1 << i for i in rows)
-            integers[bits] = one.integers
-            denominators[bits] = one.denominator
+            integers[bits] = numbers
+            denominators[bits] = denominator
     return integers, denominators
