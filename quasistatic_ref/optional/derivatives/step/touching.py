@@ -147,11 +147,12 @@ def bearing(rows: Array, lam: Array, size: float) -> Mask:
     lam : ndarray, shape (k,)
         One optimal lam.
     size : float
-        Size of the step, to which multipliers are compared [of lam].
+        Size of the step, to which multipliers are compared [of lam]; 0 where nothing loads it.
     """
     bears: Mask = lam > BEARING * size
-    if bears.all() or not size:  # without a load nothing bears
+    if bears.all():
         return bears
+    size = size or 1.0  # where nothing loads the step, rows may press against each other
     held = rows[bears]
     if len(held):  # what others span can take from them
         _, s, V = np.linalg.svd(held, full_matrices=False)

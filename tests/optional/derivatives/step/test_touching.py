@@ -44,6 +44,12 @@ def test_rows_that_face_each_other_bear_load_in_some_optimal_lam(off):
     assert bearing(rows, lam, size).tolist() == [True, True, True, False]
 
 
+def test_without_a_load_rows_that_face_each_other_bear_all_the_same():
+    """t a_1 + t a_2 = 0 for each t: both bear in some optimal lam. The last row does in none."""
+    rows = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]])
+    assert bearing(rows, np.zeros(3), 0.0).tolist() == [True, True, False]
+
+
 def test_the_most_that_a_row_bears_is_what_the_others_can_add_to_the_load():
     """The load z is s (1, 0, 0) + |f| f / |f| with f = (-s, 0, 1): the first row bears s.
 
