@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 
@@ -221,7 +221,7 @@ class Adapter(Protocol):
     WARM: bool = False
     NEAR: bool = True
 
-    def __init__(self, program: Any, options: Options) -> None:
+    def __init__(self, program: Program | SparseProgram, options: Options) -> None:
         """Set up with the program as it stands, a SparseProgram only if the backend takes one."""
 
     def reply(self, same_H: bool, warm: bool) -> Reply:

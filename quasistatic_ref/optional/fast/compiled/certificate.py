@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from functools import cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group
 
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
+
 DECIDED = 0
 REFUTED = 7
 NOT_POSED = 8
@@ -31,7 +34,7 @@ LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
-def _kept_A(A: Any) -> Array:
+def _kept_A(A: "Array | csc_matrix") -> Array:
     """A as a step keeps it: whole, or without its zeros."""
     kept: Array = A if isinstance(A, np.ndarray) else A.data
     return kept
@@ -57,7 +60,7 @@ class Places(NamedTuple):
     in_A: Indices
 
 
-def places(step: StepData, A: Any, groups: Sequence[Group]) -> list[Places]:
+def places(step: StepData, A: "Array | csc_matrix | None", groups: Sequence[Group]) -> list[Places]:
     """Where the entries of J and A of each group stand among those that a step keeps.
 
     Parameters
@@ -95,7 +98,9 @@ def _in_J(step: StepData, groups: Sequence[Group], column: Indices) -> Iterator[
         yield np.ascontiguousarray(wide[:, :, :n])
 
 
-def _in_A(A: Any, groups: Sequence[Group], column: Indices, row: Indices) -> Iterator[Indices]:
+def _in_A(
+    A: "Array | csc_matrix | None", groups: Sequence[Group], column: Indices, row: Indices
+) -> Iterator[Indices]:
     """Of each group; `row` (2, m) is for rows what `column` is for coordinates."""
     if isinstance(A, np.ndarray):
         for group in groups:
@@ -193,7 +198,7 @@ class GroupProof:
     @property
     def guess(self) -> Indices:
         """The rows that the last proof took as the working set, shape (k,)."""
-        return self.s["guess"][: self.s.number("working")]
+        return self.s.integers("guess")[: self.s.number("working")]
 
     def nearby(self, units: Units) -> ExactOptimum | None:
         """The exact optimum, if the last answer leads to it; of units that C has not found."""
@@ -216,7 +221,7 @@ class GroupProof:
         if len(guess) > s.number("n_v"):
             return None
         s.put({"working": len(guess)})
-        s["guess"][: len(guess)] = guess
+        s.integers("guess")[: len(guess)] = guess
         s["units"][:] = units.length, units.size
         self._prove(s.address)
         return self.decided()
@@ -263,7 +268,7 @@ def write_data(s: Structure, step: StepData) -> None:
 
 def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
     """The optimum that C has written, of a group or of a step."""
-    unique, smooth = s["claims"].astype(bool).tolist()
+    unique, smooth = s.integers("claims").astype(bool).tolist()
     least_slack, least_multiplier = s["least"].tolist()
     inactive = least_slack if least_slack < math.inf else None
     return ExactOptimum(

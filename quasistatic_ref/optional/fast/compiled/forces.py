@@ -77,7 +77,7 @@ class Forces:
         write_data(self.s, step)
         self.s.write("near", self._none if near is None else near)
         self._form(self.s.address)
-        left = self.s["code"].nonzero()[0].tolist()
+        left = self.s.integers("code").nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
 
     def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
@@ -196,7 +196,7 @@ class _GroupForces:
                 "side": np.concatenate(of_sides),
                 "start": np.array([0, *accumulate(map(len, of_sides))]),
                 "compliance": np.zeros(1),
-                "bears": cone_matrix(own.cone)[:, :3].any(axis=0).astype(np.int64),
+                "bears": np.asarray(cone_matrix(own.cone)[:, :3].any(axis=0), np.int64),
             }
         )  # fmt: skip
         self.s.put({"group": self.group})

@@ -5,10 +5,8 @@ what a wrong operator does to it. Behind each array that they write stand number
 """
 
 import ctypes
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.optional.fast.compiled.structure import Structure
@@ -47,9 +45,7 @@ class MarkedArray:
 
     def __init__(self, size: int, kind: type) -> None:
         self.size = size
-        self.all: NDArray[Any] = np.full(
-            size + BEHIND, MARK, np.float64 if kind is float else np.int64
-        )
+        self.all: Array = np.full(size + BEHIND, MARK, kind)
         self.address = ctypes.c_void_p(self.all.ctypes.data)
 
     @property

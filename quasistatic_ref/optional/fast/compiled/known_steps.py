@@ -192,7 +192,7 @@ def tried(known: Known) -> Iterator[Tried]:
                 units = proof.s["units"].copy()
                 found = proof.on(guess, own.units)
                 code = proof.code
-                digits = int(proof.s["counts"][2])
+                digits = int(proof.s.integers("counts")[2])
             inside = all(array.kept for array in arrays)
             yield Tried(
                 group, number, words, changed, code, digits, found, whole, rest, units, own, inside

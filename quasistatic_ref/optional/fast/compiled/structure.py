@@ -5,12 +5,12 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any
+from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.optional.fast.compiled.library import SOURCE
+from quasistatic_ref.step.arrays import Array, Indices
 
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 
@@ -26,18 +26,22 @@ class Structure:
 
     def __init__(self, file: str, name: str) -> None:
         self._fields = fields(file, name)()
-        self._arrays: dict[str, NDArray[Any]] = {}
+        self._arrays: dict[str, Array] = {}
         self.address = ctypes.addressof(self._fields)
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """One of its arrays, which C may write."""
+    def __getitem__(self, name: str) -> Array:
+        """One of its arrays of float64, which C may write."""
         return self._arrays[name]
+
+    def integers(self, name: str) -> Indices:
+        """One of its arrays of int64, which C may write, too."""
+        return self._arrays[name].view(np.int64)
 
     def number(self, name: str) -> int:
         """One of its integers."""
         return int(getattr(self._fields, name))
 
-    def write(self, name: str, value: NDArray[np.float64]) -> None:
+    def write(self, name: str, value: Array) -> None:
         """Write an array's numbers into one of its own: nothing broadcasts.
 
         Parameters
@@ -59,7 +63,7 @@ class Structure:
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
         sizes = [math.prod(shape) for shape in shapes.values()]
-        block: NDArray[Any] = np.zeros(sum(sizes), kind)
+        block: Array = np.zeros(sum(sizes), kind)
         address = block.ctypes.data
         for (name, shape), size in zip(shapes.items(), sizes, strict=True):
             self._arrays[name] = block[:size].reshape(shape)
@@ -73,7 +77,7 @@ class Structure:
             self._arrays[name] = other[name]
             setattr(self._fields, name, getattr(other._fields, name))
 
-    def put(self, values: Mapping[str, Any]) -> None:
+    def put(self, values: Mapping[str, int | Array | Indices]) -> None:
         """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""
         for name, value in values.items():
             if isinstance(value, int):
@@ -81,7 +85,7 @@ class Structure:
                 continue
             array = np.ascontiguousarray(value)
             assert array.dtype in (np.float64, np.int64)
-            self._arrays[name] = array
+            self._arrays[name] = cast("Array", array)  # or of int64
             setattr(self._fields, name, array.ctypes.data)
 
 
