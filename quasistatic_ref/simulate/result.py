@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -57,9 +56,10 @@ class StepResult(Plain, Shown):
     q_start: Array | None = field(default=None, compare=False)
     scene: Scene | None = field(default=None, compare=False)
 
-    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        values, locked = super().__getstate__()
-        return values | {"scene": None}, locked
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """All fields but the scene."""
+        return tuple(name for name in super().kept() if name != "scene")
 
     @property
     def forces(self) -> Array:

@@ -6,8 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
 from functools import wraps
-from inspect import Signature, signature
-from typing import Any, ClassVar, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -172,12 +171,6 @@ class Simulator(Settings, Shown):
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
-    def __new__(cls, *arguments: Any, fast: bool = False, **settings: Any) -> Simulator:
-        """A simulator, or the one of `optional/fast`; its arguments are those of the class."""
-        kind = compiled(FAST_SIMULATOR) if fast else None
-        return super().__new__(kind or cls)
-
-    __signature__: ClassVar[Signature]
     default_backend = DEFAULT
 
     @arguments_checked
@@ -233,6 +226,9 @@ class Simulator(Settings, Shown):
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
+        kind = compiled(FAST_SIMULATOR) if fast else None
+        if kind is not None:
+            self.__class__ = kind
         self.prepare()
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -433,7 +429,3 @@ class Simulator(Settings, Shown):
                 continue
             return replace(solution, statistics=solution.statistics._replace(digits=0.0))
         raise failure
-
-
-# Python would show what __new__ takes.
-Simulator.__signature__ = signature(Simulator.__init__.__get__(object()))

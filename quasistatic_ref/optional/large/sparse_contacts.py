@@ -1,7 +1,5 @@
 """The contact points of a step of many bodies."""
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
@@ -45,13 +43,13 @@ class SparseContacts(Contacts):
 
     def raised(self, s: Array) -> Contacts:
         """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
-        new, (name, phi, *others) = self.__reduce__()
-        raised: Contacts = new(name, phi + s, *others)
-        return raised
+        fields = {name: getattr(self, name) for name in self.kept()}
+        return SparseContacts(**fields | {"phi": self.phi + s})
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        own = self.name, self.phi, self.n, self.d1, self.d2, self.blocks
-        return SparseContacts, (*own, self.mu_v, self.mu_omega, self.rows)
+    @classmethod
+    def kept(cls) -> tuple[str, ...]:
+        """As of any contacts, with the blocks in the place of J."""
+        return tuple("blocks" if name == "J" else name for name in super().kept())
 
     @property
     def J(self) -> Array:
