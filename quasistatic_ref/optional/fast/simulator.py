@@ -7,13 +7,11 @@ import numpy as np
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits, field_values
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.between import BLOCK_COLUMNS, BlockColumns
 from quasistatic_ref.optional.fast.backends import (
     default_backend,
@@ -319,17 +317,9 @@ class FastSimulator(Simulator):
         return None if program is None else program.written()
 
 
-def backend_of(
-    name: str | None,
-    system: System,
-    pairs: tuple[ContactPair, ...],
-    cone: str,
-    certify: str,
-    ordinary: bool,
-) -> str:
-    """As :func:`~quasistatic_ref.simulate.settings.usable_backend`, with `fast`."""
-    return fast_backend(name, cone, certify, entries_of_J(system, pairs, ordinary))
-
-
 FAST_SIMULATOR.fill(FastSimulator)
-FAST_BACKEND.fill(backend_of)
+FAST_BACKEND.fill(
+    lambda name, system, pairs, cone, certify, ordinary: fast_backend(
+        name, cone, certify, entries_of_J(system, pairs, ordinary)
+    )
+)
