@@ -150,8 +150,9 @@ def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone, blocks)
     both = DenseStepInBothUnits(step)
     if blocks:
         step = in_blocks(step)
-        both = LargeSteps(step).in_both_units(step)
-        both.error_bound(np.zeros(step.n_v), np.zeros(step.m))
+        kind = LargeSteps(step)
+        both = kind.in_both_units(step)
+        kind.error_bound(both, np.zeros(step.n_v), np.zeros(step.m))
     else:
         FloatBound(both.hessian.natural_H).step_error(both, np.zeros(step.n_v), np.zeros(step.m))
     (sizes,) = taken
