@@ -78,7 +78,13 @@ class Structure:
             setattr(self._fields, name, getattr(other._fields, name))
 
     def put(self, values: Mapping[str, int | Array | Indices]) -> None:
-        """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""
+        """Set some fields.
+
+        Parameters
+        ----------
+        values : mapping of str to int or ndarray
+            Arrays of float64 or int64, of any shape [any unit], copied if not contiguous.
+        """
         for name, value in values.items():
             if isinstance(value, int):
                 setattr(self._fields, name, value)
