@@ -89,7 +89,7 @@ class Run(Start):
 
         Where they cannot be formed, what the multipliers of the step combine to.
         """
-        if not self.searched or part("forces.forces") is None:
+        if not self.searched or CONTACT_FORCES.found() is None:
             return np.asarray(self["wrench"][k])
         if "forces" in self.arrays:
             return np.asarray(self["forces"][k])
