@@ -46,6 +46,7 @@ class Witness(Observer):
         """At the end."""
         self.asked.append(("end", recorder.steps, trajectory.failed, interrupted))
         heights = recorder.noted("height").tolist()
+        self.noted = {name: recorder.noted(name).tobytes() for name in recorder.notes}
         return replace(trajectory, header={**trajectory.header, "heights": heights})
 
 
@@ -72,18 +73,21 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
     """In all arrays, notes and findings, also of targets that are evaluated one by one."""
     scene = load_scenario(name, steps=30, record="full", fast=True)
-    whole = scene.run(progress=False)
+    of_whole = Witness(every_step=False)
+    whole = scene.run(progress=False, observers=[of_whole])
     witness = Witness(every_step=True)
     monkeypatch.setattr(user_functions, "AT_ONCE", 1)
     single = scene.run(progress=False, observers=[witness])
     assert len(witness.asked) == 2 * len(whole) + 1
+    assert witness.noted == of_whole.noted
     monkeypatch.undo()
     monkeypatch.setattr(recorder_module, "PACKED", 7)
     witness = Witness(every_step=False)
     some = scene.run(progress=False, observers=[witness])
     assert len(witness.asked) == len(whole) + math.ceil(len(whole) / 7) + 1
+    assert witness.noted == of_whole.noted
     for run in (single, some):
-        assert run.header == {**whole.header, "heights": run.header["heights"]}
+        assert run.header == whole.header
         assert run.arrays.keys() == whole.arrays.keys()
         for key, array in whole.arrays.items():
             assert run[key].tobytes() == array.tobytes()
