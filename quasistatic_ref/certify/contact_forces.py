@@ -23,7 +23,8 @@ class ContactForces:
     imbalance : float
         The share of the load that the forces leave, the largest of all groups [-]: they balance
         the step at `delta_q`, not at the displacement x of the step without compliance. It is
-        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert.
+        ||delta_q - x||_H over the norm ||h J'f||_{H^-1} of what the forces f exert; infinite where
+        this is zero, as of a step without solution.
     sensitivity : float
         At most how much a force changes if each phi of its group changes by 1 m, over the sum of
         the group's normal forces, (R42), the largest of all groups [1/m].

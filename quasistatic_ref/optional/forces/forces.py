@@ -173,7 +173,8 @@ def _left(step: StepData, wrench: Array, off: Array) -> float:
     J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
     exerted = np.einsum("kj,kji->i", wrench.T, np.array([J_1, J_2, J_n, J_w]))
     norm = energy_norm(step.H)
-    return norm.of_displacement(off) / norm.of_impulse(step.h * exerted)
+    load = norm.of_impulse(step.h * exerted)
+    return norm.of_displacement(off) / load if load else float("inf")
 
 
 def compliant_form(step: StepData, compliance: float) -> ExactForm:
