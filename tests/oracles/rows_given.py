@@ -4,6 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 
 P = 2**56 - 5
 """By which zeros.c divides."""
@@ -19,6 +20,11 @@ def step_of(A, b, g, h=1.0, M=None):
     M = np.eye(n) if M is None else np.array(M, dtype=np.float64)
     step = free_step(M, np.array(g, dtype=np.float64), contacts, h)
     return step.replace(cone="frictionless")
+
+
+def without_rows(n):
+    """Loads 1, 2, ... on n coordinates that nothing couples: of other data each number differs."""
+    return step_of(np.zeros((0, n)), [], np.arange(1.0, n + 1))
 
 
 def half_way(k, count=1):
@@ -44,6 +50,17 @@ def half_way_forces(load, gap=0.0):
     """
     J = np.array(SQUARES)[:, None] * 2.0**-15
     return step_of(J, [-gap, 0.0, 0.0, 0.0], [-load])
+
+
+def compliances():
+    """One whose exponent is half-way between two whole numbers, and one that another side knows.
+
+    With H = 1, J^2 is the mobility of a coordinate. That of x_1 along the second contact is less
+    than HARDLY_MOVES and counts as 4 HARDLY_MOVES; that of x_2, along the first alone, is as much.
+    """
+    yield step_of([[float(np.sqrt(2.0**-29.5 / COMPLIANCE))]], [0.0], [-1.0])
+    small = HARDLY_MOVES**0.5
+    yield step_of([[1.0, small], [small / 2, 0.0]], [0.0, 0.0], [-1.0, -0.5])
 
 
 def sevenths():

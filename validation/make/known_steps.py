@@ -35,6 +35,7 @@ from tests.oracles.random_steps import designed_step
 from tests.oracles.rows_given import (
     DIGITS_MEET,
     bounds_decide,
+    compliances,
     divisible,
     half_way,
     half_way_forces,
@@ -42,6 +43,7 @@ from tests.oracles.rows_given import (
     sevenths,
     small_numbers,
     step_of,
+    without_rows,
     without_slack,
 )
 from validation.make.degenerate_bits import degenerate_step
@@ -96,10 +98,12 @@ def varied_step(seed: int) -> StepData:
 
 def chosen() -> Iterator[StepData]:
     """Steps that refuse a wrong prover which others do not: ``prover_mutants``."""
+    yield from (without_rows(1), without_rows(2))
     yield from (half_way(1), half_way(3), half_way(1, 40), sevenths(), divisible())
     yield from (*without_slack(), *small_numbers(), *matrices())
     yield from map(degenerate_step, (6, 22, 36, 41, 65))
     yield from (step_of(A, b, [0.0] * len(A[0])) for A, b in DIGITS_MEET)
+    yield from compliances()
     yield half_way_forces(2.0**39 + 1.0)
     yield from (half_way_forces(2.0**39 + 5.0, gap) for gap in (2.0**-75, 2.0**-300))
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import accumulate, combinations
+from threading import Lock
 
 import numpy as np
 
@@ -48,15 +49,15 @@ class Forces:
         self._none = np.zeros((step.contacts.n_c, 4))
         self._groups = [group for group, _ in divided]
         of_each = places(step, None, self._groups)
-        self._parts = [
+        self.parts = [
             _GroupForces(*one, where) for one, where in zip(divided, of_each, strict=True)
         ]
         self.s = Structure("groups.c", "Step")
         self.s.put(
             {
                 "groups": len(divided), "code": np.zeros(len(divided), np.int64),
-                "group": np.array([part.group for part in self._parts], np.int64),
-                "forces": np.array([part.s.address for part in self._parts], np.int64),
+                "group": np.array([part.group for part in self.parts], np.int64),
+                "forces": np.array([part.s.address for part in self.parts], np.int64),
                 "J": np.array(step.contacts.kept_J),
                 **{name: np.zeros((step.contacts.n_c, 4)) for name in WRENCHES},
             }
@@ -100,20 +101,23 @@ class Forces:
 
 
 class ForcesOfSteps:
-    """The forces of one step after the other: what they have in common is kept."""
+    """The forces of one step after the other, in any thread: what they have in common is kept."""
 
     def __init__(self) -> None:
         self._of: Coupling = []
         self._kept: Forces | None = None
+        self._one_at_a_time = Lock()
 
     def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
         """As of :meth:`Forces.wrench`, which has `near`, too: shape (n_c, 4) [N, N m]."""
-        return self._of_steps_like(step).wrench(step, near)
+        with self._one_at_a_time:
+            return self._of_steps_like(step).wrench(step, near)
 
     def decided(self, solution: StepSolution) -> bool:
         """Whether C leaves no force of a solution's step open."""
         step = solution.step
-        return not self._of_steps_like(step).in_c(step, solution.wrench)[1]
+        with self._one_at_a_time:
+            return not self._of_steps_like(step).in_c(step, solution.wrench)[1]
 
     def _of_steps_like(self, step: StepData) -> Forces:
         of = coupled_by(step)

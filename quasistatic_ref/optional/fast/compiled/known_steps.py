@@ -35,6 +35,13 @@ FILE = Path(__file__).parent / "known_steps.jsonl.gz"
 WRITTEN = ("delta_q", "lam", "net", "slack", "rest", "bound", "least", "claims")
 """Arrays that the library writes, of a step and of each group; and others of a group."""
 OF_GROUP = ("guess", "answer", "idle", "still", "counts")
+READ = (
+    "cone", "K_q", "M_u", "coordinate", "hessian_values", "delta_q_bar_a", "tau", "phi", "frame",
+    "J", "mu",
+)  # fmt: skip
+"""Arrays of a group behind which stands no number."""
+OF_FORCES = ("face", "compliance", "wrench")
+"""Arrays that the library writes of the forces of a group."""
 RIGHT = "right"
 """The guess that is the working set of the stored optimum."""
 
@@ -160,7 +167,7 @@ def marks_behind(s: Structure, names: Sequence[str]) -> list[MarkedArray]:
     found = []
     for name in names:
         array = MarkedArray(s[name].size, float if s[name].dtype == np.float64 else int)
-        array.all[: array.size] = s[name]
+        array.all[: array.size] = s[name].ravel()
         s.put({name: array.all[: array.size]})
         found.append(array)
     return found
@@ -174,11 +181,15 @@ def tried(known: Known) -> Iterator[Tried]:
     prover = Prover(both, [(group, own.si_step, own.hessian) for group, own in divided])
     arrays = marks_behind(prover.s, WRITTEN)
     for each in prover.proofs:
-        arrays += marks_behind(each.s, (*WRITTEN, *OF_GROUP)) if each else []
+        if each is None:
+            continue
+        arrays += marks_behind(each.s, (*WRITTEN, *OF_GROUP))
+        for array in marks_behind(each.s, READ):
+            array.all[array.size :] = np.nan
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
-        whole = prover.optimum(both, lam, np.zeros(step.m))
+        whole = prover.optimum(both, lam, np.where(lam > 0.0, 0.0, 1.0))
         rest = np.array(prover.displacement()[1:])
         for number, (group, own) in enumerate(divided):
             proof = prover.proofs[number]
@@ -228,9 +239,22 @@ def wrong(known: Known) -> str | None:
         unlike = different(one, known.optimum or {})
         if unlike:
             return f"{unlike} of an optimum is wrong"
-    if known.left is None or not knows(known.step.cone):  # without optional/forces C knows none
-        return None
-    wrench, left = Forces(known.step).in_c(known.step)
+    return wrong_forces(known, Forces(known.step)) if knows_forces(known) else None
+
+
+def knows_forces(known: Known) -> bool:
+    """Whether C decides forces of a step: without optional/forces none."""
+    return known.left is not None and knows(known.step.cone)
+
+
+def wrong_forces(known: Known, forces: Forces) -> str | None:
+    """What the forces of a step are that is wrong, in words."""
+    arrays = [
+        array for part in forces.parts if part.group for array in marks_behind(part.s, OF_FORCES)
+    ]
+    wrench, left = forces.in_c(known.step)
+    if not all(array.kept for array in arrays):
+        return "something is written behind the forces"
     if left != known.left:
         return "forces are decided otherwise"
     return None if left or wrench.tolist() == known.forces else "a force is wrong"
@@ -295,6 +319,11 @@ def enclosed(rest: Array, optimum: dict[str, Any]) -> bool:
     return bool((near & (bound >= abs(right) * 2.0**-51) & (bound <= unit * 2.0**-50)).all())
 
 
+def numbers(found: ExactOptimum) -> list[float]:
+    """Displacements and slacks of an optimum [m, rad]."""
+    return [*found.delta_q.tolist(), *found.slack.tolist()]
+
+
 def stale(known: Known) -> str | None:
     """What of other data a library takes for that of a step, in words; None if nothing.
 
@@ -333,7 +362,11 @@ def stale(known: Known) -> str | None:
         provers = prover, Prover(in_units, divided)
         one, two = (each.optimum(in_units, lam, np.zeros(step.m)) for each in provers)
         found = prover.optimum(both, lam, np.zeros(step.m))
-        as_new = two is None or (one is not None and one.slack.tolist() == two.slack.tolist())
+        as_new = two is None or (one is not None and numbers(one) == numbers(two))
         if not as_new or found is None or not same(found, known.optimum, unique):
             return f"{words} of another step is taken for its own"
-    return None
+    if not knows_forces(known):
+        return None
+    forces = Forces(step)
+    forces.in_c(others["a load"])
+    return wrong_forces(known, forces)

@@ -2,6 +2,7 @@
 
 import pickle
 from fractions import Fraction
+from threading import Event, Lock, Thread
 
 import numpy as np
 
@@ -58,6 +59,52 @@ def test_a_full_record_of_fast_holds_the_forces_of_the_plain_path():
     assert "forces" not in plain.arrays
     assert fast.arrays["forces"].tobytes() == plain.forces.tobytes()
     assert np.abs(plain.forces).max() > 4.0  # [N]
+
+
+def test_forces_of_two_solutions_may_be_read_in_two_threads(monkeypatch):
+    """The second one's data are written before C forms the forces of the first, or it waits."""
+    came = Event()
+
+    class Watched:
+        def __init__(self):
+            self.lock = Lock()
+
+        def __enter__(self):
+            if not self.lock.acquire(blocking=False):
+                came.set()
+                self.lock.acquire()
+
+        def __exit__(self, *_):
+            self.lock.release()
+
+    monkeypatch.setattr(forces, "Lock", Watched, raising=False)
+    scenario = load_scenario("stack", fast=True)
+    simulator = scenario.simulator()
+    one = simulator.step(scenario.system.q_start, np.zeros(0))
+    two = simulator.step(one.q, np.zeros(0))
+    right = [in_c(each.solution.step)[0] for each in (one, two)]
+    assert (right[0] != right[1]).any()
+    of_steps = forces.ForcesOfSteps()
+    found = []
+
+    def read(result):
+        near = result.solution.delta_q, result.solution.wrench
+        found.append(of_steps.wrench(result.solution.step, near))
+
+    other = Thread(target=read, args=(two,))
+    write_data = forces.write_data
+
+    def written(s, step):
+        write_data(s, step)
+        if step is one.solution.step:
+            other.start()
+            came.wait(60)
+        came.set()
+
+    monkeypatch.setattr(forces, "write_data", written)
+    read(one)
+    other.join()
+    assert sorted(each.tobytes() for each in found) == sorted(each.tobytes() for each in right)
 
 
 def test_a_copy_of_a_solution_has_the_forces_of_the_core():
