@@ -13,6 +13,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.given import checked_items
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.body import FIXED, Body
 from quasistatic_ref.model.coordinates import MimicJoint, joint_key
 from quasistatic_ref.model.joints import BASES, JOINTS
@@ -109,6 +110,7 @@ class World(Plain):
         return _joined(self.bodies, whole), groups, frames
 
 
+@together()
 def world_of(bodies: Sequence[Body]) -> World:
     """Load every body's URDF and append it to one model.
 
@@ -119,19 +121,13 @@ def world_of(bodies: Sequence[Body]) -> World:
         does not have.
     """
     urdfs: dict[str, Urdf] = {}
-    mesh_bytes = 0
     for body in checked_items(bodies, Body, "bodies"):
         if body.name in urdfs:
             problem = "is the name of two bodies; rename one"
             raise ModelError(problem, field="body.name", value=body.name)
         urdf = loaded_urdf(
-            body.urdf,
-            base=body.base,
-            actuated=body.actuated,
-            package_dirs=body.package_dirs,
-            mesh_bytes=mesh_bytes,
+            body.urdf, base=body.base, actuated=body.actuated, package_dirs=body.package_dirs
         )
-        mesh_bytes = urdf.mesh_bytes
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
     links = ["world"]

@@ -1,7 +1,9 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
@@ -151,7 +154,8 @@ def body_entry(
         folders += shared_folders(urdf)
     else:
         assert mjcf is not None
-        robot = MJCF_URDF.needed("mjcf")(mjcf, base, folders)
+        named = os.path.realpath(mjcf), base, *folders
+        robot = once(named, partial(MJCF_URDF.needed("mjcf"), mjcf, base, folders))
     try:
         body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:

@@ -5,6 +5,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from fnmatch import fnmatchcase
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +16,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, about_field
 from quasistatic_ref.formats.quoting import known_names, suggestion
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
+from quasistatic_ref.formats.together import once, spend
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.model.readers.mesh_files import MeshFiles
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import Kinematics, System
@@ -24,14 +25,16 @@ from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 WORLD = 0
 """Number of the world among the links."""
 MOST_PAIRS = 50_000
-"""Most pairs of a scenario, which take 5 s."""
+"""Most pairs of a scenario."""
+SECONDS = 5.0
+"""What so many take [s]."""
 
 
 def placed_shapes(
@@ -45,15 +48,13 @@ def placed_shapes(
     taken.
     """
     named: Shapes = {}
-    meshes = MeshFiles(folder)
     for name in world.names_left():
-        named[name] = [world_shape(name, world.table(name), meshes)]
+        named[name] = [world_shape(name, world.table(name), folder)]
     world.close()
     for i, link in enumerate(system.links):
         if i != WORLD:
             named[link] = [shape for shape in system.shapes if shape.link == i]
     named |= {shape.name: [shape] for shape in system.shapes}
-    clouds: dict[str, PointCloud] = {}
     for name, entry in entries.items():
         if name in named:
             problem = "is also the name of a body; choose another name"
@@ -62,22 +63,21 @@ def placed_shapes(
         if entry.cloud is None:
             named[name] = named[system.links[root]]
         else:
-            file = os.path.realpath(entry.cloud)
-            if file not in clouds:
-                clouds[file] = point_cloud(entry.cloud)
-            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), clouds[file])]
+            read = partial(point_cloud, entry.cloud)
+            cloud = once(os.path.realpath(entry.cloud), read)
+            named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), cloud)]
     return named
 
 
-def world_shape(name: str, table: TableReader, meshes: MeshFiles) -> PlacedShape:
+def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
     """One ``[shapes.NAME]`` table: exactly one solid, and where it stands.
 
     Parameters
     ----------
     name : str
     table : TableReader
-    meshes : MeshFiles
-        Those of the scenario.
+    folder : Path
+        Of the scenario.
 
     Raises
     ------
@@ -94,7 +94,7 @@ def world_shape(name: str, table: TableReader, meshes: MeshFiles) -> PlacedShape
     sizes = table.table(kinds[0])
     given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
     try:
-        shape = kind.made(meshes, sizes.where, **given)
+        shape = kind.made(folder, sizes.where, **given)
     except InputError as error:
         error.field = error.field if error.field and "." in error.field else sizes.where
         raise
@@ -135,6 +135,8 @@ def contact_pairs(
         if count > MOST_PAIRS:
             problem = f"brings the pairs of this scenario to more than {MOST_PAIRS}"
             raise ScenarioError(problem, field=table.where, value=count)
+        with about_field(table.where):
+            spend(SECONDS * (count - len(pairs)) / MOST_PAIRS)
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"

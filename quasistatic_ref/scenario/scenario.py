@@ -17,6 +17,7 @@ from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import System
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.bodies import (
@@ -219,6 +220,7 @@ def load_scenario(
         return _scenario(path, TableReader(tables, error=ScenarioError))
 
 
+@together()
 def _scenario(path: Path, top: TableReader) -> Scenario:
     if not {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
         check_names(top, TOP)

@@ -1,11 +1,12 @@
 """The solids that a ``[shapes.NAME]`` table can say: their fields, and the shape made of these."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from quasistatic_ref.errors import ScenarioError, about_field
 from quasistatic_ref.formats.declared import Field
-from quasistatic_ref.model.readers.mesh_files import MeshFiles, mesh_hull
+from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.step.data import Array
 
@@ -17,18 +18,18 @@ class Kind(NamedTuple):
     ----------
     fields : mapping of str to Field
     made : callable
-        The shape of a scenario's meshes, the table's place in the file and the fields by name.
+        The shape of a scenario's folder, the table's place in the file and the fields by name.
     """
 
     fields: Mapping[str, Field]
     made: Callable[..., shapes.Shape]
 
 
-def _mesh(meshes: MeshFiles, where: str, file: str, scale: Array) -> shapes.Shape:
+def _mesh(folder: Path, where: str, file: str, scale: Array) -> shapes.Shape:
     if not (scale != 0).all():
         raise ScenarioError("must not be zero", field=f"{where}.scale", value=scale.tolist())
     with about_field(f"{where}.file"):
-        path = meshes.path(file)
+        path = mesh_path(file, folder)
     return mesh_hull(path, scale)
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from quasistatic_ref import QuasistaticError, load_scenario
-from quasistatic_ref.model.readers import mesh_files
+from quasistatic_ref.model.readers import mesh_files, text
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario import contacts
 from quasistatic_ref.simulate.trajectory import certified
@@ -215,7 +215,7 @@ AGAIN = {
 @pytest.mark.parametrize("field", AGAIN)
 def test_meshes_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch, field):
     """It may name one large file a thousand times."""
-    monkeypatch.setattr(mesh_files, "LARGEST_MESHES", 1.5 * len(CORNERS))
+    monkeypatch.setattr(mesh_files, "LARGEST_MESH", 1.5 * len(CORNERS))
     urdf_of_text(tmp_path, CORNERS, "corners.obj")
     urdf_of_text(
         tmp_path, robot(link("a", collision('<mesh filename="corners.obj"/>'))), "mesh.urdf"
@@ -226,6 +226,21 @@ def test_meshes_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch, field):
     with pytest.raises(QuasistaticError, match="more than") as caught:
         load_scenario(scene_written(tmp_path, changed(scene, (f"{table}/again", of_one))))
     assert str(caught.value.field).endswith(field)
+
+
+def test_clouds_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch):
+    """Each may have as many points as one cloud may."""
+    monkeypatch.setattr(text, "SECONDS", 5.0 * text.MOST_POINTS / 3)  # 5 s for three points
+    scene = SCENE
+    for name in "ab":
+        (tmp_path / f"{name}.xyz").write_text("0 0 1\n0 1 0\n1 0 0\n")
+        table = {"urdf": "ball.urdf", "cloud": f"{name}.xyz"}
+        scene = changed(scene, (f"bodies/{name}", table))
+        path = scene_written(tmp_path, scene)
+        if name == "a":
+            load_scenario(path)
+    with pytest.raises(QuasistaticError, match=r"b\.xyz: brings what is read to more than"):
+        load_scenario(path)
 
 
 def test_a_cloud_that_many_bodies_have_is_read_once(tmp_path, monkeypatch):

@@ -31,6 +31,14 @@ def urdf(inside: str) -> bytes:
     return f'<robot name="r"><link name="a">{inside}</link></robot>'.encode()
 
 
+def hinges(count: int) -> bytes:
+    """A URDF of links that hang on one."""
+    hinge = '<joint name="j@" type="continuous"><parent link="a"/><child link="l@"/></joint>'
+    return urdf("").replace(
+        b"</robot>", copies(f'<link name="l@"/>{hinge}', count).encode() + b"</robot>"
+    )
+
+
 def npy_header(shape: str, kind: str = "<f8") -> bytes:
     """An array's file that promises more than it has."""
     head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".encode()
@@ -119,6 +127,8 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
     "URDF: 100,000 links": (
         "URDF", urdf("").replace(b"</robot>", copies('<link name="l@"/>', 100000).encode()),
     ),
+    "URDF: 900 hinges": ("URDF", lambda: hinges(900)),
+    "URDF: 250 hinges": ("URDF", lambda: hinges(250)),
     "URDF: a mesh elsewhere": (
         "URDF",
         urdf('<collision><geometry><mesh filename="../outside/m.obj"/></geometry></collision>'),

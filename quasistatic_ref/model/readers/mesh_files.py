@@ -1,7 +1,6 @@
 """Mesh files: which file a URI means, and the convex hull of what it holds."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.together import spend
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
@@ -17,36 +17,13 @@ from quasistatic_ref.step.arrays import Array, Indices
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
 CHECK_DAE: Slot[Callable[[Path], None]] = Slot("readers.dae")
-LARGEST_MESHES = 16 * 2**20
-"""Largest sum of the meshes of all URDFs, and of a scenario's own [bytes]; each takes up to 7 s
-and 1.6 GiB."""
+LARGEST_MESH = 16 * 2**20
+"""Largest mesh [bytes]."""
+SECONDS = 7.0
+"""What it takes, with 1.6 GiB [s]."""
 
 
-@dataclass
-class MeshFiles:
-    """Meshes whose sum is limited.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the file that names them.
-    package_dirs : sequence of str or Path
-    size : int
-        Of all that have been named so far [bytes]; a mesh counts as often as it is named.
-    """
-
-    folder: Path
-    package_dirs: Sequence[str | Path] = ()
-    size: int = 0
-
-    def path(self, uri: str) -> Path:
-        """The file of one more, as :func:`mesh_path`; ModelError if they are too large in all."""
-        path = mesh_path(uri, self.folder, self.package_dirs, self.size)
-        self.size += path.stat().st_size
-        return path
-
-
-def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path], size: int = 0) -> Path:
+def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -> Path:
     """The file that a mesh's URI means.
 
     Parameters
@@ -57,15 +34,14 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path], size: 
     folder : Path
         Of the file that the URI stands in.
     package_dirs : sequence of str or Path
-    size : int
-        Of meshes that were named before [bytes].
 
     Raises
     ------
     ModelError
         If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
         the package folders after symbolic links are resolved: what is loaded is never a surprise.
-        Or if it is too large, or a COLLADA file that would take a mesh library's memory.
+        Or if it is too large, alone or with what is read together with it, or a COLLADA file that
+        would take a mesh library's memory.
     """
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
@@ -94,11 +70,11 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path], size: 
             "move the mesh, or name its folder: --root FOLDER, or package_dirs of the body"
         )
         raise ModelError(problem, value=uri)
-    size += path.stat().st_size
-    if size > LARGEST_MESHES:
-        most = LARGEST_MESHES / 2**20
-        problem = f"brings the meshes to more than {most:g} MiB; give it simpler ones"
-        raise ModelError(problem, value=size)
+    size = path.stat().st_size
+    if size > LARGEST_MESH:
+        problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
+        raise ModelError(problem, value=uri)
+    spend(SECONDS * size / LARGEST_MESH)
     if path.suffix.lower() == ".dae":
         CHECK_DAE.needed("a .dae mesh")(path)
     return path

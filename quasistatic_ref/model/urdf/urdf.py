@@ -15,9 +15,9 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
-from quasistatic_ref.model.readers.mesh_files import MeshFiles
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
@@ -54,8 +54,6 @@ class Urdf:
     notes : tuple of str
         Where the model differs from its file: meshes as hulls, inertias that no body can have and
         that M_u does not need.
-    mesh_bytes : int
-        The size of its mesh files, and of those before it [bytes].
     """
 
     file: UrdfFile
@@ -65,16 +63,15 @@ class Urdf:
     links: tuple[str, ...]
     shapes: tuple[PlacedShape, ...]
     notes: tuple[str, ...]
-    mesh_bytes: int
 
 
+@together()
 def loaded_urdf(
     path: str | Path,
     *,
     base: str = "fixed",
     actuated: Sequence[str] = (),
     package_dirs: Sequence[str | Path] = (),
-    mesh_bytes: int = 0,
 ) -> Urdf:
     """One URDF, loaded and compared with its file.
 
@@ -89,8 +86,6 @@ def loaded_urdf(
         physically consistent.
     package_dirs : sequence of str or Path
         Where ``package://`` URIs are looked for.
-    mesh_bytes : int
-        The size of the mesh files that were loaded before, for other bodies [bytes].
 
     Raises
     ------
@@ -102,8 +97,7 @@ def loaded_urdf(
         moving = _moving_joints(file, base)
         unactuated = [] if actuated == "all" else [name for name in moving if name not in actuated]
         inertias = checked_inertias(file, unactuated, base)
-        meshes = MeshFiles(file.path.parent, package_dirs, mesh_bytes)
-        text = resolved_text(file, meshes)
+        text = resolved_text(file, package_dirs)
         model, geometry = _loaded(text, base)
         _check_names(file, model, moving)
         _check_poses(file, model)
@@ -111,7 +105,7 @@ def loaded_urdf(
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
         shapes, hulls = checked_shapes(file, model, geometry, links, frames)
-    return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls), meshes.size)
+    return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls))
 
 
 def body_frame(model: Any, link: str) -> int:

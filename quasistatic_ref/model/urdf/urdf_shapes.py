@@ -1,13 +1,14 @@
 """The collision shapes of a URDF as pinocchio loaded them, compared with what its file says."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import tostring
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh_files import MeshFiles, hull_note, hull_of_loaded
+from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
     InlineMesh,
@@ -21,7 +22,7 @@ from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
 
-def resolved_text(file: UrdfFile, meshes: MeshFiles) -> str:
+def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
     """What pinocchio is given: the file's text without what the model ignores in its links.
 
     Visuals are left out, and so is <collision_checking>, by which pinocchio takes a shape for
@@ -41,7 +42,8 @@ def resolved_text(file: UrdfFile, meshes: MeshFiles) -> str:
             files = [m for m in collision.findall("geometry/mesh") if not is_inline(m)]
             for mesh in files:
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
-                    mesh.set("filename", str(meshes.path(mesh.get("filename", ""))))
+                    uri = mesh.get("filename", "")
+                    mesh.set("filename", str(mesh_path(uri, file.path.parent, package_dirs)))
     return tostring(robot, encoding="unicode")
 
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.formats.together import spend
 from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS, MOST_SHAPES
 from quasistatic_ref.optional.mjcf.fence import Fence
 from quasistatic_ref.optional.mjcf.geoms import touching
@@ -59,6 +60,7 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
         If MuJoCo refuses the file, or needs more time or memory than it is given.
     """
     mujoco: Any = import_module("mujoco")
+    before = _of_children()
     try:
         line, _, binary = printed(fence.path.resolve(), simulated).partition(b"\n")
     except subprocess.TimeoutExpired:
@@ -67,12 +69,19 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
         if ended.returncode == -signal.SIGXCPU:
             raise fence.too_much(f"takes MuJoCo longer than {SECONDS} s") from None
         raise fence.too_much(f"needs more than {MEMORY / 2**30:g} GiB, or ends MuJoCo") from None
+    spend(_of_children() - before)
     said = json.loads(line)
     if "refused" in said:
         raise fence.refusal(said["refused"])
     if "makes" in said:
         raise fence.too_much(f"makes {said['makes']}")
     return mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary}), said["ignored"]
+
+
+def _of_children() -> float:
+    """Time of the processor that processes have taken which this one has started [s]."""
+    times = os.times()
+    return times.children_user + times.children_system
 
 
 def printed(path: Path, simulated: bool = False) -> bytes:

@@ -29,6 +29,15 @@ def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
         urdf_file(robot(link("a"), link("b"), link("c"), *arms))
 
 
+def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
+    """Pinocchio takes memory with the cube of their number: a file of 1000 hinges took 30 GiB."""
+    monkeypatch.setattr(urdf_file_module, "MOST_COORDINATES", 3)
+    balls = joint("j", "a", "b", "ball"), joint("k", "b", "c", "ball")
+    urdf_file(robot(link("a"), link("b"), balls[0]))
+    with pytest.raises(ModelError, match=r"more than 3 coordinates \(got 6\)"):
+        urdf_file(robot(link("a"), link("b"), link("c"), *balls))
+
+
 def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
     ixx, iyy, izz, ixy, ixz, iyz = written = [1.0, 2.0, -3.0, 0.1, 0.2, 0.3]
     defect = inertia_defect(np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]))
