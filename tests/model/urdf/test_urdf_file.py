@@ -30,7 +30,7 @@ def test_a_file_holds_as_many_links_as_are_allowed(monkeypatch):
 
 
 def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
-    """Pinocchio takes memory with the cube of their number: a file of 1000 hinges took 30 GiB."""
+    """Pinocchio takes memory with the cube of their number: 300 hinges took 1.2 GiB."""
     monkeypatch.setattr(urdf_file_module, "MOST_COORDINATES", 3)
     balls = joint("j", "a", "b", "ball"), joint("k", "b", "c", "ball")
     urdf_file(robot(link("a"), link("b"), balls[0]))
