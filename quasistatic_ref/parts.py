@@ -83,13 +83,13 @@ def needing(word: str) -> Iterator[None]:
     Raises
     ------
     InputError
-        If its folder is missing.
+        If its folder is missing, or all of ``optional/``, which is then named.
     """
     try:
         yield
     except ModuleNotFoundError as error:
         name = str(error.name)
-        if not (name.startswith(OPTIONAL) and name.count(".") == 2):
+        if not (name.startswith(OPTIONAL) and name.count(".") <= 2):
             raise
         raise InputError(_needs(word, name)) from None
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.optional.between import SAVED_STEPS
 from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
@@ -98,6 +97,8 @@ def completed(
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
+    from quasistatic_ref.simulate.rollout import SAVE_EVERY
+
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
     )
@@ -105,7 +106,7 @@ def add_resume(parser: argparse.ArgumentParser) -> None:
         "--save-every",
         type=float,
         metavar="SECONDS",
-        help="time between two saves of the steps so far (60 by default)",
+        help=f"time between two saves of the steps so far ({SAVE_EVERY:g} by default)",
     )
 
 
@@ -181,6 +182,8 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say where the steps of a failed run are; write its failing step; its status."""
+    from quasistatic_ref.simulate.rollout import SAVED_STEPS
+
     saved_steps = SAVED_STEPS.found()
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {failure.file or path}"

@@ -13,11 +13,11 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.optional.between import FIRST_STEP
 from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.observer import DOCTOR
+from quasistatic_ref.simulate.rollout import FIRST_STEP
 from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory, certified
 from quasistatic_ref.step.cones import cone
 

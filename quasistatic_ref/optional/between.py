@@ -1,4 +1,4 @@
-"""What optional parts ask of each other, and the command line of them: slots of core types."""
+"""What optional parts ask of each other: slots of core types."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from quasistatic_ref.parts import Slot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from pathlib import Path
 
     from scipy.sparse import csc_matrix
 
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
 POSED: Slot[Callable[[StepData, Extension], tuple[StepData, bool]]] = Slot("extensions.extended")
 """A step with what of an extension is data, and whether that is all of it."""
 WITH_RISES: Slot[Callable[[StepData, Rises], StepData]] = Slot("extensions.rises")
-FIRST_STEP: Slot[Callable[[Path, int, bool], int]] = Slot("runs.saved_files")
-SAVED_STEPS: Slot[Callable[[Path], int]] = Slot("runs.saved_files")
 STRAY: Slot[Callable[[Array], Mask]] = Slot("scans.cloud")
 """Which points (N, 3) [m] no gap of a few spacings joins to the others."""
 COULOMB_COUNT: Slot[Callable[[StepData, int], str]] = Slot("coulomb.modes")

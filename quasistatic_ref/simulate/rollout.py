@@ -37,6 +37,9 @@ What a solver keeps of earlier steps decides the last bits of multipliers, and o
 not certified. A run that is resumed must take these steps again.
 """
 
+SAVE_EVERY = 60.0
+"""Time between two saves of the steps so far [s], unless another is given."""
+
 
 class SavedRun(Protocol):
     """The saved steps of a run."""
@@ -55,6 +58,10 @@ BEGUN_OR_RESUMED: Slot[
     Callable[[str | Path, float | None, bool, int, Recorder, Given, int], SavedRun]
 ] = Slot("runs.resume")
 PACE: Slot[Callable[[bool, int], Observer]] = Slot("fast.pace")
+FIRST_STEP: Slot[Callable[[Path, int, bool], int]] = Slot("runs.saved_files")
+"""Of a trajectory's file, its steps in all, and whether to resume: where a run begins."""
+SAVED_STEPS: Slot[Callable[[Path], int]] = Slot("runs.saved_files")
+"""How many steps are saved next to a trajectory's file."""
 
 
 @arguments_checked

@@ -160,8 +160,8 @@ class Simulator(Settings, Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, and its folder is not there, or the extension is no function, or the
-        law is unknown or does not take `certify`.
+        If `fast` is wanted, and its folder is not there, or of a subclass; or the extension is no
+        function, or the law is unknown or does not take `certify`.
 
     Examples
     --------
@@ -226,9 +226,14 @@ class Simulator(Settings, Shown):
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
-        kind = compiled(FAST_SIMULATOR) if fast else None
-        if kind is not None:
-            self.__class__ = kind
+        if fast:
+            kind = compiled(FAST_SIMULATOR)
+            if type(self) not in (Simulator, kind):
+                problem = f"has no methods of {type(self).__name__}; give fast=False, or let that "
+                problem += "class hold a Simulator, not be one"
+                raise InputError(problem, field="fast", value=fast)
+            if kind is not None:
+                self.__class__ = kind
         self.prepare()
 
     def __setattr__(self, name: str, value: Any) -> None:

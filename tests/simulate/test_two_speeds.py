@@ -7,6 +7,7 @@ from quasistatic_ref import (
     Body,
     Box,
     ContactPair,
+    InputError,
     PlacedShape,
     Simulator,
     Sphere,
@@ -51,6 +52,16 @@ def test_a_simulator_says_which_it_is():
     fast = load_scenario("sphere_spin", fast=True).simulator()
     assert type(fast) is FastSimulator
     assert (plain.fast, fast.fast) == (False, True)
+
+
+@pytest.mark.parametrize("kind", [Simulator, FastSimulator])
+def test_fast_is_refused_where_methods_of_one_s_own_would_go(kind):
+    class Own(kind):
+        pass
+
+    scenario = load_scenario("sphere_spin", fast=True)
+    with pytest.raises(InputError, match=r"^fast: has no methods of Own; give fast=False, or "):
+        Own(**scenario.settings())
 
 
 def test_the_plain_path_asks_for_nothing_of_fast(monkeypatch):

@@ -1,7 +1,7 @@
 """What is optional can be taken away: ``python -m validation.tools.check_parts [PART ...]``.
 
 Each named part (those of ``PARTS`` without a name) is deleted from a copy of the package, then all
-of ``PARTS`` at once. The copy has no ``lab/`` either. ``quasistatic-ref run`` then takes the first
+of ``optional/``. The copy has no ``lab/`` either. ``quasistatic-ref run`` then takes the first
 steps of the grasp, all arrays of which must have the bits that the whole package gives them; and a
 word that needs the part must be refused in a sentence that names it.
 
@@ -43,12 +43,12 @@ PARTS = {
 
 
 def package_copied(folder: Path, *without: str) -> Path:
-    """A folder with the package as a wheel has it, but for ``lab/`` and some parts."""
+    """A folder with the package as a wheel has it, but for ``lab/`` and some other folders."""
     package = folder / "quasistatic_ref"
     ignored = shutil.ignore_patterns("__pycache__", "lab")
     shutil.copytree(ROOT / "quasistatic_ref", package, ignore=ignored)
     for name in without:
-        shutil.rmtree(package / "optional" / name)
+        shutil.rmtree(package / name)
     shutil.copytree(ROOT / "models", package / "models")
     return folder
 
@@ -79,21 +79,20 @@ def arrays(folder: Path, steps: int) -> dict[str, bytes]:
         return {name: file[name].tobytes() for name in file.files if name != "header"}
 
 
-def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
-    """What a package without some parts does wrong, one sentence each."""
+def faults(expected: dict[str, bytes], steps: int, gone: str) -> list[str]:
+    """What a package without a folder, or all of ``optional``, does wrong, one sentence each."""
     with tempfile.TemporaryDirectory() as made:
-        folder = package_copied(Path(made), *gone)
+        folder = package_copied(Path(made), gone)
         try:
             found = arrays(folder, steps)
         except RuntimeError as error:
             return [f"the run fails: {error}"]
         wrong = [f"{name} has other bits" for name in expected if found.get(name) != expected[name]]
-        for name in gone:
-            options, word = PARTS[name]
-            if not options:
+        for name, (options, word) in PARTS.items():
+            if not options or gone not in ("optional", f"optional/{name}"):
                 continue
             refused = run_of_package(folder, folder / "refused", 0, *options)
-            sentence = f"{word} needs quasistatic_ref/optional/{name}"
+            sentence = f"{word} needs quasistatic_ref/{gone}"
             if refused.returncode != 2 or sentence not in refused.stderr:
                 wrong.append(f"{word} is not refused in a sentence: {refused.stderr}")
         return wrong
@@ -105,9 +104,9 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as made:
         expected = arrays(package_copied(Path(made)), options.steps)
     status = 0
-    for gone in [*((name,) for name in options.names or PARTS), tuple(PARTS)]:
-        wrong = faults(expected, options.steps, *gone)
-        print(f"without {', '.join(gone)}: {'; '.join(wrong) or 'the same bits'}", flush=True)
+    for gone in [*(f"optional/{name}" for name in options.names or PARTS), "optional"]:
+        wrong = faults(expected, options.steps, gone)
+        print(f"without {gone}: {'; '.join(wrong) or 'the same bits'}", flush=True)
         status = status or int(bool(wrong))
     return status
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.between import POSED
-from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_step, run_settings
+from quasistatic_ref.optional.runs.saved_files import SavedSteps, first_step, run_settings
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Recorder, StepArrays, programs
-from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, start_cold
+from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, SAVE_EVERY, start_cold
 from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
@@ -65,7 +65,7 @@ def begun_or_resumed(
     first = first_step(path, steps, resume)
     simulator = recorder.simulator
     settings = run_settings(simulator, recorder.start, recorder.record)
-    saved = SavedSteps(path, settings, recorder.notes, EVERY if every is None else every)
+    saved = SavedSteps(path, settings, recorder.notes, SAVE_EVERY if every is None else every)
     recorder.observers.append(saved)
     try:
         if first:

@@ -28,10 +28,10 @@ from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import header_of, json_array, npz_arrays, npz_record
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.optional.between import FIRST_STEP, SAVED_STEPS
 from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, FORCES, PER_STEP, PROGRAM
+from quasistatic_ref.simulate.rollout import FIRST_STEP, SAVED_STEPS
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
@@ -43,8 +43,6 @@ if TYPE_CHECKING:
 FORMAT = "quasistatic-ref/saved-steps"
 VERSION = 1
 WHAT = "a file of saved steps"
-EVERY = 60.0
-"""Time between two saves [s]."""
 HASHED = "sha256 "
 """What the value of a setting begins with that is too long to be shown."""
 

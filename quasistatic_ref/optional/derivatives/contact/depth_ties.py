@@ -4,11 +4,13 @@ import numpy as np
 
 from quasistatic_ref.contact.separations import gaps, tied_normals
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
 from quasistatic_ref.optional.between import RIVALS
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import (
+    Capsule,
     Ellipsoid,
     HalfSpace,
     PointCloud,
@@ -43,11 +45,15 @@ def depth_tie(couple: Couple) -> bool:
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
     if couple.phi > 0:
         return False
-    found, every = pair_and_gaps(couple.of.pair.name, a, b)
-    if every is None:
+    P = polytope(a.shape)
+    Q = polytope(b.shape)
+    if P is None or Q is None:
         return _rival(a, b, couple)
-    within = TIED * couple.of.size
-    return couple.phi < 0 and len(tied_normals(a, b, found, within, every)) > 1
+    axes = isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule)
+    if couple.phi + P.margin + Q.margin >= 0 and not axes:
+        return False  # cores that are apart have one nearest direction; axes may cross
+    found, every = pair_and_gaps(couple.of.pair.name, a, b)
+    return len(tied_normals(a, b, found, TIED * couple.of.size, every)) > 1
 
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:

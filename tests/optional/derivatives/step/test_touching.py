@@ -45,7 +45,7 @@ def test_rows_that_face_each_other_bear_load_in_some_optimal_lam(off):
 
 
 def test_without_a_load_rows_that_face_each_other_bear_all_the_same():
-    """T a_1 + t a_2 = 0 for each t: both bear in some optimal lam. The last row does in none."""
+    """For each t, t a_1 + t a_2 = 0: both bear in some optimal lam. The last row does in none."""
     rows = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]])
     assert bearing(rows, np.zeros(3), 0.0).tolist() == [True, True, False]
 
