@@ -62,8 +62,8 @@ def spend(seconds: float) -> None:
     read = _READ.get() or Together()
     read.seconds += seconds
     if read.seconds > SECONDS:
-        problem = "brings what is read to more than one scenario may have; give it less, or simpler"
-        raise ModelError(problem)
+        took = f"{read.seconds:.3g} s of reading, more than the {SECONDS:g} s of one scenario"
+        raise ModelError(f"brings what is named to {took}; thin out clouds and meshes")
 
 
 def once(key: Hashable, made: Callable[[], T]) -> T:

@@ -239,7 +239,7 @@ def test_clouds_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch):
         path = scene_written(tmp_path, scene)
         if name == "a":
             load_scenario(path)
-    with pytest.raises(QuasistaticError, match=r"b\.xyz: brings what is read to more than"):
+    with pytest.raises(QuasistaticError, match=r"b\.xyz: brings what is named to 10 s of reading"):
         load_scenario(path)
 
 

@@ -185,9 +185,10 @@ def _content(path: Path, text: str) -> UrdfFile:
             raise ModelError("is the name of two links; rename one", field=f"link[{link.name}]")
         links[link.name] = link
     joints = [_joint(element, ignored) for element in robot.findall("joint")]
-    coordinates = sum(len(getattr(JOINTS.get(joint.kind), "twist", "1")) for joint in joints)
+    moving = [JOINTS[joint.kind] for joint in joints if joint.kind in JOINTS]
+    coordinates = sum(len(getattr(kind, "twist", "1")) for kind in moving)
     if coordinates > MOST_COORDINATES:
-        problem = f"has joints of more than {MOST_COORDINATES} coordinates"
+        problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
     spend(OF_JOINTS * (coordinates / MOST_COORDINATES) ** 3)
     root, ordered = checked_tree(links, joints)

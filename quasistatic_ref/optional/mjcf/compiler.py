@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
@@ -60,7 +61,6 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
         If MuJoCo refuses the file, or needs more time or memory than it is given.
     """
     mujoco: Any = import_module("mujoco")
-    before = _of_children()
     try:
         line, _, binary = printed(fence.path.resolve(), simulated).partition(b"\n")
     except subprocess.TimeoutExpired:
@@ -69,19 +69,13 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
         if ended.returncode == -signal.SIGXCPU:
             raise fence.too_much(f"takes MuJoCo longer than {SECONDS} s") from None
         raise fence.too_much(f"needs more than {MEMORY / 2**30:g} GiB, or ends MuJoCo") from None
-    spend(_of_children() - before)
     said = json.loads(line)
     if "refused" in said:
         raise fence.refusal(said["refused"])
     if "makes" in said:
         raise fence.too_much(f"makes {said['makes']}")
+    spend(said["seconds"])
     return mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary}), said["ignored"]
-
-
-def _of_children() -> float:
-    """Time of the processor that processes have taken which this one has started [s]."""
-    times = os.times()
-    return times.children_user + times.children_system
 
 
 def printed(path: Path, simulated: bool = False) -> bytes:
@@ -100,7 +94,10 @@ def printed(path: Path, simulated: bool = False) -> bytes:
 
 
 def answer(path: Path, *simulated: str) -> bytes:
-    """A line that says what is ignored, and the model; or a line that says why there is none."""
+    """A line, and the model: what is ignored, and the time of the processor [s].
+
+    Or a line that says why there is none.
+    """
     mujoco: Any = import_module("mujoco")
     # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
     mujoco.set_mju_user_warning(lambda text: None)
@@ -111,6 +108,7 @@ def answer(path: Path, *simulated: str) -> bytes:
 
 
 def _compiled(mujoco: Any, path: Path, simulated: bool) -> bytes:
+    start = time.process_time()
     spec = mujoco.MjSpec.from_file(str(path))
     threads = spec.compiler.usethread
     memory = spec.memory
@@ -129,7 +127,8 @@ def _compiled(mujoco: Any, path: Path, simulated: bool) -> bytes:
     mujoco.mj_saveModel(model, None, binary)
     spec.compiler.usethread = threads
     spec.memory = memory
-    return _line({"ignored": ignored_of_spec(spec)}) + binary.tobytes()
+    said = {"ignored": ignored_of_spec(spec), "seconds": time.process_time() - start}
+    return _line(said) + binary.tobytes()
 
 
 def _line(said: dict[str, Any]) -> bytes:

@@ -33,8 +33,9 @@ def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
     """Pinocchio takes memory with the cube of their number: 300 hinges took 1.2 GiB."""
     monkeypatch.setattr(urdf_file_module, "MOST_COORDINATES", 3)
     balls = joint("j", "a", "b", "ball"), joint("k", "b", "c", "ball")
-    urdf_file(robot(link("a"), link("b"), balls[0]))
-    with pytest.raises(ModelError, match=r"more than 3 coordinates \(got 6\)"):
+    fixed = joint("f", "b", "c", "fixed")
+    urdf_file(robot(link("a"), link("b"), link("c"), balls[0], fixed))
+    with pytest.raises(ModelError, match=r"more than 3 coordinates; fix some of them \(got 6\)"):
         urdf_file(robot(link("a"), link("b"), link("c"), *balls))
 
 

@@ -123,7 +123,7 @@ def test_a_kept_zero_of_another_group_is_no_entry_of_a_group():
 
     The last coordinate is a group of its own, as it is where no contact moves with it.
     """
-    contacts = SimpleNamespace(kept_J=np.zeros((1, 4, 4)))
+    contacts = SimpleNamespace(kept_J=np.zeros((1, 4, 4)), kept_columns=None)
     step = SimpleNamespace(m=2, n_v=4, contacts=contacts)
     none = np.zeros(0, dtype=np.int64)
     first = Group(np.arange(3), np.arange(1), none, np.arange(2))
