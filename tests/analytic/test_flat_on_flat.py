@@ -18,7 +18,7 @@ from validation.make.forces_by_hand import (
     attempts,
     elsewhere,
     step_of,
-    wrong,
+    wrong_words,
 )
 
 LAST, EVERY = 60, 31
@@ -29,7 +29,7 @@ LAST, EVERY = 60, 31
 def test_forces_are_those_by_hand(number, name):
     rng = np.random.default_rng(number)
     scenes = islice(attempts(name), number % 5, LAST, EVERY)
-    said = [wrong(elsewhere(scene, rng), *contacts) for scene, *contacts in scenes]
+    said = [wrong_words(elsewhere(scene, rng), *contacts) for scene, *contacts in scenes]
     assert set(said) == {""}
 
 

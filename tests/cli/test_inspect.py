@@ -136,7 +136,7 @@ def test_findings_are_listed_before_a_run(capsys):
     assert (found["name"], found["grave"]) == ("too few points", True)
 
 
-def inspected(capsys, *arguments):
+def record_and_words(capsys, *arguments):
     assert main(["inspect", *arguments, "--json"]) == 0
     record = json.loads(capsys.readouterr().out)["time_step"]
     assert main(["inspect", *arguments]) == 0
@@ -145,7 +145,7 @@ def inspected(capsys, *arguments):
 
 def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
     """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
-    record, text = inspected(capsys, scene)
+    record, text = record_and_words(capsys, scene)
     v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
     assert record["target_speed"] == pytest.approx(v, rel=ROUNDING)
     assert record["small_drag_from"] == pytest.approx(10 * v / (mu_v * g), rel=ROUNDING)
@@ -153,7 +153,7 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
     assert record["between_waypoints"] == 0.1
     assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
     assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
-    weightless, text = inspected(capsys, scene, "--set", "gravity=[0, 0, 0]")
+    weightless, text = record_and_words(capsys, scene, "--set", "gravity=[0, 0, 0]")
     assert weightless == record | {"small_drag_from": None}
     assert "drag" not in text
 
@@ -161,7 +161,7 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
 def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, capsys):
     """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
     club = str(written_scenario(tmp_path, SWING))
-    record, text = inspected(capsys, club, "--set", "h=0.002", "--set", "steps=30")
+    record, text = record_and_words(capsys, club, "--set", "h=0.002", "--set", "steps=30")
     turn = 1.5 * np.pi / 5
     r = 0.2
     assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)

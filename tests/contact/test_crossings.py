@@ -9,7 +9,7 @@ from quasistatic_ref.contact.crossings import Edges, crossings, edge_crossings, 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
 from tests.tolerances import ROUNDING
-from validation.make.forces_by_hand import FLAT, HALF, UP, Scene, wrong
+from validation.make.forces_by_hand import FLAT, HALF, UP, Scene, wrong_words
 
 ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)
@@ -52,7 +52,7 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
     bodies = [(top, R, np.array(place)), (low, STRAIGHT, ORIGIN)]
     for normals in ({(1, 0): UP}, {(0, 1): -UP}):
         scene = Scene(bodies, normals, np.zeros((1, 6)))
-        assert [wrong(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
+        assert [wrong_words(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
 
 
 def points_of_alpha(low, top, R, place, nearest):

@@ -86,7 +86,7 @@ def test_a_pose_that_is_not_finite_is_refused():
         closest_points([], still)
 
 
-def listed(phi, x, number):
+def candidates_at(phi, x, number):
     """Candidates at distances phi [m], at places along the x axis [m], with their numbers."""
     alpha = np.outer(x, X)
     n = np.tile(Z, (len(phi), 1))
@@ -103,18 +103,18 @@ def test_crossings_rank_last_if_k_corners_are_as_near_and_the_closest_pair_if_k_
     # Three corners, two of them as near as is rounding; two crossings; the closest pair.
     phi = np.array([0.5, REPEATED, REPEATED, 0.0, 0.0, 0.0])
     number = np.array([0, 1, 2, 7, 8, 5])
-    found = ranked_last(listed(phi, np.arange(6.0), number), k)
+    found = ranked_last(candidates_at(phi, np.arange(6.0), number), k)
     assert found.tolist() == [False] * 3 + [crossing] * 2 + [nearest]
 
 
 def test_a_candidate_that_repeats_an_earlier_one_ranks_last():
     x = np.array([0.0, REPEATED, 3 * REPEATED, 1.0])
-    found = ranked_last(listed(np.zeros(4), x, np.arange(4)), 4)
+    found = ranked_last(candidates_at(np.zeros(4), x, np.arange(4)), 4)
     assert found.tolist() == [False, True, False, False]
 
 
 def test_zero_is_never_minus_zero():
-    points = listed(-np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
+    points = candidates_at(-np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
     found = joined_contacts([points.swapped()])
     assert np.signbit([*found.phi, *found.n[0]]).tolist() == [False, False, False, True]
 
@@ -162,7 +162,7 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
     beta = t + np.array([radial * np.cos(1.0), radial * np.sin(1.0), -half])
     level = np.sin(tilt)
     n = -np.array([level * np.cos(2.5), level * np.sin(2.5), -np.cos(tilt)])
-    nearest = listed(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
+    nearest = candidates_at(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
     nearest = nearest._replace(alpha=beta[None], beta=beta[None], n=n[None])
     rimmed = Cylinder(0.5, half)
     one = pair(placed_shape(FLOOR), placed_shape(rimmed, 1), 2)

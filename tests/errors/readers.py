@@ -31,7 +31,7 @@ from quasistatic_ref.lab.study.file.study_file import solver_study
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, TestSet, study_problems
 from quasistatic_ref.lab.study.report.report import study_report
-from quasistatic_ref.lab.study.store.pack import packed
+from quasistatic_ref.lab.study.store.pack import packed_store
 from quasistatic_ref.lab.study.store.store import STORE
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
@@ -243,7 +243,7 @@ def stores(folder: Path) -> dict[str, Reader]:
         markdown_page(study_report(path.parent))
 
     found = {}
-    stores = ("solvers", made_store.written), ("sweep", made_store.sweep_written)
+    stores = ("solvers", made_store.write_store), ("sweep", made_store.sweep_written)
     for kind, made in stores:
         home = folder / f"store of {kind}"
         made(home, count=3) if kind == "solvers" else made(home)
@@ -251,7 +251,7 @@ def stores(folder: Path) -> dict[str, Reader]:
         found[f"study of {kind}, {STORE}"] = Reader(
             f"{home.name}/{STORE}", (good,), spoilt_bytes, reported
         )
-    kept = packed(folder / "store of solvers", folder / "packed")
+    kept = packed_store(folder / "store of solvers", folder / "packed")
     name = f"packed/{kept.name}"
     found[f"study, {kept.name}"] = Reader(name, (kept.read_bytes(),), spoilt_xz, reported)
 

@@ -20,7 +20,7 @@ CAUSES = {
 }  # fmt: skip
 
 
-def written(folder, record, name="step.json"):
+def step_file(folder, record, name="step.json"):
     path = folder / name
     path.write_text(record if isinstance(record, str) else json.dumps(record))
     return path
@@ -29,7 +29,7 @@ def written(folder, record, name="step.json"):
 @pytest.mark.parametrize("cause", CAUSES)
 def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, cause):
     *changes, field, words = CAUSES[cause]
-    path = written(tmp_path, changed(STEP, *changes))
+    path = step_file(tmp_path, changed(STEP, *changes))
     sentence = refused("solve", path, "-o", tmp_path / "solution.json")
     assert sentence.startswith(f"{path}: {field}: ")
     assert words in sentence
@@ -45,11 +45,11 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
     # A count of many digits is a whole number: it is the matrix that cannot have that size.
     known = {"n_a": ("n_a", "K_q"), "n_u": ("n_u", "M_u")}.get(name, (name,))
     for number in NO_NUMBERS:
-        sentence = refused("solve", written(tmp_path, text.replace('"MARK"', number)))
+        sentence = refused("solve", step_file(tmp_path, text.replace('"MARK"', number)))
         assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
 
 
 def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
-    path = written(tmp_path, changed(STEP, ("tau_u/0", 7.4e156)))
+    path = step_file(tmp_path, changed(STEP, ("tau_u/0", 7.4e156)))
     sentence = refused("solve", path)
     assert "products of them exceed the range of float64; look for a wrong unit" in sentence

@@ -29,7 +29,7 @@ def test_a_file_is_replaced_whole(tmp_path):
     assert os.listdir(tmp_path) == ["t.txt"]
 
 
-def killed(process):
+def kill(process):
     process.kill()
     process.stdout.close()
     process.wait()
@@ -50,7 +50,7 @@ def test_what_killed_processes_left_of_a_file_is_removed_and_nothing_else(tmp_pa
         process.stdout.readline()
     begun = [name for name in os.listdir(tmp_path) if name.endswith(".partial")]
     assert len(begun) == 2
-    killed(writing[0])
+    kill(writing[0])
     others = (".[t].txt.bak", ".other.txt.12345678.partial", ".t.txt.12345678.partial")
     for name in others:
         (tmp_path / name).touch()
@@ -59,7 +59,7 @@ def test_what_killed_processes_left_of_a_file_is_removed_and_nothing_else(tmp_pa
     left = {*os.listdir(tmp_path)} - {*others, ".[t].txt.a_pipe.partial"}
     assert left - {*begun} == {"[t].txt"}
     assert len(left & {*begun}) == 1
-    killed(writing[1])
+    kill(writing[1])
     text_written(path, "whole")
     assert not {*begun} & {*os.listdir(tmp_path)}
 

@@ -71,7 +71,7 @@ def test_the_checker_catches_a_planted_violation(tmp_path, file, source, says):
     assert says in found[0]
 
 
-def printed(*lines):
+def printed_text(*lines):
     """What these lines print in an interpreter of their own, which must end well."""
     command = [sys.executable, "-W", "error", "-c", "\n".join(lines)]
     root = str(PACKAGE.parent)
@@ -90,7 +90,7 @@ def test_step_certify_and_solve_work_without_pinocchio_and_coal():
         if path.name != "__init__.py"
     ]
     assert len(modules) >= 9
-    said = printed(
+    said = printed_text(
         "import sys",
         "for name in ('pinocchio', 'coal', 'hppfcl', 'matplotlib'): sys.modules[name] = None",
         *(f"import {module}" for module in modules),
@@ -102,7 +102,7 @@ def test_step_certify_and_solve_work_without_pinocchio_and_coal():
 
 
 def test_the_judge_runs_without_cvxpy():
-    said = printed(
+    said = printed_text(
         "import sys",
         "sys.modules['cvxpy'] = sys.modules['qpsolvers'] = None",
         "import numpy as np",
@@ -116,7 +116,7 @@ def test_the_judge_runs_without_cvxpy():
 
 
 def test_importing_the_package_loads_none_of_its_folders():
-    said = printed(
+    said = printed_text(
         "import sys, quasistatic_ref",
         "loaded = [m for m in sys.modules if m.startswith('quasistatic_ref.')]",
         "print(loaded, 'numpy' in sys.modules, 'cvxpy' in sys.modules)",

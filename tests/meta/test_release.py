@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 BY_HAND = {"validation/results/mutation_survivors.md", "validation/results/ports.md"}
 
 
-def committed():
+def results():
     folders = ("validation/results/*", "validation/results/figures/*.png", "docs/figures/*")
     folders = (*folders, "validation/results/benchmarks/*")
     return {str(p.relative_to(ROOT)) for folder in folders for p in ROOT.glob(folder)}
@@ -23,11 +23,9 @@ def committed():
 
 def test_every_committed_result_has_a_command():
     written = [path for result in RESULTS for path in result.writes]
-    orphans = {
-        name for name in committed() - BY_HAND if not any(name.startswith(w) for w in written)
-    }
+    orphans = {name for name in results() - BY_HAND if not any(name.startswith(w) for w in written)}
     assert orphans == set()
-    assert len(committed()) > 15
+    assert len(results()) > 15
 
 
 def test_the_table_of_validation_names_every_file_and_no_other():

@@ -132,7 +132,7 @@ def ranges(equations, inequalities, functions, count):
         more = [[*one[:-1], Fraction(0), one[-1]] for one in held]
         for sign in (1, -1):
             more.append([*(sign * a for a in row[:-1]), Fraction(-sign), sign * row[-1]])
-        rest = eliminated(more, len(left))
+        rest = eliminated_rows(more, len(left))
         lows = [-b / a for a, b in rest if a > 0]
         highs = [-b / a for a, b in rest if a < 0]
         bounds.append((max(lows, default=None), min(highs, default=None)))
@@ -154,10 +154,10 @@ def substituted(row, solved, count):
 def feasible(rows):
     """Whether affine functions can all be >= 0."""
     width = len(rows[0]) - 1 if rows else 0
-    return all(row[0] >= 0 for row in eliminated(rows, width))
+    return all(row[0] >= 0 for row in eliminated_rows(rows, width))
 
 
-def eliminated(rows, count):
+def eliminated_rows(rows, count):
     """What inequalities a u + b >= 0 say without their first `count` unknowns.
 
     After k unknowns, what is combined of more than k + 1 of them follows from the others (Kohler

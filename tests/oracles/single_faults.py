@@ -127,7 +127,7 @@ def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,
     return step.replace(cone="ellipsoid", contacts=planes)
 
 
-def stuck(step: StepData, lam: list[list[float]], active: list[list[int]], gap: float) -> Any:
+def stuck_file(step: StepData, lam: list[list[float]], active: list[list[int]], gap: float) -> Any:
     """The file of a body that stays where it is."""
     certificate = {"kind": "exact", "active": active, "error_bound": 0.0, "gap": gap}
     record = good_file(on_floor(0.0), "exact") | {
@@ -142,28 +142,30 @@ def in_the_ellipsoid() -> Iterator[Fault]:
     rows = [[0, 0], [0, 1], [0, 2]]
     push = H * DOWN
     edge, over = 0.5 * DOWN, 0.5 * DOWN * (1 + 2.0**-40)  # of the friction that the floor can give
-    at_the_edge = stuck(on_floor(edge), [[push, -H * edge, 0.0, 0.0]], rows, 0.0)
+    at_the_edge = stuck_file(on_floor(edge), [[push, -H * edge, 0.0, 0.0]], rows, 0.0)
     yield fault(on_floor(edge), at_the_edge, PROVED)
     beyond = with_value(at_the_edge, ("lam", 0, 1), math.nextafter(-H * edge, -1.0))
     step = on_floor(edge)
     yield fault(step, with_its_wrenches(step, beyond), "lam is not in the dual cones")
     slides, gap = on_floor(over), 1e-20  # more than what is left of the push costs
-    record = stuck(slides, [[push, -H * edge, 0.0, 0.0]], rows, gap)
+    record = stuck_file(slides, [[push, -H * edge, 0.0, 0.0]], rows, gap)
     yield fault(slides, record, "lam with its entries on active changed is not in the dual cones")
     smooth = on_floor(0.0, mu_v=0.0)
-    record = stuck(smooth, [[push, 2.0**-40, 0.0, 0.0]], [[0, 0]], gap)
+    record = stuck_file(smooth, [[push, 2.0**-40, 0.0, 0.0]], [[0, 0]], gap)
     yield fault(smooth, record, "lam has a force whose coefficient is 0")
     two = on_floor(0.0, copies=(0.0, 2.0**-50))
     half = [push / 2, 0.0, 0.0, 0.0]
-    yield fault(two, stuck(two, [half, half], rows, gap), "the multipliers are not complementary")
+    yield fault(
+        two, stuck_file(two, [half, half], rows, gap), "the multipliers are not complementary"
+    )
     violated = "the minimiser on the rows of active violates a row"
     near = on_floor(0.0, copies=(0.0, -1e-3))
     none = [0.0] * 4
-    yield fault(near, stuck(near, [[push, 0.0, 0.0, 0.0], none], rows, 0.0), violated)
+    yield fault(near, stuck_file(near, [[push, 0.0, 0.0, 0.0], none], rows, 0.0), violated)
     own = on_floor(0.0).replace(extra=Extra(("lifted",), np.eye(3)[2:], np.array([1e-3])))
-    record = stuck(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [0.0]}
+    record = stuck_file(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [0.0]}
     yield fault(own, record, violated)
-    record = stuck(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [-1e-12]}
+    record = stuck_file(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [-1e-12]}
     yield fault(own, record, "lam has a negative multiplier of the user's own rows")
 
 

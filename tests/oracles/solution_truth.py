@@ -97,7 +97,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
 
     def holds(forged: Json) -> bool:
         try:
-            if _fixed(forged, kind) != _fixed(good, kind):
+            if _fixed_fields(forged, kind) != _fixed_fields(good, kind):
                 return False
             return _holds(forged)
         except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError):
@@ -189,7 +189,7 @@ def proof(step: StepData, y: Exact) -> bool:
     return bool(min(y) >= 0 and not any(y @ A) and y @ b > 0)
 
 
-def _fixed(record: Json, kind: str) -> Json:
+def _fixed_fields(record: Json, kind: str) -> Json:
     """A record without what may change."""
     free = MAY_CHANGE.get(kind, ())
     kept = {k: v for k, v in record.items() if k not in free}

@@ -21,7 +21,7 @@ NEAR = LOWER @ np.diag(PIVOTS) @ LOWER.T
 Cholesky finds it negative."""
 
 
-def refused(*_):
+def refuse(*_):
     raise AssertionError("what float64 decides was decided in whole numbers")
 
 

@@ -38,7 +38,7 @@ def piece(runner: str, command: str, seed: int, jobs: int, kept: Path | None) ->
     program = Program(command, timeout=60.0)
     found = challenge(program, cases=PIECE, seed=seed, jobs=jobs, scope=scope)
     for finding in found.findings if kept else ():
-        finding.written(kept / f"{runner}_{seed}", command)
+        finding.write_folder(kept / f"{runner}_{seed}", command)
     verdicts = {layer: {} for layer in LAYERS if found.sent[layer]}
     for (layer, verdict), count in sorted(found.verdicts.items()):
         verdicts[layer][verdict] = count

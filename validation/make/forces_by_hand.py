@@ -166,7 +166,7 @@ def step_of(scene: Scene, k: int, mu_v: float) -> StepResult:
     return simulator.step(system.q_start, np.zeros(0), force)
 
 
-def wrong(scene: Scene, k: int, mu_v: float) -> str:
+def wrong_words(scene: Scene, k: int, mu_v: float) -> str:
     """What differs from what is known; nothing if it is empty."""
     count = len(scene.motion)
     places = np.array([t for _, _, t in scene.bodies])
@@ -371,7 +371,7 @@ def main() -> int:
     rows = []
     found = []
     for name in tqdm(FAMILIES):
-        said = [wrong(elsewhere(scene, rng), *contacts)
+        said = [wrong_words(elsewhere(scene, rng), *contacts)
                 for scene, *contacts in attempts(name) for _ in range(options.places)]  # fmt: skip
         found += [f"- {name}: {problem}" for problem in said if problem]
         rows.append((name, len(said), sum(map(bool, said))))

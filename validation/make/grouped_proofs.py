@@ -57,10 +57,10 @@ def faults(step: StepData) -> list[str]:
         if isinstance(whole, Farkas):
             return ["feasible by group only"]
         return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
-    return unlike(grouped, whole)
+    return unlike_fields(grouped, whole)
 
 
-def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
+def unlike_fields(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
     """In what of that no choice is left of an optimum is not that of the whole step."""
     if isinstance(whole, Farkas):
         return ["feasible by group only"]

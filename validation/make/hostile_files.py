@@ -96,7 +96,7 @@ def readers(folder: Path) -> dict[str, Reader]:
     }
 
 
-def given(known: dict[str, Reader], number: int) -> tuple[str, str, Path]:
+def file_of_number(known: dict[str, Reader], number: int) -> tuple[str, str, Path]:
     """Write the file of a number: its row of the page, its reader, where it is."""
     names = list(known)
     if number >= 0:
@@ -132,13 +132,13 @@ def read(first: int, last: int, out: Path) -> None:
     with tempfile.TemporaryDirectory() as folder, out.open("a") as lines:
         known = readers(Path(folder))
         for number in range(first, last, 1 if first >= 0 else -1):
-            row, name, path = given(known, number)
+            row, name, path = file_of_number(known, number)
             print(f"{number}\t{row}\t{path}", end="\t", file=lines, flush=True)
             processes.reset_peak(os.getpid())
             held = processes.resident(os.getpid())
             children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss << 10
-            begun = _spent()
-            _marked(number)
+            begun = _processor_time()
+            _mark_in_trace(number)
             said = "accepted"
             try:
                 known[name].read(path)
@@ -148,8 +148,8 @@ def read(first: int, last: int, out: Path) -> None:
                     said = f"fault: sentence {str(refusal)[:100]!r}"
             except BaseException as failure:  # whatever it is, it is no sentence
                 said = f"fault: {type(failure).__name__}: {str(failure)[:200]!r}"
-            _marked(-(10**9))
-            seconds = _spent() - begun
+            _mark_in_trace(-(10**9))
+            seconds = _processor_time() - begun
             most = (processes.peak(os.getpid()) or 0) - held
             child = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss << 10
             memory = max(most, child if child > children else 0) / 2**30
@@ -162,12 +162,12 @@ def read(first: int, last: int, out: Path) -> None:
                 path.write_bytes(known[name].good[0])
 
 
-def _spent() -> float:
+def _processor_time() -> float:
     """Time of the processor of this process and its children [s]."""
     return sum(os.times()[:4])
 
 
-def _marked(number: int) -> None:
+def _mark_in_trace(number: int) -> None:
     """Open what is not there, for strace to see where a file begins and ends."""
     try:
         os.open(f"/proc/self/file {number}", os.O_RDONLY)
@@ -175,7 +175,7 @@ def _marked(number: int) -> None:
         return
 
 
-def traced(first: int, last: int, folder: Path) -> Iterator[tuple[str, Row]]:
+def traced_rows(first: int, last: int, folder: Path) -> Iterator[tuple[str, Row]]:
     """The rows of files of some numbers, read in processes that strace watches."""
     at = first
     while (at < last) if first >= 0 else (at > last):
@@ -279,7 +279,7 @@ def main() -> int:
         parts.append((begin, -1 - count if first == 0 else max(begin - options.count, -1 - count)))
     with tempfile.TemporaryDirectory() as folder:
         for part in parts:
-            for name, row in traced(*part, Path(folder)):
+            for name, row in traced_rows(*part, Path(folder)):
                 rows[name] = rows.get(name, Row()).plus(row)
     bombs = {name: row for name, row in rows.items() if ": " in name}
     spoilt = {name: row for name, row in rows.items() if name not in bombs}

@@ -76,7 +76,7 @@ class Folders(NamedTuple):
     inputs: Path
 
 
-def started(words: list[str], output: Path) -> int:
+def child_of(words: list[str], output: Path) -> int:
     """A copy of this process that runs a command, in a session of its own; its number."""
     child = os.fork()
     if not child:
@@ -93,7 +93,7 @@ def started(words: list[str], output: Path) -> int:
     return child
 
 
-def ended(child: int) -> int:
+def exit_status(child: int) -> int:
     """The exit status of a process, negative where a signal ended it; its children end, too."""
     status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     with suppress(ProcessLookupError):
@@ -147,25 +147,25 @@ def inputs(folder: Path) -> None:
         path.write_text(json.dumps(record))
 
 
-def killed(name: str, folders: Folders, longest: float, rng: random.Random, two: bool) -> str:
+def kill_outcome(name: str, folders: Folders, longest: float, rng: random.Random, two: bool) -> str:
     """What one folder came to after a kill: columns of the page, and what was lost."""
     words = words_of(name, folders)
     output = folders.out.with_suffix(".txt")
     by = signal.SIGINT if rng.random() < 0.25 else signal.SIGKILL
-    child = started(words, output)
+    child = child_of(words, output)
     others = []
     if two:
-        others = [started(words, folders.out.with_suffix(".second"))]
+        others = [child_of(words, folders.out.with_suffix(".second"))]
     time.sleep(rng.uniform(0.0, longest))
     with suppress(ProcessLookupError):
         os.kill(child, by)
-    status = ended(child)
+    status = exit_status(child)
     said = ["ended before" if status == 0 else "killed" if by == signal.SIGKILL else "interrupted"]
     for other in others:
-        said += ["second ones refused"] if ended(other) == 2 else []
+        said += ["second ones refused"] if exit_status(other) == 2 else []
     more: list[str] = []
     for _ in range(MOST):
-        status = ended(started([*words, *more], output))
+        status = exit_status(child_of([*words, *more], output))
         if status == 0:
             return ", ".join(said + (["resumed"] if more else []))
         message = output.read_text()
@@ -185,15 +185,17 @@ def of_command(name: str, count: int, seed: int, folder: Path) -> Iterator[Count
     threads = len(os.listdir("/proc/self/task"))
     assert threads == 1, f"{threads} threads, of which a copy would have one"
     left_alone = Folders(folder / "alone", inputs_of)
-    status = ended(started(words_of(name, left_alone), folder / "alone.txt"))
+    status = exit_status(child_of(words_of(name, left_alone), folder / "alone.txt"))
     assert status == 0, (folder / "alone.txt").read_text()
     begun = time.monotonic()
-    ended(started(words_of(name, Folders(folder / "timed", inputs_of)), folder / "timed.txt"))
+    exit_status(
+        child_of(words_of(name, Folders(folder / "timed", inputs_of)), folder / "timed.txt")
+    )
     longest = time.monotonic() - begun
     right = digest(left_alone.out)
     for i in range(seed, seed + count):
         folders = Folders(folder / f"{name}{i}", inputs_of)
-        said = killed(name, folders, longest, random.Random(i), i % 10 == 0)
+        said = kill_outcome(name, folders, longest, random.Random(i), i % 10 == 0)
         if not said.startswith("lost"):
             left = digest(folders.out)
             if left != right:

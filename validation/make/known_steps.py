@@ -96,7 +96,7 @@ def varied_step(seed: int) -> StepData:
     return step.replace(cone=CONES[seed // 8 % 3])
 
 
-def chosen() -> Iterator[StepData]:
+def chosen_steps() -> Iterator[StepData]:
     """Steps that refuse a wrong prover which others do not: ``prover_mutants``."""
     yield from (without_rows(1), without_rows(2))
     yield from (half_way(1), half_way(3), half_way(1, 40), sevenths(), divisible())
@@ -119,7 +119,7 @@ def main() -> int:
     lines = []
     seeds = takewhile(lambda _: len(lines) < MOST, range(SEEDS))
     designed = ((seed % 4, varied_step(seed)) for seed in seeds)
-    first, last = enumerate(chosen(), start=4), enumerate(bounds_decide(), start=100)
+    first, last = enumerate(chosen_steps(), start=4), enumerate(bounds_decide(), start=100)
     for family, step in chain(first, designed, last):
         optimum = optimum_of(step)
         divided = group_steps(step)

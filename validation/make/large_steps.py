@@ -136,7 +136,7 @@ def by_way() -> list[str]:
     return markdown_table(("boxes", "entries of J", *WAYS), rows)
 
 
-def large() -> tuple[list[str], dict[str, float], float]:
+def large_table() -> tuple[list[str], dict[str, float], float]:
     """The table of sparse steps, the exponents in bodies, and the largest heap's first [ms]."""
     head = "boxes, backend, contacts, coordinates, rows, first [ms], off [ms], off p99 [ms], "
     head += "residual [ms], residual p99 [ms], largest error bound, without bound, unsolved"
@@ -181,7 +181,7 @@ def main() -> int:
         "heap spreads, its steps take more iterations."
     )
     dense = by_way()
-    sparse, bodies, heap = large()
+    sparse, bodies, heap = large_table()
     measured = [(f"heap of {name(LARGEST)}, first [ms]", heap, HEAP_LIMIT)]
     for what, found in (("bodies", bodies), ("contacts", in_contacts())):
         measured += [(f"exponent in {what}, {b}", v, EXPONENT_LIMIT) for b, v in found.items()]

@@ -39,7 +39,7 @@ def mistakes():
     return tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
 
 
-def healthy():
+def healthy_scenes():
     """The thirty scenes without a mistake."""
     return tomllib.loads((HERE / "healthy.toml").read_text("utf-8"))["healthy"]
 
@@ -106,7 +106,7 @@ def main(arguments=None):
         rows.append(f"| {one['scene']} | {one['what']} | {held} | {words} | {sentence} |")
         print(rows[-1], flush=True)
     plain = {scene: findings_after(scene) for scene in SCENES}
-    changed = {one["what"]: findings_after(one["scene"], one["edits"]) for one in healthy()}
+    changed = {one["what"]: findings_after(one["scene"], one["edits"]) for one in healthy_scenes()}
     slow = [what for what, findings in changed.items() if [x.name for x in findings] == ["drag"]]
     wrong = {what: x for what, x in {**plain, **changed}.items() if x and what not in slow}
     counts = [f"{sum(x)} of {len(x)} {name}" for name, x in

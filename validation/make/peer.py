@@ -398,7 +398,7 @@ def peer_source(folder: Path) -> Path:
     return folder
 
 
-def bare(source: Path, folder: Path) -> Path:
+def bare_copy(source: Path, folder: Path) -> Path:
     """A copy without visual elements, whose meshes Drake would download."""
     shutil.copytree(source, folder, ignore=shutil.ignore_patterns(".git"))
     for path in (folder / "models").glob("*.sdf"):
@@ -412,7 +412,7 @@ def main() -> int:
     options = script_options(__doc__, source=Path, python=str, out=Path)
     with tempfile.TemporaryDirectory() as own:
         folder = Path(own)
-        source = bare(options.source or peer_source(folder / "source"), folder / "bare")
+        source = bare_copy(options.source or peer_source(folder / "source"), folder / "bare")
         python = options.python or str(environment(folder / "environment", *PACKAGES))
         out = folder / "peer.json"
         command = [python, str(ADAPTER), str(source), str(out)]

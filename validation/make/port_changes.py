@@ -149,7 +149,7 @@ def changes(port: Path) -> Iterator[Change]:
             if not place or PASSIVE.match(line):
                 continue
             found: dict[str, Change] = {}
-            for kind, new in changed(line):
+            for kind, new in changed_lines(line):
                 said = " ".join(new.split()) or "(nothing)"
                 name = f"{port.name} {file} {i + 1} {place}: {said}"
                 found.setdefault(new, Change(name, kind, place, file, i, line, new))
@@ -165,7 +165,7 @@ def changes(port: Path) -> Iterator[Change]:
         yield from (ones[number] for ones in by_kind.values() if number < len(ones))
 
 
-def changed(line: str) -> Iterator[tuple[str, str]]:
+def changed_lines(line: str) -> Iterator[tuple[str, str]]:
     """The kinds of changes of a line, and what it becomes."""
     signature = re.match(r"\s*(func|inline) .*?\{", line)
     begin = signature.end() if signature else 0
@@ -180,7 +180,7 @@ def changed(line: str) -> Iterator[tuple[str, str]]:
                 yield kind, new
 
 
-def switched(change: Change, number: int) -> str | None:
+def switched_line(change: Change, number: int) -> str | None:
     """A line of C++ that is the new one if ``MUTANT`` is the number; None if it cannot be both."""
     old, new = change.old.strip(), change.new.strip()
     chosen = f"MUTANT == {number}"

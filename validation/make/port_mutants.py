@@ -49,7 +49,7 @@ from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from validation.make.port_changes import Change, changes, switched
+from validation.make.port_changes import Change, changes, switched_line
 from validation.tools.ports import PORTS, compiler_errors, texts
 from validation.tools.scripts import ROOT, script_options, show_page
 
@@ -154,7 +154,7 @@ class Seen:
                 mine.setdefault(layer, []).extend(ones)
 
     @property
-    def found(self) -> Found:
+    def first_found(self) -> Found:
         """What is found, and named: in the first layer that fails."""
         for layer in LAYERS:
             if layer in self.failed:
@@ -192,7 +192,7 @@ class Port:
     def mutants(self, most: int, part: int, parts: int) -> Iterator[tuple[Change, Program | None]]:
         """Changes with their programs; None for one that does not compile."""
         if self.name == "cpp":
-            yield from list(self._switched(most))[part::parts]
+            yield from list(self._switched_programs(most))[part::parts]
             return
         for change in list(changes(PORTS / self.name))[part::parts]:
             lines = texts(self.name)[change.file].splitlines(keepends=True)
@@ -201,11 +201,11 @@ class Port:
             said = compiler_errors(self.name, path, {change.file: "".join(lines)})
             yield change, None if said else Program(path)
 
-    def _switched(self, most: int) -> Iterator[tuple[Change, Program]]:
+    def _switched_programs(self, most: int) -> Iterator[tuple[Change, Program]]:
         """One program with many mutants, one a line; of what does not compile there is none."""
         left: dict[tuple[str, int], tuple[int, Change, str]] = {}
         for number, change in enumerate(changes(PORTS / self.name), 1):
-            text = switched(change, number)
+            text = switched_line(change, number)
             if text is not None and len(left) < most:
                 left.setdefault((change.file, change.line), (number, change, text))
         path = self._work / "switched"
@@ -261,7 +261,7 @@ class Port:
         return answer_judged(q.layer, case, q.record, output, Answers(), None, self.scope)
 
 
-def _limited() -> None:
+def _limit_process() -> None:
     """End a program that does not end."""
     resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR, PROCESSOR))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -272,14 +272,14 @@ def replies(program: Program, questions: Sequence[Question]) -> dict[str, str]:
     lines = (json.dumps({"id": q.id, "layer": q.layer, "input": q.case}) for q in questions)
     done = subprocess.run(
         [program.path], input="".join(f"{line}\n" for line in lines), capture_output=True,
-        text=True, env=program.environment, preexec_fn=_limited, check=False,
+        text=True, env=program.environment, preexec_fn=_limit_process, check=False,
     )  # fmt: skip
     answers = done.stdout.splitlines()[1:]  # the first line says what the program is
     return {q.id: line for q, line in zip(questions, answers, strict=False) if line.endswith("}")}
 
 
 @cache
-def committed(layer: str) -> list[Question]:
+def committed_questions(layer: str) -> list[Question]:
     """The cases of a layer of the committed vectors."""
     records = expected_read(VECTORS, layer)
     inputs = inputs_read(VECTORS, layer)
@@ -287,7 +287,7 @@ def committed(layer: str) -> list[Question]:
 
 
 @cache
-def fresh(layer: str, seed: tuple[int, ...], level: int) -> Question:
+def question(layer: str, seed: tuple[int, ...], level: int) -> Question:
     """A case of a challenge."""
     case, record = fresh_case(layer, seed, level)
     return Question("/".join(("live", layer, *map(str, seed))), layer, case, record)
@@ -297,7 +297,7 @@ def fresh(layer: str, seed: tuple[int, ...], level: int) -> Question:
 def challenge_round(number: int, layers: tuple[str, ...]) -> list[Question]:
     """The cases of one round of a challenge from seed 0."""
     level = (EASY, PLAIN, HARD)[min(number, 2) if number < 3 else 1 + number % 2]
-    return [fresh(name, (0, number, i), level) for name in layers for i in range(ROUND[name])]
+    return [question(name, (0, number, i), level) for name in layers for i in range(ROUND[name])]
 
 
 def differs(q: Question, one: str, other: str) -> bool:
@@ -322,7 +322,7 @@ def differs(q: Question, one: str, other: str) -> bool:
     return False
 
 
-def tried(port: Port, change: Change, program: Program | None, cases: int = CASES) -> Trial:
+def trial_of(port: Port, change: Change, program: Program | None, cases: int = CASES) -> Trial:
     """Check and challenge a mutant."""
     where = f"{change.place}: {change.old.strip()}"
     trial = Trial(change.name, change.kind, where, kept_apart(change.name))
@@ -331,10 +331,10 @@ def tried(port: Port, change: Change, program: Program | None, cases: int = CASE
         return trial
     other = False
     for layer in port.scope.layers:
-        seen = port.look(program, port.within(committed(layer)))
+        seen = port.look(program, port.within(committed_questions(layer)))
         other = other or seen.other
         if seen.failed or seen.trouble:
-            trial.check = seen.found
+            trial.check = seen.first_found
             break
     seen, sent, number = Seen(), 0, 0
     while sent < cases and not seen.failed and not seen.trouble:
@@ -343,13 +343,13 @@ def tried(port: Port, change: Change, program: Program | None, cases: int = CASE
         new = port.look(program, port.within(here))
         seen.add(new)
         again = [
-            fresh(name, (0, number, len(here), i), (PLAIN, HARD)[i % 2])
+            question(name, (0, number, len(here), i), (PLAIN, HARD)[i % 2])
             for name in new.failed
             for i in range(MORE)
         ]
         seen.add(port.look(program, port.within(again)))
         number += 1
-    trial.challenge = seen.found
+    trial.challenge = seen.first_found
     if other or seen.other:
         trial.outcome = "other"
     return trial
@@ -443,7 +443,7 @@ def main() -> int:
             kept = 0
             for change, program in port.mutants(2 * options.each, options.part, options.parts):
                 if change.name not in done:
-                    done[change.name] = asdict(tried(port, change, program, options.cases))
+                    done[change.name] = asdict(trial_of(port, change, program, options.cases))
                     if options.records:
                         with options.records.open("a") as file:
                             file.write(json.dumps(done[change.name]) + "\n")

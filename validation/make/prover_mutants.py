@@ -174,13 +174,13 @@ class Builder:
         for file in library.SOURCE.glob("*.[ch]"):
             (folder / file.name).write_text(file.read_text())
         self.objects = sorted(file.stem for file in library.SOURCE.glob("*.c"))
-        assert self.compiled(self.objects, plainly)
+        assert self.compiles(self.objects, plainly)
         self.plain = {name: (folder / f"{name}.o").read_bytes() for name in self.objects}
         self.of_header = [
             name for name in self.objects if "proof.h" in (folder / f"{name}.c").read_text()
         ]
 
-    def compiled(self, names: list[str], more: str) -> bool:
+    def compiles(self, names: list[str], more: str) -> bool:
         """Compile some files, with `more` flags than the package's; whether that is done."""
         flags = [*(flag for flag in library.FLAGS if flag != "-shared"), *more.split()]
         files = [f"{name}.c" for name in names]
@@ -202,16 +202,16 @@ class Builder:
         names = self.of_header if file.endswith(".h") else [changed.stem]
         try:
             changed.write_text(text)
-            if not self.compiled(names, more):
+            if not self.compiles(names, more):
                 return "does not compile"
             out = self.folder / "mutant.so"
             objects = [f"{name}.o" for name in self.objects]
             linking = [*library.compiler(), "-shared", "-o", str(out), *objects, "-lm"]
             subprocess.run(linking, cwd=self.folder, check=True)
-            said = tested(out)
+            said = selftest_words(out)
             if said or text == before:
                 return said
-            self.compiled(names, self.plainly)
+            self.compiles(names, self.plainly)
             made = [(self.folder / f"{name}.o").read_bytes() for name in names]
             return "same code" if made == [self.plain[name] for name in names] else ""
         finally:
@@ -228,7 +228,7 @@ class Builder:
         return self.outcome(file, (library.SOURCE / file).read_text().replace(right, wrong))
 
 
-def tested(file: Path) -> str:
+def selftest_words(file: Path) -> str:
     """What the self-test says of a library, its proofs first; empty if it passes."""
     reading, writing = os.pipe()
     child = os.fork()

@@ -19,7 +19,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section
-from quasistatic_ref.lab.study.measuring.judging import judged_again, repacked
+from quasistatic_ref.lab.study.measuring.judging import judged_again, write_packed
 from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report
@@ -71,7 +71,7 @@ def make(name: str, run: bool) -> None:
             found = contents(out, every=True)
             ids = [one["id"] for one in found.problems]
             problems = set_read(problem_set_folder(CONTACT_QP_2), ids=ids)
-            repacked(judged_again(found, problems), FOLDER / name)
+            write_packed(judged_again(found, problems), FOLDER / name)
         steps = [] if name == GRIP else [["run", name, "--out", store]]
         steps.append(["pack", store, "--out", out])
         for step in (*(steps if run else []), ["report", out, "--out", out]):

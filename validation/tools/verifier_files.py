@@ -76,7 +76,7 @@ class Cases:
         refusal = verify_refusal(self.folder, step, solution)
         return Case(family, step, solution, refusal, forged)
 
-    def solved(self, family: str, step: StepData) -> Iterator[Case]:
+    def solved_cases(self, family: str, step: StepData) -> Iterator[Case]:
         """A step with its exact solution, or with the proof that it has none."""
         try:
             yield self.case(family, step_text(step), solution_text(solve_step(step)))
@@ -87,7 +87,7 @@ class Cases:
         except (StepIllPosed, StepNotSolved):
             return
 
-    def forged(self, every: int, number: int) -> Iterator[Case]:
+    def forged_cases(self, every: int, number: int) -> Iterator[Case]:
         """Each kind of solution as it is and forged, one field at a time and several at random."""
         for (kind, _), step in scenes(every=every == 1).items():
             good = good_file(step, kind)
@@ -148,7 +148,7 @@ def random_steps(count: int) -> Iterator[tuple[str, StepData]]:
         yield f"random, {step.cone}", step
 
 
-def otherwise(text: str) -> Iterator[str]:
+def other_texts(text: str) -> Iterator[str]:
     """A step's file as others may write it: some are the same step, some are none."""
     record = json.loads(text)
     yield json.dumps(record, indent=3, sort_keys=True)
@@ -189,7 +189,7 @@ def written_otherwise(cases: Cases) -> Iterator[Case]:
         if kind != "exact":
             continue
         good = json.dumps(good_file(step, kind))
-        for text in otherwise(step_text(step)):
+        for text in other_texts(step_text(step)):
             yield cases.case(f"written otherwise, {name}", text, good)
             try:
                 posed = step_read(cases.folder / "step.json")  # where the text was judged
@@ -204,17 +204,17 @@ def all_cases(folder: Path, whole: bool) -> Iterator[Case]:
     cases = Cases(folder)
     for k, step in enumerate(vector_steps()):
         if whole or k % 5 == 0:
-            yield from cases.solved("vectors, layer qp", step)
+            yield from cases.solved_cases("vectors, layer qp", step)
     for k, step in enumerate(mechanism_steps()):
         if whole or k % 9 == 0:
-            yield from cases.solved("vectors, layer step", step)
+            yield from cases.solved_cases("vectors, layer step", step)
     for name, settings in CASES.items():
         run = load_scenario("bunny_grasp", settings, fast=True).run(progress=False)
         for k in range(0, len(run), 1 if whole else 30):
-            yield from cases.solved(f"bunny_grasp, {name}", run.step_data(k))
+            yield from cases.solved_cases(f"bunny_grasp, {name}", run.step_data(k))
     for family, step in random_steps(2000 if whole else 60):
-        yield from cases.solved(family, step)
+        yield from cases.solved_cases(family, step)
     for step_file, record, reason in single_faults():
         yield cases.case("one fault alone", step_file, record)._replace(reason=reason)
     yield from written_otherwise(cases)
-    yield from cases.forged(1 if whole else 7, 500 if whole else 40)
+    yield from cases.forged_cases(1 if whole else 7, 500 if whole else 40)

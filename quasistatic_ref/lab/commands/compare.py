@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.oracle.comparison import DIGITS, Comparison, compared
+from quasistatic_ref.lab.oracle.comparison import DIGITS, Comparison, comparison_of_run
 from quasistatic_ref.lab.oracle.run_table import other_run
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 
@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     """Compare; 1 if a step is another."""
     scenario = load_scenario(options.scene, shared.scenario_settings(options))
     read = other_run(options.run, scenario)
-    found = compared(
+    found = comparison_of_run(
         scenario, read, options.digits, lambda line: shared.progress_line(options, f"{line} ...")
     )
     if options.json:

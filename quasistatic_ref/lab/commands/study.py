@@ -78,14 +78,14 @@ def _run(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.file.study_file import study_path
 
     try:
-        return _measured(study_path(options.study), options)
+        return _exit_status(study_path(options.study), options)
     except KeyboardInterrupt:
         kept = f"what was measured is in {options.out}; the same command goes on from there"
         print(f"quasistatic-ref: interrupted; {kept}", file=sys.stderr)
         return 130
 
 
-def _measured(path: Path, options: argparse.Namespace) -> int:
+def _exit_status(path: Path, options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.file.study_file import solver_study
     from quasistatic_ref.lab.study.measuring.run import run_study
 

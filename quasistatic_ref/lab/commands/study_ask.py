@@ -65,15 +65,15 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         ("call", f"{one.solver.label} at {one.setting.name} ({options}), {one.units} units, "
          f"{'warm' if one.warm else 'cold'}"),
         ("outcome", f"{row['outcome']}; its own status: {row['claimed']}"),
-        ("digits", _listed(row["digits"], ".1f")),
-        ("residuals", _listed(row["residuals"], ".1e")),
+        ("digits", _values_in_words(row["digits"], ".1f")),
+        ("residuals", _values_in_words(row["residuals"], ".1e")),
         ("promised", promise_words(one.solver.promises(one.setting))),
-        ("limits", _listed(row["allowed"], ".1e")),
+        ("limits", _values_in_words(row["allowed"], ".1e")),
         ("time", time),
         ("false claims", ", ".join(false) or "none"),
     ]  # fmt: skip
 
 
-def _listed(values: dict[str, float | None], form: str) -> str:
+def _values_in_words(values: dict[str, float | None], form: str) -> str:
     return ", ".join(f"{name} {'-' if v is None else format(v, form)}" for name, v in
                      values.items())  # fmt: skip

@@ -65,7 +65,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.exports import exported, has_place
+    from quasistatic_ref.lab.study.problems.exports import exported_files, has_place
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     shared.check_at_least_one(options, "every")
@@ -77,7 +77,7 @@ def _export(options: argparse.Namespace) -> int:
     natural = options.units == NATURAL
     problems = [one.natural for one in found] if natural else found
     name = manifest(folder)["name"] + ("-natural" if natural else "")
-    paths = exported(name, problems, options.to, options.out)
+    paths = exported_files(name, problems, options.to, options.out)
     print(f"wrote {len(paths)} files to {options.out}, README.md among them")
     if left := sum(not has_place(one, options.to) for one in found):
         words = "the format has no place for their cones, sparse matrices or missing solutions"

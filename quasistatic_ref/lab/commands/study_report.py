@@ -30,19 +30,19 @@ def run_report(options: argparse.Namespace) -> int:
 
 def run_pack(options: argparse.Namespace) -> int:
     """Write the packed store."""
-    from quasistatic_ref.lab.study.store.pack import packed
+    from quasistatic_ref.lab.study.store.pack import packed_store
 
     out = options.store / "packed" if options.out is None else options.out
-    print(f"wrote {packed(options.store, out)}")
+    print(f"wrote {packed_store(options.store, out)}")
     return 0
 
 
 def run_merge(options: argparse.Namespace) -> int:
     """Write the merged store."""
-    from quasistatic_ref.lab.study.store.merge import merged, part_read
+    from quasistatic_ref.lab.study.store.merge import merged_store, part_read
 
     parts = [part_read(words) for words in options.parts]
-    folder = merged(parts, options.out)
+    folder = merged_store(parts, options.out)
     rows = sum(len(part.found.rows) for part in parts)
     machines = {m for p in parts for m in p.machines}
     print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")

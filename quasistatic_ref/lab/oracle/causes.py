@@ -37,8 +37,8 @@ LAYERS = {
 OBJECTIVE = "step (H and g)"
 FUNCTIONS = {
     "tangents": "step (tangents)", "loads": OBJECTIVE, "objective": OBJECTIVE,
-    "difference": OBJECTIVE, "way": OBJECTIVE, "solved": OBJECTIVE,
-    "placed": "step (contacts)", "contacts_of": "step (contacts)",
+    "difference": OBJECTIVE, "way": OBJECTIVE, "cramer_solution": OBJECTIVE,
+    "pose_in_world": "step (contacts)", "contacts_of": "step (contacts)",
 }  # fmt: skip
 
 
@@ -128,7 +128,7 @@ def causes(
         say(f"trying bugs of one line in {name}.py of the plain program")
         file = f"{name}.py"
         for bug in bugs_of(file, text_of_file(file), run.get(file, frozenset())):
-            if (file, bug.old) not in known and explains(_ending({file: bug.text})):
+            if (file, bug.old) not in known and explains(_program_that_ends({file: bug.text})):
                 known.add((file, bug.old))
                 layer = FUNCTIONS.get(bug.function, LAYERS[name])
                 sentence = f"as if, in {file} of the plain program, {bug.old!r} were {bug.new!r}"
@@ -136,7 +136,7 @@ def causes(
     return found
 
 
-def _ending(changed: dict[str, str]) -> Program:
+def _program_that_ends(changed: dict[str, str]) -> Program:
     """The plain program with other texts, whose loops end whatever the bug."""
     texts = {file: text_of_file(file) for file in ("distance.py", "optimum.py")} | changed
     bounded = {file: text.replace("while True:", LOOP) for file, text in texts.items()}

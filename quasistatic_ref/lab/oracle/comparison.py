@@ -92,7 +92,7 @@ class Comparison:
     failed: str = ""
 
 
-def compared(
+def comparison_of_run(
     scenario: Scenario,
     run: OtherRun,
     digits: float = DIGITS,
@@ -136,9 +136,9 @@ def compared(
     contact, layers = where(first, scenario.system.n_v)
     found: tuple[Cause, ...] = ()
     if cases is not None:
-        taken = [_taken(scenario, cases, one, run, True) for one in spread(wrong)]
-        kept = [_taken(scenario, cases, one, run, False) for one in spread(right)]
-        if _reproduced(scenario, taken[0], first):
+        taken = [_taken_step(scenario, cases, one, run, True) for one in spread(wrong)]
+        kept = [_taken_step(scenario, cases, one, run, False) for one in spread(right)]
+        if _is_reproduced(scenario, taken[0], first):
             found = tuple(causes(scenario.system, taken, kept, say))
     if found:
         layers = tuple(dict.fromkeys(cause.layer for cause in found))
@@ -169,7 +169,7 @@ def _beside(scenario: Scenario, k: int, result: StepResult, q_next: Array) -> St
     return StepOff(k, result, system.difference(result.q_start, q_next), off, digits)
 
 
-def _taken(
+def _taken_step(
     scenario: Scenario, cases: SceneCases, one: StepOff, run: OtherRun, is_wrong: bool
 ) -> Taken:
     q = run.q[one.k - run.first]
@@ -183,7 +183,7 @@ def _taken(
     return Taken(case, run.q[one.k - run.first + 1], allowed)
 
 
-def _reproduced(scenario: Scenario, taken: Taken, first: StepOff) -> bool:
+def _is_reproduced(scenario: Scenario, taken: Taken, first: StepOff) -> bool:
     """Whether the plain program without a bug ends where the reference does."""
     q = scenario.system.normalised(program()("step", taken.case)["q_next"])
     off = np.abs(scenario.system.difference(first.result.q, q)).max(initial=0.0)

@@ -84,14 +84,14 @@ def bugs_of(file: str, text: str, lines: frozenset[int]) -> Iterator[Bug]:
             if number not in lines or not isinstance(node, ast.expr) or node.end_lineno != number:
                 continue
             row = rows[number - 1]
-            for other in changed(node, names):
-                new = f"{row[: node.col_offset]}{written(other, row, node)}"
+            for other in changed_expressions(node, names):
+                new = f"{row[: node.col_offset]}{expression_text(other, row, node)}"
                 new += row[node.end_col_offset :]
                 whole = "\n".join([*rows[: number - 1], new, *rows[number:]]) + "\n"
                 yield Bug(file, function.name, row.strip(), new.strip(), whole)
 
 
-def written(other: ast.expr, row: str, node: ast.expr) -> str:
+def expression_text(other: ast.expr, row: str, node: ast.expr) -> str:
     """An expression in the place of another in a row, in brackets where it needs them."""
     text = ast.unparse(other)
     after = row[node.end_col_offset :]
@@ -100,7 +100,7 @@ def written(other: ast.expr, row: str, node: ast.expr) -> str:
     return f"({text})" if isinstance(other, ast.BinOp | ast.UnaryOp) and not alone else text
 
 
-def changed(node: ast.expr, names: list[str]) -> Iterator[ast.expr]:
+def changed_expressions(node: ast.expr, names: list[str]) -> Iterator[ast.expr]:
     """What may stand in the place of an expression.
 
     Parameters
@@ -119,7 +119,7 @@ def changed(node: ast.expr, names: list[str]) -> Iterator[ast.expr]:
                 yield right
             if isinstance(operator, ast.Sub):
                 yield ast.UnaryOp(ast.USub(), right)
-            if isinstance(operator, ast.MatMult) and not transposed(left):
+            if isinstance(operator, ast.MatMult) and not is_transpose(left):
                 yield ast.BinOp(ast.Attribute(left, "T"), operator, right)
             if isinstance(operator, ast.MatMult):
                 yield right
@@ -165,7 +165,7 @@ def changed(node: ast.expr, names: list[str]) -> Iterator[ast.expr]:
             return
 
 
-def transposed(node: ast.expr) -> bool:
+def is_transpose(node: ast.expr) -> bool:
     """Whether an expression is a transpose."""
     return isinstance(node, ast.Attribute) and node.attr == "T"
 

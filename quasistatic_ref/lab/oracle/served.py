@@ -96,7 +96,7 @@ class Scenes:
         self.by_name[name] = Served(scenario, scenario.simulator())
         return name
 
-    def named(self, name: str | None) -> Served:
+    def scene_named(self, name: str | None) -> Served:
         """The scene of that name, or the only one; InputError if there is none."""
         if name is None and len(self.by_name) == 1:
             (name,) = self.by_name
@@ -124,7 +124,7 @@ class Scenes:
                 request.close()
                 name = self.add(sent, name)
                 return {"scene": name, **self.by_name[name].record}
-        one = self.named(request.text("scene", None))
+        one = self.scene_named(request.text("scene", None))
         system = one.scenario.system
         request.only(("q", "target", "force", "ask"))
         asked = request.words("ask", list(ASKED))

@@ -30,7 +30,7 @@ def answers(layer, inputs):
             "implementation": IMPLEMENTATION, "answers": found}  # fmt: skip
 
 
-def challenged():
+def answer_challenge():
     """Answer the cases of a challenge: one a line in, one a line out."""
     greeting = {"protocol": 1, "implementation": IMPLEMENTATION, "layers": list(LAYERS)}
     print(json.dumps(greeting), flush=True)
@@ -54,4 +54,4 @@ def main(vectors, out, *layers):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:]) if sys.argv[1:] else challenged()
+    main(*sys.argv[1:]) if sys.argv[1:] else answer_challenge()

@@ -42,7 +42,7 @@ def edges(shape):
     return np.array(found), np.array(sides)
 
 
-def touching(shape, pose, x, n):
+def touching_edges(shape, pose, x, n):
     """Which edges of a box may bear: those of faces through x towards n, and level ones there."""
     ends, sides = edges(shape)
     if not len(ends):
@@ -63,8 +63,8 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
     ends_a, _ = edges(alpha)
     ends_b, _ = edges(beta)
     found = []
-    for i in touching(alpha, pose_alpha, a, n):
-        for j in touching(beta, pose_beta, b, -n):
+    for i in touching_edges(alpha, pose_alpha, a, n):
+        for j in touching_edges(beta, pose_beta, b, -n):
             tail, head = transformed(pose_alpha, ends_a[i])
             start, end = transformed(pose_beta, ends_b[j])
             u = head - tail
@@ -137,7 +137,7 @@ def lateness(phi, alpha, n, k, repeated, corners=None):
     return late, enough
 
 
-def chosen(phi, index, late, k):
+def k_nearest(phi, index, late, k):
     """The k nearest of the candidates, in the order of their index."""
     order = np.lexsort((np.arange(len(phi)), phi, late))[:k]
     return order[np.argsort(index[order])]

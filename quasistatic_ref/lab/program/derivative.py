@@ -14,7 +14,7 @@ EPS = 1e-5
 """Rounding of q+, 1e-16, is 1e-11 of a quotient; its error is EPS^2 times a third derivative."""
 
 
-def held(case):
+def case_with_tau(case):
     """The case with its wrenches as the generalised force that they are at its q."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     _, tau = loads({**case, "gravity": NONE}, at)
@@ -23,14 +23,14 @@ def held(case):
 
 def derivative(case):
     """Layer 9: the derivative of the next configuration by q alone."""
-    case = held(case)
+    case = case_with_tau(case)
     mechanism = case["mechanism"]
     q = np.array(case["q"])
     before = kinematics(mechanism, q)
     contacts = contacts_of(case, before)
     start = step_at(case, before, contacts)
 
-    def moved(shift):
+    def end_change(shift):
         """The change of q+ that a change of q makes."""
         q = integrate({**case, "delta_q": shift})["q"]
         at = kinematics(mechanism, q)
@@ -40,5 +40,5 @@ def derivative(case):
         return way(mechanism, start["q_next"], after["q_next"])
 
     steps = EPS * np.eye(slices(mechanism)[2])
-    columns = [(moved(shift) - moved(-shift)) / (2 * EPS) for shift in steps]
+    columns = [(end_change(shift) - end_change(-shift)) / (2 * EPS) for shift in steps]
     return {"differentiable": True, "dq_dq": np.column_stack(columns)}

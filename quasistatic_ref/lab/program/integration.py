@@ -44,7 +44,7 @@ def difference(body, target, q):
         _, b, c = coefficients(root(w @ w))
         W = skew(w)
         V = AXES + b * W + c * W @ W
-        return np.append(solved(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
+        return np.append(cramer_solution(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
     if kind in ("planar", "continuous"):
         c, s = q[-2:]
         c1, s1 = target[-2:]
@@ -59,7 +59,7 @@ def difference(body, target, q):
     return target - q
 
 
-def solved(V, x):
+def cramer_solution(V, x):
     """The y of V y = x in three dimensions, by the cofactors of V."""
     cofactors = np.array([np.cross(V[:, i - 2], V[:, i - 1]) for i in range(3)])
     return cofactors @ x / (cofactors[0] @ V[:, 0])
@@ -69,17 +69,17 @@ def integrate(case):
     """Layer 7."""
     q = np.array(case["q"])
     delta_q = np.array(case["delta_q"])
-    return {"q": joined(case["mechanism"], lambda body, i, k: moved(body, q[i], delta_q[k]))}
+    return {"q": joint_parts(case["mechanism"], lambda body, i, k: moved(body, q[i], delta_q[k]))}
 
 
 def way(mechanism, q, target):
     """The delta_q with q (+) delta_q = target: of as many joints as the target has entries of."""
     q = np.array(q)
     target = np.array(target)
-    return joined(mechanism, lambda body, i, k: difference(body, target[i], q[i]), len(target))
+    return joint_parts(mechanism, lambda body, i, k: difference(body, target[i], q[i]), len(target))
 
 
-def joined(mechanism, part, n_q=None):
+def joint_parts(mechanism, part, n_q=None):
     """What each joint's part is, by its entries of q (the first n_q) and of delta_q."""
     bodies = {body["name"]: body for body in mechanism["bodies"]}
     places = slices(mechanism)[0].items()

@@ -77,14 +77,14 @@ def equality_answer(H, g, A, b):
     L = np.linalg.cholesky(H)
     Q, R = np.linalg.qr(np.linalg.solve(L, A.T))
 
-    def solved(r, s):
+    def kkt_solution(r, s):
         u = np.linalg.solve(L, r)
         v = np.linalg.solve(R.T, s - A @ np.linalg.solve(L.T, u)) if len(s) else np.zeros(0)
         return np.linalg.solve(L.T, u + Q @ v), np.linalg.solve(R, v) if len(s) else v
 
-    x, lam = solved(g, b)
+    x, lam = kkt_solution(g, b)
     for _ in range(2):
-        dx, dlam = solved(g + A.T @ lam - H @ x, b - A @ x)
+        dx, dlam = kkt_solution(g + A.T @ lam - H @ x, b - A @ x)
         x = x + dx
         lam = lam + dlam
     return x, lam

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .candidates import candidates, chosen, tangents
+from .candidates import candidates, k_nearest, tangents
 from .forces import forces
 from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
@@ -15,7 +15,7 @@ SHOWN = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
 """What the answer says of a contact."""
 
 
-def placed(shape, at):
+def pose_in_world(shape, at):
     """(R, t) of a shape in the world."""
     R, t, _ = at[shape["body"]]
     R_shape, t_shape = frame(shape["pose"])
@@ -30,9 +30,9 @@ def contacts_of(case, at):
         beta = case["shapes"][pair["beta"]]
         k = pair["k"]
         phi, a, b, n, index, late = candidates(
-            alpha["shape"], placed(alpha, at), beta["shape"], placed(beta, at), k
+            alpha["shape"], pose_in_world(alpha, at), beta["shape"], pose_in_world(beta, at), k
         )
-        for i in chosen(phi, index, late, k):
+        for i in k_nearest(phi, index, late, k):
             d1, d2 = tangents(n[i])
             contact = {"pair": pair["name"], "index": int(index[i])}
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}

@@ -110,7 +110,7 @@ class Outline:
             normal = gaps[i] / (distance if inside else -distance)
         return -distance if inside else distance, feet[i], normal
 
-    def drawn(self, pose: Array, origin: Array) -> Array:
+    def line_at(self, pose: Array, origin: Array) -> Array:
         """The closed line at a pose, (3,) [m, rad], from an origin, (2,) [m], shape (2, n) [mm]."""
         points = 1e3 * (self.vertices @ rotation(pose[2]).T + pose[:2] - origin[:2])
         closed: Array = np.vstack([points, points[:1]]).T

@@ -65,7 +65,7 @@ class PushedBlock:
     simulator: Simulator
     q: Array
 
-    def placed(self, x: float, y: float, turn: float, gap: float) -> Array:
+    def q_at(self, x: float, y: float, turn: float, gap: float) -> Array:
         """The block at x, y [m] and a turn [rad], the finger behind it at a gap [m], (n_q,)."""
         axes = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
         finger = np.array([x, y]) - axes @ [SIDE / 2 + RADIUS + gap, 0.0] - OFFSET

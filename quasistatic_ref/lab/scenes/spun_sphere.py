@@ -28,7 +28,7 @@ def layer_at_torque(h: float, tau: float) -> float:
     return phi
 
 
-def spun(phi: float, lag: float, h: float) -> StepData:
+def spun_step(phi: float, lag: float, h: float) -> StepData:
     """A sphere whose turn is actuated, its target `lag` [rad] ahead; q_u is its centre."""
     J = np.zeros((1, 4, 4))
     J[0, :3, 1:], J[0, 3, 0] = np.eye(3), 1.0
@@ -43,7 +43,7 @@ def layer_at_rate(h: float) -> float:
     phi = 0.0
     lag = 0.0
     for _ in range(SETTLED):
-        turn, _, _, rise = exact(spun(phi, lag, h)).delta_q
+        turn, _, _, rise = exact(spun_step(phi, lag, h)).delta_q
         lag = lag + SPIN * h - float(turn)
         phi = phi + float(rise)
     return phi

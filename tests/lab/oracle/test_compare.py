@@ -10,7 +10,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.oracle import causes
 from quasistatic_ref.lab.oracle import comparison as comparison_of_runs
-from quasistatic_ref.lab.oracle.comparison import compared
+from quasistatic_ref.lab.oracle.comparison import comparison_of_run
 from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.vectors.check.patched import program
@@ -38,7 +38,7 @@ def run_with(tmp_path, scene, patch, steps):
 
 def comparison(tmp_path, scene, patch, steps):
     scenario = qr.load_scenario(scene)
-    return compared(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
+    return comparison_of_run(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
 
 
 OF_ALL_KINDS = marked_parameters(["bunny_grasp", "stack", "panda_push"], {"panda_push": "robots"})
@@ -121,5 +121,5 @@ def test_a_scene_that_cases_cannot_hold_is_compared_without_causes():
     scenario = qr.load_scenario("sphere_spin", law="coulomb", steps=3)
     q = scenario.run(progress=False).q.copy()
     q[2:, 0] += 1e-3
-    found = compared(scenario, OtherRun(0, q, 0.0))
+    found = comparison_of_run(scenario, OtherRun(0, q, 0.0))
     assert (found.first.k, found.causes) == (1, ())

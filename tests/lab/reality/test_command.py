@@ -19,7 +19,7 @@ RADIUS = 0.01
 SIDES = 0.05 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
-def written(path, head, rows):
+def write_table(path, head, rows):
     with path.open("w", newline="") as file:
         csv.writer(file).writerows([head.split(","), *rows])
 
@@ -31,10 +31,10 @@ def folder(tmp_path_factory):
     (folder / "shapes.json").write_text(json.dumps({"tile": SIDES.tolist()}))
     pair = Pair("glass/tile", Outline(SIDES), 0.3, None, RADIUS, None)
     columns = "surface,shape,mu_pusher_used,finger_radius"
-    written(folder / "patches.csv", columns, [["glass", "tile", 0.3, RADIUS]])
+    write_table(folder / "patches.csv", columns, [["glass", "tile", 0.3, RADIUS]])
     loads = planted_loads(60, 0.0, 0, RATIO)
     rows = np.hstack([loads.wrench, loads.twist])
-    written(folder / "loads.csv", "surface,shape,f_x,f_y,tau,v_x,v_y,omega",
+    write_table(folder / "loads.csv", "surface,shape,f_x,f_y,tau,v_x,v_y,omega",
             [["glass", "tile", *row] for row in rows])  # fmt: skip
     rows = []
     for k, across in enumerate((-0.02, 0.0, 0.03)):
@@ -43,7 +43,7 @@ def folder(tmp_path_factory):
         after = prediction(pushed_scene(Settings(), pair, RATIO), before, tip, "off").pose
         rows.append(["glass", "tile", k, *before, *after, *tip.ravel()])
     head = "surface,shape,push,x0,y0,theta0,x1,y1,theta1,tip_x0,tip_y0,tip_x1,tip_y1"
-    written(folder / "pushes.csv", head, rows)
+    write_table(folder / "pushes.csv", head, rows)
     return folder
 
 

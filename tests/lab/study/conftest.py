@@ -16,7 +16,7 @@ from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store
-from tests.lab.study.plain_report import parsed
+from tests.lab.study.plain_report import tables_of
 from tests.lab.study.planted import ANY, FAKES, setting
 
 
@@ -119,7 +119,7 @@ def older():
 def store(tmp_path_factory):
     """The folder of a study that nobody ran: rows at random, of every outcome."""
     folder = tmp_path_factory.mktemp("report") / "store"
-    made_store.written(folder)
+    made_store.write_store(folder)
     return folder
 
 
@@ -138,7 +138,7 @@ def report(store):
 @pytest.fixture(scope="session")
 def tables(report):
     """Its tables, read from the page."""
-    return parsed(markdown_page(report))
+    return tables_of(markdown_page(report))
 
 
 @pytest.fixture

@@ -54,7 +54,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
     }  # fmt: skip
 
 
-def written(folder, count=12, seed=3, **changes):
+def write_store(folder, count=12, seed=3, **changes):
     """Write the store; returns its rows."""
     chance = random.Random(seed)
     rows = []

@@ -4,7 +4,7 @@ import math
 import re
 
 
-def parsed(markdown):
+def tables_of(markdown):
     """(title, filter, columns, rows) of every table of a page."""
     found = []
     title = None
@@ -21,34 +21,34 @@ def parsed(markdown):
     return found
 
 
-def picked(rows, words):
+def rows_named(rows, words):
     """The rows that a filter names, `interface = cvxpy, warm = false; ...`."""
     kept = rows
     if words.startswith("all rows"):
         return kept
     for part in words.split(";")[0].split(", "):
         name, value = part.split(" = ")
-        kept = [r for r in kept if said(r, name) == value]
+        kept = [r for r in kept if entry(r, name) == value]
     return kept
 
 
-def said(row, name):
+def entry(row, name):
     if name == "label":
         return row["interface"] + ":" + row["solver"]
     value = row[name]
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def shared(rows, names):
+def shared_rows(rows, names):
     """Rows on the problems on which all, by `names`, were called; cat was on 9 of 12 only."""
     made = [r for r in rows if r["outcome"] != "not_run_budget"]
     on = {}
     for r in made:
-        on.setdefault(tuple(said(r, n) for n in names), set()).add((r["problem"], r["repetition"]))
+        on.setdefault(tuple(entry(r, n) for n in names), set()).add((r["problem"], r["repetition"]))
     most = max(map(len, on.values())) if "label" in names else 0
     kept = {key: own for key, own in on.items() if len(own) >= 0.9 * most}
     every = set.intersection(*kept.values())
-    return [r for r in made if tuple(said(r, n) for n in names) in kept
+    return [r for r in made if tuple(entry(r, n) for n in names) in kept
             and (r["problem"], r["repetition"]) in every]  # fmt: skip
 
 
@@ -61,7 +61,7 @@ def quantile(values, share):
     return low + (at - math.floor(at)) * (high - low)
 
 
-def delivered(row, what="delta_q"):
+def digits_delivered(row, what="delta_q"):
     value = row["digits"][what]
     return value if row["outcome"] == "solved" and value is not None else 0.0
 
@@ -75,9 +75,9 @@ def seconds(row, limit):
 def number(column, rows, limit):
     """What stands in a column of that name, made of these rows; None for a column of text."""
     if narrowed := re.fullmatch(r"(.*), (\w+ = \w+)", column):
-        return number(narrowed[1], picked(rows, narrowed[2]), limit)
+        return number(narrowed[1], rows_named(rows, narrowed[2]), limit)
     if least := re.match(r">= (\d+) digits", column):
-        return 100 * sum(delivered(r) >= float(least[1]) for r in rows) / len(rows)
+        return 100 * sum(digits_delivered(r) >= float(least[1]) for r in rows) / len(rows)
     known = [r["iterations"] for r in rows if r["iterations"] is not None]
     times = [seconds(r, limit) for r in rows]
     logs = sum(math.log(t + 1e-3) for t in times) / len(times)
@@ -86,10 +86,10 @@ def number(column, rows, limit):
         "calls": len(rows),
         "problems": len({(r["problem"], r["repetition"]) for r in rows}),
         "solved [%]": 100 * sum(r["outcome"] == "solved" for r in rows) / len(rows),
-        "digits, 1st percentile": quantile([delivered(r) for r in rows], 0.01),
-        "digits, median": quantile([delivered(r) for r in rows], 0.5),
+        "digits, 1st percentile": quantile([digits_delivered(r) for r in rows], 0.01),
+        "digits, median": quantile([digits_delivered(r) for r in rows], 0.5),
         "digits of the net wrench, median": quantile(
-            [delivered(r, "net_wrench") for r in rows], 0.5
+            [digits_delivered(r, "net_wrench") for r in rows], 0.5
         ),
         "time, median [ms]": 1e3 * quantile(times, 0.5),
         "time, shifted geometric mean [ms]": 1e3 * (math.exp(logs) - 1e-3),
@@ -122,7 +122,7 @@ def lines(tables, *, titled):
     ]
 
 
-def checked(tables, rows, limit):
+def checked_count(tables, rows, limit):
     """How many numbers of tables of counts were compared, each of which is that of the rows."""
     count = 0
     titles = "Setting|Raw units|Cold|qpsolvers and cvxpy|Machines|How the calls"
@@ -138,16 +138,16 @@ def checked(tables, rows, limit):
 
 def rows_of_line(where, columns, line, rows):
     """The rows that one line of a table is about."""
-    kept = picked(rows, where)
+    kept = rows_named(rows, where)
     if "left out" in where:
         kept = [r for r in kept if r["outcome"] != "not_run_budget"]
     for name, cell in zip(columns, line, strict=True):
         if name == "solver":
             solver, _, machine = cell.partition("@")
-            kept = [r for r in kept if solver in (said(r, "label"), r["solver"])
+            kept = [r for r in kept if solver in (entry(r, "label"), r["solver"])
                     and machine in ("", r.get("machine"))]  # fmt: skip
         elif name in ("setting", "interface", "machine"):
             kept = [r for r in kept if r[name] == cell]
     if both := re.search(r"at every value of (\w+)", where):
-        kept = shared(kept, [both[1]])
+        kept = shared_rows(kept, [both[1]])
     return kept

@@ -26,7 +26,7 @@ def cases(layer):
 
 
 @functools.cache
-def expected(layer):
+def expected_of(layer):
     """What is expected of a layer, by id; not to be changed."""
     return expected_read(VECTORS, layer)
 
@@ -35,7 +35,7 @@ def right_answers(layer):
     """The expected outputs of a layer as answers, by id."""
     return {
         name: {field: v for field, v in record["output"].items() if field != "certificate"}
-        for name, record in expected(layer).items()
+        for name, record in expected_of(layer).items()
     }
 
 
@@ -56,7 +56,7 @@ def small_cases(layer):
 def report_on(layer, outputs, **declared):
     """The report on answers that are given by id, of these cases alone."""
     given = [case for case in cases(layer) if case.id in outputs]
-    known = {case.id: expected(layer)[case.id] for case in given}
+    known = {case.id: expected_of(layer)[case.id] for case in given}
     return layer_report(layer, given, known, Answers(outputs, "test", **declared))
 
 

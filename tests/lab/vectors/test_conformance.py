@@ -29,7 +29,7 @@ def answer_folder(folder, layers, change=lambda layer, output: output, name="my_
     return folder
 
 
-def made(answers, digits=None, vectors=VECTORS):
+def outcome(answers, digits=None, vectors=VECTORS):
     """What was passed, and the badge that says it."""
     found = conformance(answers, vectors, None, digits)
     return found, badge.badge(found)
@@ -39,7 +39,7 @@ def made(answers, digits=None, vectors=VECTORS):
 def whole(tmp_path_factory):
     """All layers, right."""
     folder = tmp_path_factory.mktemp("whole")
-    return made(answer_folder(folder / "answers", LAYERS))
+    return outcome(answer_folder(folder / "answers", LAYERS))
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ def two(tmp_path_factory):
         for id, output in right_answers("wrench").items()
     }
     answers_written(answers, "wrench", "my_sim 0.3", forgotten)
-    return made(answers)
+    return outcome(answers)
 
 
 def words_of(svg):
@@ -107,7 +107,7 @@ def test_answers_in_part_are_not_counted_as_passed(digits, number, tmp_path):
     def up_to_A_and_b(layer, output):
         return {name: number(output[name]).tolist() for name in ("H", "g", "A", "b")}
 
-    found, svg = made(answer_folder(tmp_path / "answers", ["step"], up_to_A_and_b), digits)
+    found, svg = outcome(answer_folder(tmp_path / "answers", ["step"], up_to_A_and_b), digits)
     assert found.report.ok
     assert found.message == f"1 of 9 layers: step 0/{SIZE['step']} and {SIZE['step']} in part"
     assert badge.AMBER in words_of(svg)[1]
@@ -119,12 +119,12 @@ def test_fewer_digits_are_in_the_badge_only_where_they_were_needed(tmp_path):
         return {k: np.float32(v).tolist() for k, v in output.items()} if layer == "rows" else output
 
     answers = answer_folder(tmp_path / "answers", ("rows", "integrate"), rounded)
-    found, svg = made(answers, digits=6)
+    found, svg = outcome(answers, digits=6)
     sizes = f"rows {SIZE['rows']}/{SIZE['rows']} to 6 digits, integrate {SIZE['integrate']}"
     assert found.message == f"2 of 9 layers: {sizes}/{SIZE['integrate']}"
     assert badge.AMBER in words_of(svg)[1]
     assert "acceptable are answers that are right to 6 digits" in svg
-    found, svg = made(answers)
+    found, svg = outcome(answers)
     assert not found.report.ok
     assert badge.RED in words_of(svg)[1]
     assert " digits" not in found.message
@@ -135,7 +135,7 @@ def test_a_layer_whose_file_is_not_as_it_should_be_is_said_to_be_that(tmp_path):
     content = json.loads((answers / "rows.json").read_text())
     content["answers"].append({"id": "rows/of/another", "output": {}})
     (answers / "rows.json").write_text(json.dumps(content))
-    found, svg = made(answers)
+    found, svg = outcome(answers)
     assert found.message.endswith("(file not as it should be)")
     assert badge.RED in words_of(svg)[1]
 
@@ -145,7 +145,7 @@ def test_changed_cases_are_no_version(tmp_path):
     text = (vectors / "expected" / "rows.json").read_text()
     (vectors / "expected" / "rows.json").write_text(text + "\n")
     answers = answer_folder(tmp_path / "answers", ("rows", "selection"))
-    _, svg = made(answers, vectors=vectors)
+    _, svg = outcome(answers, vectors=vectors)
     texts, colours = words_of(svg)
     assert texts[0] == f"{LABEL}, changed"
     assert badge.GREY in colours
@@ -153,17 +153,17 @@ def test_changed_cases_are_no_version(tmp_path):
     assert [layer["frozen"] for layer in record_of(svg)["layers"][1:4]] == [True, True, False]
     # What is not answered does not count.
     (answers / "rows.json").unlink()
-    assert made(answers, vectors=vectors)[0].label == LABEL
+    assert outcome(answers, vectors=vectors)[0].label == LABEL
 
 
 def test_names_are_escaped_and_two_programs_are_said_to_be_two(tmp_path):
     name = '<script>alert("1")</script> & "x" | `y`'
-    _, svg = made(answer_folder(tmp_path / "answers", ["selection"], name=name))
+    _, svg = outcome(answer_folder(tmp_path / "answers", ["selection"], name=name))
     assert ElementTree.fromstring(svg).find(f"{SVG}title").text.startswith(name)
     assert "<script" not in svg
     answers = answer_folder(tmp_path / "two", ["rows"], name="one")
     answer_folder(answers, ["selection"], name="other")
-    assert made(answers)[0].implementation == "other and one"
+    assert outcome(answers)[0].implementation == "other and one"
 
 
 def test_the_same_answers_give_the_same_bytes(whole):

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.files import line
 from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, own_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
-from tests.lab.vectors.material import ROOT, VECTORS, by_size, cases, expected, inputs_file
+from tests.lab.vectors.material import ROOT, VECTORS, by_size, cases, expected_of, inputs_file
 
 MEBIBYTES = 25
 """Promised size of the folder."""
@@ -53,7 +53,7 @@ def test_every_file_is_as_its_schema_says(layer):
 
 def test_the_schemas_refuse_what_is_wrong():
     case = cases("rows")[0]
-    record = expected("rows")[cases("rows")[0].id]
+    record = expected_of("rows")[cases("rows")[0].id]
     for broken in (
         {"input": {**case.input, "cone": 3}, "output": record["output"]},
         {"input": case.input, "output": {"A": record["output"]["A"]}},
@@ -96,7 +96,7 @@ def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
 def test_every_quadratic_program_is_verified_again_without_a_solver():
     refused = {}
     for case in cases("qp"):
-        output = expected("qp")[case.id]["output"]
+        output = expected_of("qp")[case.id]["output"]
         conic = "second_order" in case.input
         step = cone_step(case.input) if conic else step_of(case.input)
         if "farkas" in output:

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from quasistatic_ref.lab.vectors.check.table import MISTAKES
-from validation.make.port_changes import RULES, changes, switched
+from validation.make.port_changes import RULES, changes, switched_line
 from validation.make.port_mutants import Question, causes, differs, kept_apart
 from validation.tools.ports import PORTS, texts
 
@@ -44,7 +44,7 @@ def test_a_change_is_of_one_line_and_each_kind_occurs(name):
 def test_a_line_in_cpp_is_the_old_one_or_the_new_one():
     first = next(one for one in changes(PORTS / "cpp") if one.old.strip().startswith("double w ="))
     old, new = first.old.strip(), first.new.strip()
-    assert switched(first, 7) == (
+    assert switched_line(first, 7) == (
         f"double w = MUTANT == 7 ? double({new[11:-1]}) : double({old[11:-1]});"
     )
 

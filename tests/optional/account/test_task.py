@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.make.mistakes import SCENES, findings_after, healthy, is_named, mistakes
+from validation.make.mistakes import SCENES, findings_after, healthy_scenes, is_named, mistakes
 
 SAMPLE = (
     "steps = 0, a push",
@@ -43,7 +43,7 @@ def test_a_scene_without_a_mistake_has_no_finding(scene):
     assert findings_after(scene) == ()
 
 
-@pytest.mark.parametrize("one", healthy()[1:24:6], ids=lambda one: one["what"])
+@pytest.mark.parametrize("one", healthy_scenes()[1:24:6], ids=lambda one: one["what"])
 def test_a_scene_without_a_mistake_has_no_grave_finding_however_it_is_made(one):
     assert [str(x) for x in findings_after(one["scene"], one["edits"]) if x.grave] == []
 

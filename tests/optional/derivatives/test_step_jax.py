@@ -44,11 +44,11 @@ def floating_hand_and_body():
 def turning_block():
     """A block that turns by (cos, sin), and a finger that pushes it along two rails."""
     scene = pushed_block(cone="pyramid")
-    q = scene.placed(0.01, 0.02, 0.3, 1e-4)
+    q = scene.q_at(0.01, 0.02, 0.3, 1e-4)
     return scene.simulator, q, q[:2] + np.array([4e-3, 1e-3])
 
 
-def planar():
+def planar_box():
     """A box in the plane, one corner of which is pushed into a wall."""
     simulator, q = free(BOX, (0, 0.02, 0), (FLOOR, (0, 0, -1)), base="planar", rpy=(0, 0, 0.3))
     return simulator, q, NONE
@@ -64,7 +64,7 @@ def ball():
 SCENES = {
     "floating": floating_hand_and_body,
     "turning": turning_block,
-    "planar": planar,
+    "planar": planar_box,
     "ball": ball,
 }
 

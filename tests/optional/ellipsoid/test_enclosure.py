@@ -33,13 +33,13 @@ def round_step(step):
     return step.replace(cone="ellipsoid")
 
 
-def flat(answer):
+def multipliers(answer):
     return np.concatenate([answer.lam, answer.lam_extra])
 
 
-def verified(step, answer):
+def verdict_of(step, answer):
     claims = answer.certificate
-    return verify(step, answer.delta_q, claims.active, flat(answer), claims)
+    return verify(step, answer.delta_q, claims.active, multipliers(answer), claims)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, 2.0])
@@ -62,7 +62,7 @@ def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
         np.testing.assert_allclose(answer.delta_q, expected, rtol=ROUNDING, atol=ROUNDING * v)
         f_1, f_2, f_n, _ = answer.wrench[0]
         assert_relative(np.hypot(f_1, f_2), mu * f_n, ROUNDING)
-        assert verified(step, answer)
+        assert verdict_of(step, answer)
 
 
 def test_a_sticking_point_is_exact_and_carries_the_load():
@@ -73,7 +73,7 @@ def test_a_sticking_point_is_exact_and_carries_the_load():
     np.testing.assert_array_equal(answer.delta_q, np.zeros(3))
     expected = [[-1.0, -0.5, 0.3 * 9.81, 0.0]]
     assert_close(answer.wrench, expected, MULTIPLIERS)
-    assert verified(step, answer)
+    assert verdict_of(step, answer)
 
 
 def test_without_load_on_contacts_the_unconstrained_step_is_exact():
@@ -94,7 +94,7 @@ def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(seed):
         assert answer.certificate.error_bound < ENCLOSED
         assert max(answer.certificate.residuals.values()) < ROUNDING
         np.testing.assert_array_equal(answer.delta_q, answers[0].delta_q)
-    assert verified(step, answers[0])
+    assert verdict_of(step, answers[0])
 
 
 def test_a_wrong_answer_is_refuted():
@@ -102,8 +102,8 @@ def test_a_wrong_answer_is_refuted():
     answer = solve_step(step)
     claims = answer.certificate
     moved = answer.delta_q * (1 + 1e-12)
-    assert "error_bound" in verify(step, moved, (), flat(answer), claims).reason
-    lam = flat(answer)
+    assert "error_bound" in verify(step, moved, (), multipliers(answer), claims).reason
+    lam = multipliers(answer)
     assert "balance" in verify(step, answer.delta_q, (), 1.001 * lam, claims).reason
     exact = replace(claims, kind="exact", error_bound=0.0)
     assert not verify(step, answer.delta_q, (), lam, exact)
@@ -117,12 +117,12 @@ def test_an_exact_claim_is_checked_to_the_last_bit():
     answer = solve_step(step)
     claims = answer.certificate
     assert claims.kind == "exact"
-    assert verified(step, answer)
+    assert verdict_of(step, answer)
     moved = answer.delta_q.copy()
     moved[4] = 5e-324
-    assert "delta_q[4]" in verify(step, moved, claims.active, flat(answer), claims).reason
+    assert "delta_q[4]" in verify(step, moved, claims.active, multipliers(answer), claims).reason
     slipping = round_step(pinch(grip=5.0, offset=0.2))
-    assert not verify(slipping, answer.delta_q, claims.active, flat(answer), claims)
+    assert not verify(slipping, answer.delta_q, claims.active, multipliers(answer), claims)
 
 
 def test_a_set_without_interior_is_reported_as_uncertified():
@@ -150,7 +150,7 @@ def test_rows_of_the_user_s_own_stand_beside_the_ellipsoid():
     assert answer.certificate.kind == "enclosure"
     assert_relative(answer.delta_q[4], -1e-4, ROUNDING)
     assert answer.lam_extra[0] > 0
-    assert verified(step, answer)
+    assert verdict_of(step, answer)
 
 
 def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
@@ -170,7 +170,7 @@ def test_a_contact_without_load_is_inside_of_its_cone():
     answer = solve_step(step)
     assert not answer.lam.any()
     answer = replace(answer, certificate=replace(answer.certificate, gap=None))
-    assert verified(step, answer)
+    assert verdict_of(step, answer)
 
 
 def test_an_enclosure_holds_the_answer_however_wide_it_is(monkeypatch):

@@ -20,7 +20,7 @@ def adapter_class(name):
     )
 
 
-def written(program, h, g, a, b):
+def write_program(program, h, g, a, b):
     """Rewrite a program: H = [[h, 1], [1, 2]], g = (0, g), and the rows a x_1 >= b, x_2 >= -9.
 
     Where the first row bears load and the second does not, x_1 = b / a, x_2 = (g - x_1) / 2 and
@@ -35,22 +35,22 @@ def written(program, h, g, a, b):
     return [x_1, x_2], [(h * x_1 + x_2) / a, 0.0]
 
 
-def held(name):
+def adapter_and_program(name):
     """An adapter in its backend's own options, and the program that it holds."""
     order = adapter_class(name).ORDER
     H = np.zeros((2, 2), order=order)
     A = np.zeros((2, 2), order=order)
     program = Program(H, np.zeros(2), A, np.zeros(2))
-    written(program, h=3.0, g=4.0, a=2.0, b=2.0)
+    write_program(program, h=3.0, g=4.0, a=2.0, b=2.0)
     return adapter_class(name)(program, BACKENDS[name].first(1e-12)), program
 
 
 @every_backend
 @pytest.mark.parametrize("h", [3.0, 5.0])
 def test_a_program_that_is_rewritten_is_solved_as_it_stands(name, h):
-    adapter, program = held(name)
+    adapter, program = adapter_and_program(name)
     for g, a in ((4.0, 2.0), (6.0, 4.0)):
-        x, lam = written(program, h, g, a, b=2.0)
+        x, lam = write_program(program, h, g, a, b=2.0)
         reply = adapter.reply(same_H=h == 3.0, warm=False)
         assert reply.solved
         assert reply.iterations > 0
@@ -61,7 +61,7 @@ def test_a_program_that_is_rewritten_is_solved_as_it_stands(name, h):
 @every_backend
 def test_rows_that_contradict_each_other_are_not_solved(name):
     """2 x_1 >= 2 and -2 x_1 >= 2."""
-    adapter, program = held(name)
+    adapter, program = adapter_and_program(name)
     program.A[1] = [-2.0, 0.0]
     program.b[1] = 2.0
     assert not adapter.reply(same_H=True, warm=False).solved
@@ -69,7 +69,7 @@ def test_rows_that_contradict_each_other_are_not_solved(name):
 
 @every_backend
 def test_a_cold_start_takes_as_long_as_the_first_and_a_warm_one_is_shorter(name):
-    adapter, _ = held(name)
+    adapter, _ = adapter_and_program(name)
     first, warm, cold = (adapter.reply(True, warm=warm) for warm in (False, True, False))
     assert cold.iterations == first.iterations
     assert (warm.iterations < first.iterations) == adapter_class(name).WARM
@@ -78,7 +78,7 @@ def test_a_cold_start_takes_as_long_as_the_first_and_a_warm_one_is_shorter(name)
 def test_every_exit_flag_of_daqp_has_a_word():
     """By its manual 1 and 2 are solutions, -1 to -6 are none; -1 is that of no feasible point."""
     assert sorted(STATUS) == [-6, -5, -4, -3, -2, -1, 1, 2]
-    adapter, program = held("daqp")
+    adapter, program = adapter_and_program("daqp")
     assert adapter.reply(same_H=True, warm=False).status == "optimal"
     program.A[1] = [-2.0, 0.0]
     program.b[1] = 2.0
@@ -123,7 +123,7 @@ def test_daqp_solves_what_nothing_couples_by_itself():
 
 def test_piqp_scales_dense_programs_only():
     """Its own number of rounds for a dense program, none for a sparse one in natural units."""
-    dense, program = held("piqp")
+    dense, program = adapter_and_program("piqp")
     sparse = adapter_class("piqp")(sparse_program(program.H, program.f, program.A, program.b), {})
     assert dense.solver.settings.preconditioner_iter > 0
     assert sparse.solver.settings.preconditioner_iter == 0

@@ -10,7 +10,7 @@ from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 STEPS = 1000
 
 
-def said(fast, step_seconds, first=0.0):
+def advice_by_step(fast, step_seconds, first=0.0):
     """What is said after each step: the first takes longer, the others as long as is given."""
     pace = Pace(fast, STEPS)
     times = [first, *[step_seconds] * (STEPS - 1)]
@@ -21,7 +21,7 @@ def said(fast, step_seconds, first=0.0):
 def test_it_is_said_once_where_ten_seconds_would_be_saved(share, spoken):
     # After 1 + FIRST steps, the share SAVED of what the others take is WORTH seconds.
     seconds = share * WORTH / SAVED / (STEPS - 1 - FIRST)
-    sentences = said(False, seconds, first=1e3)
+    sentences = advice_by_step(False, seconds, first=1e3)
     assert [k for k, words in enumerate(sentences) if words] == [FIRST] * spoken
     if spoken:
         rest = f"the other {STEPS - 1 - FIRST} steps take some {share * WORTH / SAVED:.0f} s; "
@@ -51,4 +51,4 @@ def test_the_entries_of_J_are_told_once_before_the_first_step(capsys):
 
 
 def test_a_fast_run_says_nothing():
-    assert not any(said(True, 1.0))
+    assert not any(advice_by_step(True, 1.0))

@@ -24,7 +24,7 @@ from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.oracles.random_steps import designed_step, equal_groups, mixed_step
 from validation.make import designed_steps
-from validation.make.grouped_proofs import unlike
+from validation.make.grouped_proofs import unlike_fields
 
 
 def optimum_of(step):
@@ -50,7 +50,7 @@ def test_contacts_that_do_not_touch_are_left_out_and_proved_open(monkeypatch, to
             optimum, parts = optimum_of(step)
         except (StepInfeasible, StepIllPosed):
             continue
-        assert unlike(optimum, form_optimum(exact_form(step))) == [], seed
+        assert unlike_fields(optimum, form_optimum(exact_form(step))) == [], seed
         several += parts > 1
     assert several > 1
 
@@ -65,7 +65,7 @@ def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
     assert len(some.simulator.solver.prover.proofs.parts) >= 5
     whole = form_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
     assert result.solution.delta_q.tobytes() == whole.delta_q.tobytes()
-    assert unlike(optimum_of(result.step)[0], whole) == []
+    assert unlike_fields(optimum_of(result.step)[0], whole) == []
 
 
 @pytest.mark.extra("fast")
@@ -81,7 +81,7 @@ def test_groups_are_kept_while_h_and_what_couples_them_stay():
         assert solver.prover.proofs.parts is before
 
 
-def numbered(counts, rng):
+def step_with_own_rows(counts, rng):
     """Equal free coordinates of which coordinate i has counts[i] rows of a user's own."""
     n = len(counts)
     A = np.repeat(np.eye(n), counts, axis=0)
@@ -94,7 +94,7 @@ def numbered(counts, rng):
 @pytest.mark.parametrize("counts", [(1, 2), (2, 1), (0, 1), (1, 1, 2), (0, 2, 1), (1, 0, 1, 2)])
 def test_equal_groups_have_any_numbers_of_own_rows(counts):
     """A smaller number than that of the group before must not broadcast either."""
-    step = numbered(counts, np.random.default_rng(1))
+    step = step_with_own_rows(counts, np.random.default_rng(1))
     solver = solver_for(step, "daqp", fast=True)
     assert bits(solve_step(step, solver).delta_q) == bits(solve_step(step, NONE).delta_q)
     kept = {}

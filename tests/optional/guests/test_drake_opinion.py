@@ -23,7 +23,7 @@ GRAVITY = 9.81
 SLOPE = np.radians(15)
 
 
-def made(
+def block_on_floor(
     change: Callable[[Any, Any, Any], Any] = lambda drake, plant, body: None,
     mu: float = 0.5,
     slope: float = 0.0,
@@ -62,15 +62,15 @@ def made(
     return diagram, plant, context
 
 
-def asked(seconds: float = 1.0, **given: Any) -> Opinion:
+def opinion_on_block(seconds: float = 1.0, **given: Any) -> Opinion:
     """The opinion on a block that has settled for some seconds."""
-    diagram, _, context = made(**given)
+    diagram, _, context = block_on_floor(**given)
     import_module("pydrake.all").Simulator(diagram, context).AdvanceTo(seconds)
     return qr.drake_opinion(diagram, context)
 
 
 def test_a_block_that_rests_has_no_finding() -> None:
-    opinion = asked()
+    opinion = opinion_on_block()
     assert opinion.findings == ()
     assert [c.exact.normal for c in opinion.contacts if c.exact] == pytest.approx([GRAVITY / 4] * 4)
     assert [c.theirs.normal for c in opinion.contacts] == pytest.approx([GRAVITY / 4] * 4)
@@ -92,7 +92,7 @@ def test_contacts_of_one_name_have_numbers() -> None:
             made.append((ball, drake.RigidTransform([mass, 0.0, 0.00999])))
         return lambda own: [plant.SetFreeBodyPose(own, *placed) for placed in made]
 
-    contacts = asked(change=balls).contacts
+    contacts = opinion_on_block(change=balls).contacts
     assert len({contact.name for contact in contacts}) == len(contacts) == 6
     normals = {contact.bodies[0]: contact.exact.normal for contact in contacts if contact.exact}
     for mass in (2.0, 3.0):
@@ -101,7 +101,7 @@ def test_contacts_of_one_name_have_numbers() -> None:
 
 def test_a_block_on_a_slope_slides_by_statics() -> None:
     """By tan 15 degrees, 0.27: 0.2 holds 0.2 / 0.27 of the load."""
-    (found,) = asked(0.2, mu=0.2, slope=SLOPE).findings
+    (found,) = opinion_on_block(0.2, mu=0.2, slope=SLOPE).findings
     assert (found.kind, found.body) == ("slides", "block")
     assert found.number == pytest.approx(0.2 / np.tan(SLOPE), rel=0.03)
     assert "coulomb_friction" in found.remedy
@@ -111,7 +111,7 @@ def test_drakes_friction_creeps_with_its_stiction_tolerance() -> None:
     def soft(drake: Any, plant: Any, body: Any) -> None:
         plant.set_stiction_tolerance(0.05)
 
-    (found,) = asked(2.0, slope=SLOPE, change=soft).findings
+    (found,) = opinion_on_block(2.0, slope=SLOPE, change=soft).findings
     assert (found.kind, found.unit) == ("creeps", "m/s")
     assert found.number == pytest.approx(0.05 * np.tan(SLOPE) / 0.5, rel=0.5)
     assert "set_stiction_tolerance" in found.remedy
@@ -123,7 +123,7 @@ def test_each_thing_that_drake_has_is_said_to_be_used_without_effect_or_refused(
     assert set(named.values()) == {1}
     kinds = (drake.Joint, drake.ForceElement, drake.Shape)
     classes = [c for c in vars(drake).values() if inspect.isclass(c) and issubclass(c, kinds)]
-    _, plant, _ = made()
+    _, plant, _ = block_on_floor()
     ports = [plant.get_input_port(i).get_name() for i in range(plant.num_input_ports())]
     has = {c.__name__.partition("_")[0] for c in classes if c not in kinds}
     has |= {name.rpartition("ModelInstance_")[2] for name in ports}
@@ -175,7 +175,7 @@ def test_what_is_used_changes_the_step_and_what_is_without_effect_does_not(what:
             keeps.append(then)
             return then if inspect.isfunction(then) else None
 
-        _, plant, context = made(of, free=False)
+        _, plant, context = block_on_floor(of, free=False)
         return step_sha256(qr.drake_step(plant, plant.GetMyContextFromRoot(context), 0.01, {})[0])
 
     change = {**WITHOUT_EFFECT, **USED}[what]
@@ -183,13 +183,13 @@ def test_what_is_used_changes_the_step_and_what_is_without_effect_does_not(what:
     assert what in FATES["used" if what in USED else "without effect"].split()
 
 
-def several(drake: Any, plant: Any, body: Any) -> None:
+def add_planar_body(drake: Any, plant: Any, body: Any) -> None:
     other = plant.AddRigidBody("other", drake.SpatialInertia.SolidSphereWithMass(1.0, 0.1))
     joint = drake.PlanarJoint("plane", plant.world_frame(), other.body_frame(), [0, 0, 0])
     plant.AddJoint(joint).set_position_limits([-1] * 3, [1] * 3)
 
 
-def pushed(drake: Any, plant: Any, body: Any) -> Any:
+def push_body(drake: Any, plant: Any, body: Any) -> Any:
     force = drake.ExternallyAppliedSpatialForce()
     force.body_index = body.index()
     return lambda own: plant.get_applied_spatial_force_input_port().FixValue(
@@ -202,16 +202,16 @@ def sprung(drake: Any, plant: Any, body: Any) -> None:
     plant.AddForceElement(drake.LinearSpringDamper(world, [0] * 3, body, [0] * 3, 1.0, 9.0, 1.0))
 
 
-def held(drake: Any, plant: Any, body: Any) -> None:
+def hold_body(drake: Any, plant: Any, body: Any) -> None:
     plant.set_discrete_contact_approximation(drake.DiscreteContactApproximation.kSap)
     plant.AddBallConstraint(plant.world_body(), [0] * 3, body, [0] * 3)
 
 
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
-    "limits_of_several_coordinates": ({"change": several}, "limits of several coordinates"),
-    "applied_spatial_force": ({"change": pushed}, "applied_spatial_force"),
+    "limits_of_several_coordinates": ({"change": add_planar_body}, "limits of several coordinates"),
+    "applied_spatial_force": ({"change": push_body}, "applied_spatial_force"),
     "LinearSpringDamper": ({"change": sprung}, "LinearSpringDamper"),
-    "constraints": ({"change": held}, "constraints"),
+    "constraints": ({"change": hold_body}, "constraints"),
     "shapes": ({"feet": False}, "cannot be had from Drake"),
 }
 
@@ -219,13 +219,13 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("what", REFUSED)
 def test_what_no_step_can_say_is_refused_by_name(what: str) -> None:
     given, says = REFUSED[what]
-    diagram, _, context = made(**given)
+    diagram, _, context = block_on_floor(**given)
     with pytest.raises(qr.ModelError, match=says):
         qr.drake_opinion(diagram, context)
 
 
 def test_another_number_of_plants_and_a_speed_of_zero_are_refused() -> None:
-    diagram, _, context = made()
+    diagram, _, context = block_on_floor()
     with pytest.raises(qr.InputError, match="tolerance"):
         qr.drake_opinion(diagram, context, tolerance=0.0)
     drake = import_module("pydrake.all")

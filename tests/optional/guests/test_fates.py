@@ -102,12 +102,12 @@ def another(value: Any) -> Any:
 
 
 @cache
-def compiled(text: str) -> Any:
+def model_of(text: str) -> Any:
     return mujoco.MjModel.from_xml_string(text)
 
 
 def scene(text: str = SCENE) -> tuple[Any, Any]:
-    model = copy.copy(compiled(text))
+    model = copy.copy(model_of(text))
     data = mujoco.MjData(model)
     data.ctrl[:] = 0.3
     data.act[:] = 0.2
@@ -122,7 +122,7 @@ def answer(model: Any, data: Any) -> Any:
 
 
 @cache
-def unchanged(overrides: bool) -> Any:
+def unchanged_answer(overrides: bool) -> Any:
     model, data = scene()
     model.opt.enableflags |= overrides * mujoco.mjtEnableBit.mjENBL_OVERRIDE
     return answer(model, data)
@@ -141,7 +141,7 @@ def step_changes(name: str) -> bool:
     else:
         setattr(home, name_there, OTHERS.get(name, another)(getattr(home, name_there)))
     assert np.any(value != getattr(home, name_there))
-    return bool(answer(model, data) != unchanged(overrides))
+    return bool(answer(model, data) != unchanged_answer(overrides))
 
 
 def test_each_field_of_mujocos_model_has_one_fate():
@@ -193,7 +193,7 @@ def test_a_part_of_the_state_changes_the_step_if_it_is_used(part):
     assert len(state) or part == "USERDATA"
     mujoco.mj_setState(model, data, 1 - state if part == "EQ_ACTIVE" else state + 0.01, spec)
     step, coordinates = answer(model, data)
-    assert (step != unchanged(False)[0]) is (part in fates.STATE[0])
+    assert (step != unchanged_answer(False)[0]) is (part in fates.STATE[0])
     assert any(said.startswith("velocity: dropped") for said in coordinates.left_out) is (
         part == "QVEL"
     )

@@ -23,13 +23,15 @@ WEAK = {"left": 0.001, "right": 0.001}
 GRAVITY = 9.81
 
 
-def asked(text: str, seconds: float, keyframe: str | None = None, control: Any = None) -> Opinion:
+def opinion_on_settled(
+    text: str, seconds: float, keyframe: str | None = None, control: Any = None
+) -> Opinion:
     """The opinion on a scene that has settled."""
     model = mujoco.MjModel.from_xml_string(text)
     return qr.second_opinion(model, settled(model, seconds, keyframe, control))
 
 
-def held(text: str) -> str:
+def torsional_fingers(text: str) -> str:
     """A scene whose fingertips have torsional friction."""
     return text.replace('condim="3"', 'condim="4"')
 
@@ -37,15 +39,15 @@ def held(text: str) -> str:
 GUIDE = {
     "capsule": (WALK_FILES["capsule.xml"], 2, "grip"),
     "mug": (WALK_FILES["mug.xml"], 0, "grip"),
-    "mug, condim 4": (held(WALK_FILES["mug.xml"]), 2, "grip"),
-    "mug, condim 4, weak": (held(WALK_FILES["mug.xml"]), 0, "grip", WEAK),
+    "mug, condim 4": (torsional_fingers(WALK_FILES["mug.xml"]), 2, "grip"),
+    "mug, condim 4, weak": (torsional_fingers(WALK_FILES["mug.xml"]), 0, "grip", WEAK),
     "block": (WALK_FILES["block.xml"], 2),
 }
 
 
 @pytest.fixture(scope="module")
 def opinions() -> dict[str, Opinion]:
-    return {name: asked(*given) for name, given in GUIDE.items()}
+    return {name: opinion_on_settled(*given) for name, given in GUIDE.items()}
 
 
 def test_the_guide_shows_what_is_found(opinions):
@@ -93,16 +95,16 @@ def test_mujoco_creeps_as_its_documentation_says():
 def test_options_that_are_named_end_the_creep(opinions):
     assert [one.kind for one in opinions["capsule"].findings] == ["creeps"]
     slower = WALK_FILES["capsule.xml"].replace('impratio="1"', NOSLIP)
-    assert asked(slower, 2, "grip").findings == ()
-    slower = held(WALK_FILES["mug.xml"]).replace('impratio="100"', NOSLIP)
-    assert asked(slower, 2, "grip").findings == ()
+    assert opinion_on_settled(slower, 2, "grip").findings == ()
+    slower = torsional_fingers(WALK_FILES["mug.xml"]).replace('impratio="100"', NOSLIP)
+    assert opinion_on_settled(slower, 2, "grip").findings == ()
 
 
 @pytest.mark.parametrize("normal", [0.5, 1.0, 1.2])
 def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal):
     """2 mu N of m g, N = kp (control - position)."""
     control = dict.fromkeys(WEAK, normal / 1000 + 0.0001)
-    opinion = asked(held(WALK_FILES["mug.xml"]), 0, "grip", control)
+    opinion = opinion_on_settled(torsional_fingers(WALK_FILES["mug.xml"]), 0, "grip", control)
     (found,) = opinion.findings
     assert (found.kind, found.body) == ("slides", "mug")
     assert found.number == pytest.approx(2 * 0.8 * normal / (0.3 * GRAVITY), rel=0.02)
@@ -142,7 +144,7 @@ def test_a_healthy_scene_has_no_finding(name):
     pushed = "pushed" in name
     options = f'<option cone="elliptic" impratio="100"/>{PUSH if pushed else ""}'
     text = f"<mujoco>{options}<worldbody>{world}</worldbody></mujoco>"
-    opinion = asked(text, 2, None, {"x": 0.025} if pushed else None)
+    opinion = opinion_on_settled(text, 2, None, {"x": 0.025} if pushed else None)
     assert opinion.contacts
     assert opinion.findings == ()
 
@@ -153,7 +155,7 @@ DEEP = free("box", BOX, "0 0 .035")
 def test_bodies_in_each_other_are_found_with_their_depth_and_forces():
     """A box of 1 kg/dm^3 that begins 5 mm deep, its weight by hand."""
     world = f'<geom name="floor" type="plane" size="5 5 1"/>{DEEP}'
-    opinion = asked(f"<mujoco><worldbody>{world}</worldbody></mujoco>", 0)
+    opinion = opinion_on_settled(f"<mujoco><worldbody>{world}</worldbody></mujoco>", 0)
     (found,) = opinion.findings
     assert (found.kind, found.body, found.number) == ("penetrates", "box", pytest.approx(0.005))
     weight = 1000 * 0.1 * 0.12 * 0.08 * GRAVITY
@@ -169,7 +171,7 @@ def test_what_rests_by_rolling_friction_alone_is_found():
         "ball", f'size=".1" {rolls}', "0 0 .1"
     )
     options = f'<option gravity="{g}" cone="elliptic" {NOSLIP}/>'
-    opinion = asked(f"<mujoco>{options}<worldbody>{world}</worldbody></mujoco>", 2)
+    opinion = opinion_on_settled(f"<mujoco>{options}<worldbody>{world}</worldbody></mujoco>", 2)
     (found,) = opinion.findings
     assert (found.kind, found.body) == ("moves", "ball")
     assert "rolling friction" in found.remedy
@@ -214,7 +216,7 @@ def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, capsys):
 def test_a_simulation_that_is_unstable_is_refused():
     text = WALK_FILES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
-        asked(text, 20, "grip")
+        opinion_on_settled(text, 20, "grip")
 
 
 def test_a_body_that_slips_because_it_turns_is_asked_for_a_force():
@@ -226,5 +228,5 @@ def test_a_body_that_slips_because_it_turns_is_asked_for_a_force():
     <body name="cap" pos="0.3 0 0.12"><freejoint/>
       <geom type="capsule" size=".03 .1" mass="0.2" friction="0.1"/></body></worldbody>
     <equality><weld body1="box" body2="cap"/></equality></mujoco>"""
-    (finding,) = [one for one in asked(text, 2).findings if one.kind == "creeps"]
+    (finding,) = [one for one in opinion_on_settled(text, 2).findings if one.kind == "creeps"]
     assert "N mm" not in finding.sentence

@@ -93,7 +93,7 @@ def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     assert one == two
 
 
-def spoiled(change):
+def spoiled_blocks(change):
     blocks = np.tile(np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]), (3, 1, 1))
     change(blocks[-1])
     return blocks
@@ -111,7 +111,7 @@ BAD = {
 def test_a_mass_in_the_last_block_is_refused_as_all_of_M_u_is(words, change):
     rows = np.array([4])
     said = []
-    blocks = spoiled(change)
+    blocks = spoiled_blocks(change)
     for M_u in (blocks, whole(blocks)):
         with pytest.raises(StepDataError, match=words) as caught:
             constants(0.01, np.zeros((0, 0)), 0, M_u, rows)

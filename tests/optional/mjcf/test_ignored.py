@@ -107,12 +107,12 @@ def inertial(attributes: str) -> str:
     return doc(f"<body><inertial {attributes}/></body>")
 
 
-def fitted(compiler: str, geom: str) -> str:
+def fitted_box(compiler: str, geom: str) -> str:
     box = f'<body><geom type="box" mesh="m" {geom}/></body>'
     return doc(box, f"<compiler {compiler}/>", mesh(f'name="m" {VERTICES}'))
 
 
-def attached(attach: str, model: str = 'name="k" file="child.xml"', compiler: str = "") -> str:
+def doc_with(attach: str, model: str = 'name="k" file="child.xml"', compiler: str = "") -> str:
     other = '<model name="l" file="other.xml"/>'
     body = f'<body><geom size="1"/><frame pos="1 0 0"><attach prefix="p" {attach}/></frame></body>'
     return doc(body, f"<compiler {compiler}/>", f"<asset><model {model}/>{other}</asset>")
@@ -146,7 +146,7 @@ PAIRS: dict[str, tuple[str, str, str]] = {
         doc('<body><inertial mass="1" pos="0 0 0" diaginertia="1 1 3"/></body>'), USED,
     ),
     "compiler.conflict": (
-        attached('model="k" body="c"', compiler='conflict="error"'), attached('model="k" body="c"'),
+        doc_with('model="k" body="c"', compiler='conflict="error"'), doc_with('model="k" body="c"'),
         LISTED,
     ),
     "compiler.discardvisual": (
@@ -154,7 +154,7 @@ PAIRS: dict[str, tuple[str, str, str]] = {
             '<compiler discardvisual="true"/>'),
         doc('<body><geom size="1"/><geom size="0.1" contype="0" conaffinity="0"/></body>'), USED,
     ),
-    "compiler.fitaabb": (fitted('fitaabb="true"', ""), fitted("", ""), USED),
+    "compiler.fitaabb": (fitted_box('fitaabb="true"', ""), fitted_box("", ""), USED),
     "compiler.fusestatic": (doc(STATIC, '<compiler fusestatic="true"/>'), doc(STATIC), USED),
     "compiler.inertiafromgeom": (
         doc(f"<body><inertial {ONE}/>{GEOM}</body>", '<compiler inertiafromgeom="true"/>'),
@@ -193,22 +193,22 @@ PAIRS: dict[str, tuple[str, str, str]] = {
         doc(OF_MESH, mesh('name="m" builtin="cone" params="8 0.4"')), USED,
     ),
     "asset.model.name": (
-        attached('model="k" body="c"', 'name="m" file="child.xml"'),
-        attached('model="k" body="c"'), REFUSED,
+        doc_with('model="k" body="c"', 'name="m" file="child.xml"'),
+        doc_with('model="k" body="c"'), REFUSED,
     ),
     "asset.model.file": (
-        attached('model="k" body="c"', 'name="k" file="other.xml"'),
-        attached('model="k" body="c"'), USED,
+        doc_with('model="k" body="c"', 'name="k" file="other.xml"'),
+        doc_with('model="k" body="c"'), USED,
     ),
     "asset.model.content_type": (
-        attached('model="k" body="c"', 'name="k" file="child" content_type="text/xml"'),
-        attached('model="k" body="c"', 'name="k" file="child"'), USED,
+        doc_with('model="k" body="c"', 'name="k" file="child" content_type="text/xml"'),
+        doc_with('model="k" body="c"', 'name="k" file="child"'), USED,
     ),
-    "body.attach.model": (attached('model="l" body="c"'), attached('model="k" body="c"'), USED),
-    "body.attach.body": (attached('model="k" body="d"'), attached('model="k" body="c"'), USED),
-    "body.attach.frame": (attached('model="k" frame="f"'), attached('model="k" body="c"'), USED),
+    "body.attach.model": (doc_with('model="l" body="c"'), doc_with('model="k" body="c"'), USED),
+    "body.attach.body": (doc_with('model="k" body="d"'), doc_with('model="k" body="c"'), USED),
+    "body.attach.frame": (doc_with('model="k" frame="f"'), doc_with('model="k" body="c"'), USED),
     "body.attach.prefix": (
-        attached('model="k" body="c"').replace('"p"', '"q"'), attached('model="k" body="c"'), USED,
+        doc_with('model="k" body="c"').replace('"p"', '"q"'), doc_with('model="k" body="c"'), USED,
     ),
     "body.fuse": (
         doc(STATIC.replace("><body>", '><body fuse="false">'), '<compiler fusestatic="true"/>'),
@@ -242,7 +242,7 @@ PAIRS: dict[str, tuple[str, str, str]] = {
         doc(OF_MESH, FILE, mesh('name="n" file="b.obj"')).replace('mesh="m"', 'mesh="n"'),
         doc(OF_MESH, FILE, mesh('name="n" file="b.obj"')), USED,
     ),
-    "body.geom.fitscale": (fitted("", 'fitscale="2"'), fitted("", ""), USED),
+    "body.geom.fitscale": (fitted_box("", 'fitscale="2"'), fitted_box("", ""), USED),
     "body.geom.hfield": (
         doc(f'<geom type="hfield" hfield="h"/>{STATIC}', HFIELD), doc(STATIC, HFIELD), LISTED,
     ),

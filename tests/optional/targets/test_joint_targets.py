@@ -35,7 +35,7 @@ CRANE = {
 BASE_R = rotation(np.array([0.2, 0, 0.5]))
 
 
-def placed(system, body, waypoint):
+def q_of_waypoint(system, body, waypoint):
     return system.placed({f"{body}/{k}": v for k, v in waypoint.items() if k != "t"})
 
 
@@ -51,7 +51,7 @@ def test_the_link_moves_straight_and_turns_evenly_between_poses():
     assert np.all(np.diff(times) > 0)
     for waypoint in waypoints:
         t = waypoint["t"]
-        R, p = SYSTEM.pose(placed(SYSTEM, "arm", waypoint), "arm/tip")
+        R, p = SYSTEM.pose(q_of_waypoint(SYSTEM, "arm", waypoint), "arm/tip")
         line = START_T + min(t, 1.0) * np.array([0.02, 0.1, 0])
         np.testing.assert_allclose(p, line, atol=REACHED)
         turned = rotation(np.clip((t - 1.0) / 2.0, 0, 1) * turn) @ START_R

@@ -229,7 +229,7 @@ optional/derivatives/step/barrier.py
 where it is not named, and alone where there is only ``own``."""
 
 
-def named(name: str) -> Path:
+def file_of_test(name: str) -> Path:
     """The test ``test_NAME.py``, by its folder, too, where there are two."""
     folder, _, stem = name.rpartition("/")
     own = [path for path in FILES if path.name == f"test_{stem}.py"]
@@ -240,7 +240,7 @@ def named(name: str) -> Path:
 def tests_of(file: str, words: list[str]) -> tuple[str, ...]:
     """The tests of a file in their order."""
     names = [name for word in words if word != "own" for name in SETS.get(word, word).split()]
-    tests = [named(name) for name in names]
+    tests = [file_of_test(name) for name in names]
     own = Path(file).with_name(f"test_{Path(file).name}")
     if own in FILES and own.stem.removeprefix("test_") not in words:
         tests.insert(0, own)

@@ -74,7 +74,7 @@ def ball() -> str:
     )
 
 
-def ours(model: dict[str, Any]) -> list[StepResult]:
+def our_steps(model: dict[str, Any]) -> list[StepResult]:
     """Each step of our scene, whose coordinates are joints of both arms, then those of the ball."""
     start = model["start"]
     bodies = [
@@ -155,7 +155,7 @@ def evidence() -> Evidence:
     Its gradients by targets, in every tenth step, are compared where ours exist.
     """
     given = json_read(peer_file())
-    results = ours(given["model"])
+    results = our_steps(given["model"])
     mine = np.array([result.q[ORDER] for result in results])
     every = len(results) // len(given["gradients"])
     pairs = [

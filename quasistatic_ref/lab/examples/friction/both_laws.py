@@ -120,14 +120,14 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
             one.plot(LOADS, moved, style, label=law, **PEN)
         label_axes(one, x, y, key=False)
     pair, (before, after, _) = push(CONVEX)
-    outlines = {law: pair.outline.drawn(push(law)[1][2], before) for law in LAWS}
+    outlines = {law: pair.outline.line_at(push(law)[1][2], before) for law in LAWS}
     for law, style in STYLES.items():
         time, angle = rotation_of_the_bunny(law)
         since = time >= CLOSED
         axes[2].plot(time[since], angle[since], style, markevery=0.2, **PEN)
     label_axes(axes[2], "t [s]", "bunny's turn [deg]", key=False)
-    axes[3].plot(*pair.outline.drawn(before, before), color="0.6", linestyle=":", label="before")
-    axes[3].fill(*pair.outline.drawn(after, before), color="0.85", label="measured")
+    axes[3].plot(*pair.outline.line_at(before, before), color="0.6", linestyle=":", label="before")
+    axes[3].fill(*pair.outline.line_at(after, before), color="0.85", label="measured")
     for law, style in STYLES.items():
         axes[3].plot(*outlines[law], style, markevery=0.2, **PEN)
     axes[3].set_aspect("equal", adjustable="datalim")

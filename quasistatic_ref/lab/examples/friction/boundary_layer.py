@@ -37,7 +37,7 @@ SHARE = 2.0
 """A fixed torque, over mu_omega m g [-]."""
 
 
-def spun(mu_omega: float = MU_OMEGA, h: float = H) -> tuple[Trajectory, Array]:
+def run_and_torques(mu_omega: float = MU_OMEGA, h: float = H) -> tuple[Trajectory, Array]:
     """The run until the torque has its last value, whatever h is; torques, shape (steps,) [N m].
 
     Parameters
@@ -70,7 +70,7 @@ def layers(sizes: tuple[float, ...] = TIME_STEPS, share: float = SHARE) -> dict[
 
 def main() -> Numbers:
     """Where it begins to move, how high it rises at five times that torque, exponents of h."""
-    run, torque = spun()
+    run, torque = run_and_torques()
     moves = np.abs(run["delta_q"]).max(axis=1) > 1e-12
     return {
         "largest torque without motion [mN m]": 1e3 * torque[~moves].max(),
@@ -99,7 +99,7 @@ def figure(
     share : float
         Of the fixed torque over mu_omega m g [-].
     """
-    run, torque = spun(mu_omega, h)
+    run, torque = run_and_torques(mu_omega, h)
     picture = {"torque": torque, "lift": run["q"][1:, 2] - RADIUS, "h": h, "sizes": np.array(sizes),
                "limit": mu_omega * M * GRAVITY}  # fmt: skip
     return PICTURES["boundary_layer"](picture | layers(tuple(sizes), share), ax)

@@ -81,7 +81,7 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
     chosen = np.sort(np.argsort(-moved, kind="stable")[:SHOWN])
     for k, one in zip(chosen, axes, strict=False):
         origin = pushes.before[k]
-        drawn = own.outline.drawn
+        drawn = own.outline.line_at
         one.plot(*drawn(origin, origin), color="0.6", linewidth=0.8, linestyle=":", label="before")
         one.fill(*drawn(pushes.after[k], origin), color="0.85", label="after, measured")
         for cone, style in zip(cones, ("-", "--"), strict=False):

@@ -60,7 +60,7 @@ def miss(q: Any) -> Any:
 def planned_push(start: tuple[float, float, float], mu_omega: float) -> Push:
     """A push from `start`, a pose of the block [m, rad], on a support of some mu_omega [m]."""
     scene = pushed_block(h=H, cone="pyramid", mu_omega=mu_omega)
-    run = [scene.placed(*start, GAP)]
+    run = [scene.q_at(*start, GAP)]
     step = smoothed_jax(scene.simulator)
     certified = 0
 

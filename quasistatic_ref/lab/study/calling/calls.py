@@ -118,10 +118,10 @@ def reply_or_failure(call: Callable[..., Reply], *given: Any) -> Reply:
     except Crashed:
         raise
     except Exception as error:  # whatever another package raises
-        return _failed(words_of(error), perf_counter() - begin)
+        return _failed_reply(words_of(error), perf_counter() - begin)
 
 
-def _failed(words: str, seconds: float) -> Reply:
+def _failed_reply(words: str, seconds: float) -> Reply:
     return Reply(None, None, False, words, call_seconds=seconds)
 
 
@@ -189,7 +189,7 @@ def function_reply(function: Callable[..., Any], form: StandardForm, options: Op
     seconds = perf_counter() - begin
     if returned is None or isinstance(returned, str):
         said = "returned None" if returned is None else returned
-        return _failed(" ".join(said.split())[:200], seconds)
+        return _failed_reply(" ".join(said.split())[:200], seconds)
     if not isinstance(returned, tuple | list) or len(returned) != 2:
         kind = type(returned).__name__
         kind += f" of {len(returned)}" if isinstance(returned, tuple | list) else ""
@@ -242,12 +242,12 @@ class Executable:
             line = self._answer(text.encode())
         seconds = perf_counter() - begin
         if line:
-            return _written(line, seconds)
+            return _reply_of_output(line, seconds)
         code = self._status()
         words = self._last_words()
         if code < 0:
             raise Crashed(f"killed by signal {-code}", seconds)
-        return _failed(f"exit status {code}: {words}"[:180] if code else NO_LINE, seconds)
+        return _failed_reply(f"exit status {code}: {words}"[:180] if code else NO_LINE, seconds)
 
     def _answer(self, text: bytes) -> bytes:
         """The line that the program writes; empty where it ends instead."""
@@ -274,7 +274,7 @@ class Executable:
         return " ".join(lines[-1:])
 
 
-def _written(output: bytes, seconds: float) -> Reply:
+def _reply_of_output(output: bytes, seconds: float) -> Reply:
     """The reply in an executable's JSON."""
     try:
         said = json.loads(output)
@@ -286,7 +286,7 @@ def _written(output: bytes, seconds: float) -> Reply:
         solved = status == "optimal" and x is not None
         return Reply(x, lam, solved, status, iterations, own, seconds, own)
     except (ValueError, TypeError, AttributeError, RecursionError) as error:
-        return _failed(f"no usable JSON: {words_of(error)}", seconds)
+        return _failed_reply(f"no usable JSON: {words_of(error)}", seconds)
 
 
 def _numbers(values: Any) -> Array:

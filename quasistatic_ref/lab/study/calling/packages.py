@@ -18,7 +18,7 @@ from quasistatic_ref.formats.quoting import suggestion
 GROUP = "quasistatic_ref.solvers"
 
 
-def announced() -> dict[str, list[EntryPoint]]:
+def announced_solvers() -> dict[str, list[EntryPoint]]:
     """What installed packages announce, by name; more than one under a name that is not clear."""
     found: dict[str, list[EntryPoint]] = {}
     for one in entry_points(group=GROUP):
@@ -36,7 +36,7 @@ def entry_of(name: str) -> EntryPoint:
     InputError
         If no package announces it, or several packages do.
     """
-    every = announced()
+    every = announced_solvers()
     if name not in every:
         words = f"is announced by no package, as an entry point of the group {GROUP!r}"
         raise InputError(f"{words}{suggestion(name, every)}", value=name)

@@ -8,7 +8,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.calling.guests import EVERY, installed_here, known_to
-from quasistatic_ref.lab.study.calling.packages import announced, entry_of
+from quasistatic_ref.lab.study.calling.packages import announced_solvers, entry_of
 from quasistatic_ref.lab.study.calling.promises import promise_stated
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE, SOLVER, TABLES
@@ -36,7 +36,7 @@ def own_solvers(tables: TableReader, settings: Mapping[str, Setting]) -> dict[st
         (interface,) = interfaces
         target = _target(table, interface, given[interface])
         options = _options(given["options"], settings)
-        promised = _promised(given["promised"], settings)
+        promised = _promises(given["promised"], settings)
         solvers[name] = Solver(name, interface, target, options, promised)
     return solvers
 
@@ -80,7 +80,7 @@ def solvers_named(name: str, own: Iterable[str] = ()) -> list[Solver]:
     """
     interface, _, solver = name.partition(":")
     if interface == PACKAGE:
-        names = list(announced()) if solver == "*" else [solver]
+        names = list(announced_solvers()) if solver == "*" else [solver]
         return [Solver(entry_of(one).name, PACKAGE, one) for one in names]
     if interface not in BY_INTERFACE:
         known = [*own, *(f"{r}:*" for r in (*BY_INTERFACE, PACKAGE))]
@@ -117,7 +117,7 @@ def _target(table: TableReader, interface: str, given: Any) -> str | tuple[str, 
     return str(given)
 
 
-def _promised(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, Any]:
+def _promises(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, Any]:
     promised = {}
     for name in tables.names_left():
         if name not in settings:

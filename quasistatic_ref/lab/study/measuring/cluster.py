@@ -43,7 +43,7 @@ def measure_on_cluster(work: Work, address: str) -> None:
     """
 
     def answered(solver: Solver) -> Answered:
-        return partial(_elsewhere, work.folder, solver)
+        return partial(_rows_elsewhere, work.folder, solver)
 
     with executor_of(address) as (executor, slots):
         measure_all(work, executor, slots, answered, BLOCK)
@@ -69,7 +69,9 @@ def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
         client.close()
 
 
-def _elsewhere(folder: str, solver: Solver, block: Block, limits: Limits, left: Left) -> list[Row]:
+def _rows_elsewhere(
+    folder: str, solver: Solver, block: Block, limits: Limits, left: Left
+) -> list[Row]:
     """The rows of one block, on a worker of the cluster, in a process of its own."""
     settings = tuple(dict.fromkeys(m.setting for m, _ in block))
     with Keeper(solver, folder, limits.memory, settings) as keeper:

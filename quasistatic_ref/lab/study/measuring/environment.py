@@ -20,7 +20,7 @@ def machine() -> dict[str, object]:
         "processor": _processor(),
         "cores": os.cpu_count(),
         "caches": _caches(),
-        "governor": _read(CPU / "cpufreq" / "scaling_governor") or UNKNOWN,
+        "governor": _text(CPU / "cpufreq" / "scaling_governor") or UNKNOWN,
         "memory [GB]": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "system": f"{platform.system()} {platform.release()}",
         "python": platform.python_version(),
@@ -47,7 +47,7 @@ def _version(package: str) -> str:
         return "not known"
 
 
-def _read(path: Path) -> str:
+def _text(path: Path) -> str:
     try:
         return path.read_text().strip()
     except OSError:
@@ -58,8 +58,8 @@ def _caches() -> str:
     """Sizes by level and kind, such as ``L1 data 32K``."""
     found = []
     for folder in sorted((CPU / "cache").glob("index*")):
-        kind = _read(folder / "type").lower().replace("unified", "")
-        found.append(f"L{_read(folder / 'level')} {kind}".strip() + f" {_read(folder / 'size')}")
+        kind = _text(folder / "type").lower().replace("unified", "")
+        found.append(f"L{_text(folder / 'level')} {kind}".strip() + f" {_text(folder / 'size')}")
     return ", ".join(found) or UNKNOWN
 
 

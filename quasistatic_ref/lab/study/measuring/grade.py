@@ -102,8 +102,8 @@ def grades(
     dict
     """
     form = ready.forms[units]
-    outcome, x, lam = _usable(form, reply)
-    row = ungraded(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
+    outcome, x, lam = _usable_numbers(form, reply)
+    row = ungraded_fields(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
     with np.errstate(all="ignore"):
         terms = ready.terms[units] or terms_of(form, x, lam)
         if x is not None:
@@ -123,7 +123,7 @@ def grades(
     return judged(row, claim, solver.promises(setting), terms, certified)
 
 
-def ungraded(
+def ungraded_fields(
     outcome: str, claimed: str, seconds: float | None, feasible: bool = True
 ) -> dict[str, Any]:
     """The same fields of a call that never came back, after `seconds` [s], or never was made."""
@@ -149,11 +149,11 @@ def ungraded(
 
 def not_run(feasible: bool) -> dict[str, Any]:
     """The same fields of a call that the budget did not reach."""
-    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
+    row = ungraded_fields(NOT_RUN, "not run (budget)", None, feasible)
     return row | {"seconds": row["seconds"] | {"spent": 0.0}}
 
 
-def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
+def _usable_numbers(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
     """Outcome, and the numbers if they can be judged."""
     if reply.x is None:
         return FAILED, None, None

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.study.measuring.verdict import exact_terms, judged
 from quasistatic_ref.lab.study.problems.names import NATURAL
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
-from quasistatic_ref.lab.study.store.pack import packed
+from quasistatic_ref.lab.study.store.pack import packed_store
 from quasistatic_ref.lab.study.store.rows import Row, label_of
 from quasistatic_ref.lab.study.store.store import Contents, Store
 
@@ -63,10 +63,10 @@ def judged_again(found: Contents, problems: Iterable[Problem]) -> Contents:
     return Contents(study, list(map(again, found.rows)), found.problems, found.unreached)
 
 
-def repacked(found: Contents, out: Path) -> None:
+def write_packed(found: Contents, out: Path) -> None:
     """Write a packed store of what a store holds."""
     with tempfile.TemporaryDirectory() as folder:
         with Store(folder, found.study, found.problems) as store:
             store.add(*found.rows)
-            store.unreached(found.unreached)
-        packed(folder, out)
+            store.keep_unreached(found.unreached)
+        packed_store(folder, out)

@@ -149,7 +149,7 @@ class Keeper:
             begin = perf_counter()
             self._outbox.send(message)
             while not self._inbox.poll(LOOK):
-                self._watched(perf_counter() - begin, patience, request.limit)
+                self._watch(perf_counter() - begin, patience, request.limit)
             sizes = len(form.g), len(form.b)
             message_ = self._inbox.recv_bytes(HEAD + 8 * sum(sizes) + 1)
             seconds = perf_counter() - begin
@@ -157,7 +157,7 @@ class Keeper:
             computed, waited = (b - a for a, b in zip(before, after, strict=True))
             response = from_bytes(message_, sizes)
         except (EOFError, OSError):
-            raise Ended(CRASHED, self._ended(), perf_counter() - begin) from None
+            raise Ended(CRASHED, self._end_in_words(), perf_counter() - begin) from None
         except Unreadable:
             self.close()
             words = "its process wrote what is no reply"
@@ -166,7 +166,7 @@ class Keeper:
             raise Ended(CRASHED, response.reply.status, response.times[-1])
         return response, max(seconds - waited, computed)
 
-    def _watched(self, seconds: float, patience: float, limit: float) -> None:
+    def _watch(self, seconds: float, patience: float, limit: float) -> None:
         assert self._process is not None
         if processes.resident(self._process.pid) > self.memory:
             self.close()
@@ -237,7 +237,7 @@ class Keeper:
             raise InputError(said, field=f"solvers.{self.solver.name}")
         self.modes = tuple(said.removeprefix(READY).split(","))
 
-    def _ended(self) -> str:
+    def _end_in_words(self) -> str:
         """How the process came to its end; it is cleared away."""
         assert self._process is not None
         code = self._process.status()

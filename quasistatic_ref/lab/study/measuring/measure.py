@@ -26,7 +26,7 @@ from quasistatic_ref.lab.study.measuring.grade import (
     grades,
     not_run,
     problem_forms,
-    ungraded,
+    ungraded_fields,
 )
 from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.measuring.messages import Response
@@ -94,14 +94,14 @@ def measured_row(
             keeper.seen.add(shape)
             seconds["warm_up"] = perf_counter() - begin
         begin = perf_counter()
-        row = _graded(
+        row = _graded_row(
             keeper, ready, Request(setting, limits.time_limit, start=start), units, limits
         )
         memory = None if keeper.pid is None else processes.peak(keeper.pid)
     except Ended as end:
         if seconds["warm_up"] is None and shape not in keeper.seen:
             seconds["warm_up"] = end.seconds
-        row = ungraded(end.outcome, end.words, end.seconds, problem.feasible)
+        row = ungraded_fields(end.outcome, end.words, end.seconds, problem.feasible)
     keeper.tidy()
     seconds["spent"] = perf_counter() - begin
     return row | {"seconds": row["seconds"] | seconds, "memory": memory}
@@ -188,7 +188,7 @@ def _step(
         limit = request.limit if shape in keeper.seen else warm_up
         response, outside = keeper.answer(form, replace(request, limit=limit))
     except Ended as end:
-        row = ungraded(end.outcome, end.words, end.seconds, not ready.answer.farkas)
+        row = ungraded_fields(end.outcome, end.words, end.seconds, not ready.answer.farkas)
         row["seconds"]["spent"] = end.seconds
         return row, None
     finally:
@@ -213,7 +213,7 @@ def _worst(repeated: Sequence[Row]) -> Row:
     return row | {"calls": calls, "seconds": row["seconds"] | clocks}
 
 
-def _graded(
+def _graded_row(
     keeper: Keeper, ready: ProblemForms, request: Request, units: str, limits: Limits
 ) -> Row:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
@@ -223,12 +223,12 @@ def _graded(
     row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]
     if row["outcome"] == SOLVED:
-        row = _copied(keeper, ready, request, units, row, response.reply)
+        row = _row_with_copy(keeper, ready, request, units, row, response.reply)
     first = row["seconds"]["first"]
     repeats = row["repeats"]
     if not response.reply.solved and solver.claim(response.reply.status) != INFEASIBLE:
         return row | {"calls": 1}
-    again, times, agrees = _timed(keeper, form, request, outside, limits)
+    again, times, agrees = _timed_reply(keeper, form, request, outside, limits)
     other = grades(ready, units, again.reply, solver, request.setting)
     row = min(row, other, key=_goodness)
     row |= {"calls": len(times), "clock_agrees": agrees, "repeats": repeats}
@@ -237,7 +237,7 @@ def _graded(
     return row | {"seconds": row["seconds"] | clocks}
 
 
-def _copied(
+def _row_with_copy(
     keeper: Keeper, ready: ProblemForms, request: Request, units: str, row: Row, found: Reply
 ) -> Row:
     """A row with the time of a call on a copy of the problem, which its process sees once.
@@ -252,12 +252,12 @@ def _copied(
     except Ended:
         return row
     reply = response.reply
-    same = reply.solved and all(map(_alike, (reply.x, reply.lam), (found.x, found.lam)))
+    same = reply.solved and all(map(_are_alike, (reply.x, reply.lam), (found.x, found.lam)))
     seconds = row["seconds"] | {"first": response.times[0]}
     return row | {"repeats": same or not reply.solved, "seconds": seconds}
 
 
-def _alike(one: Array | None, other: Array | None) -> bool:
+def _are_alike(one: Array | None, other: Array | None) -> bool:
     if one is None or other is None or one.shape != other.shape:
         return False
     return bool((abs(one - other) <= ALIKE * abs(other).max(initial=0.0)).all())
@@ -278,7 +278,7 @@ def _goodness(row: Row) -> tuple[bool, bool, float]:
     return not row["wrong"], row["said_optimal"], row["digits"]["delta_q"] or 0.0
 
 
-def _timed(
+def _timed_reply(
     keeper: Keeper, form: Any, request: Request, outside: float, limits: Limits
 ) -> tuple[Response, tuple[float, ...], bool | None]:
     """Calls in one exchange: the last reply, their times [s], whether the keeper's clock agrees.

@@ -55,7 +55,7 @@ def run_study(
     by_id = {one.id: one for one in problems}
     place = str(study.path.resolve().parent)
     unreached: dict[str, str] = {}
-    planned = _planned(study, problems, place, unreached)
+    planned = _plan_of_study(study, problems, place, unreached)
     facts = [fact_of(one) for one in problems]
     with Store(folder, study_record(study, problems), facts) as store:
         done = store.keys
@@ -67,12 +67,12 @@ def run_study(
             from quasistatic_ref.lab.study.measuring.cluster import measure_on_cluster
 
             measure_on_cluster(work, scheduler)
-        store.unreached(work.unreached)
+        store.keep_unreached(work.unreached)
         labels = {solver.label for solver in study.solvers}
         return [row for row in store.rows if label_of(row) in labels]
 
 
-def _planned(
+def _plan_of_study(
     study: Study, problems: Sequence[Problem], folder: str, unreached: dict[str, str]
 ) -> list[Measurement]:
     """The plan of a study; solvers that cannot say in which modes they are called are unreached."""
@@ -90,13 +90,13 @@ def _planned(
             else:
                 modes[solver.label] = keeper.modes
     steps = {
-        name: [_named(one) for one in sorted(own, key=lambda one: one.facts["sequence"]["place"])]
+        name: [_names(one) for one in sorted(own, key=lambda one: one.facts["sequence"]["place"])]
         for name, own in sequences.items()
     }
-    return plan(study, [_named(one) for one in problems], steps, modes)
+    return plan(study, [_names(one) for one in problems], steps, modes)
 
 
-def _named(problem: Problem) -> tuple[str, str]:
+def _names(problem: Problem) -> tuple[str, str]:
     return problem.id, str(problem.facts["family"])
 
 

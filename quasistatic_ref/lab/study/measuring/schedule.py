@@ -143,7 +143,7 @@ def measure_all(
     queues: dict[str, deque[tuple[int, Measurement]]] = {}
     for place, m in enumerate(work.todo):
         queues.setdefault(m.solver.label, deque()).append((place, m))
-    left = _left(work, queues)
+    left = _left_budgets(work, queues)
     under_way: dict[Future[list[Row]], str] = {}
     total = len(work.todo)
     with progress_bar(total=total, unit="call", words="calls made", shown=work.progress) as bar:
@@ -152,7 +152,7 @@ def measure_all(
                 idle = {n: q for n, q in queues.items() if n not in under_way.values()}
                 while idle and len(under_way) < slots:
                     label = min(idle, key=lambda name: idle[name][0][0])
-                    taken = _taken(idle.pop(label), block)
+                    taken = _next_measurements(idle.pop(label), block)
                     if not queues[label]:
                         del queues[label]
                     items = [(m, work.problems[m.problem]) for m in taken]
@@ -194,7 +194,7 @@ def measure_here(work: Work, jobs: int) -> None:
             keeper.close()
 
 
-def _taken(queue: deque[tuple[int, Measurement]], block: int) -> list[Measurement]:
+def _next_measurements(queue: deque[tuple[int, Measurement]], block: int) -> list[Measurement]:
     """Take the next measurements of one solver: whole problems or sequences, at least `block`."""
     taken: list[Measurement] = []
     while queue:
@@ -206,7 +206,7 @@ def _taken(queue: deque[tuple[int, Measurement]], block: int) -> list[Measuremen
     return taken
 
 
-def _left(work: Work, labels: Iterable[str]) -> dict[str, Left]:
+def _left_budgets(work: Work, labels: Iterable[str]) -> dict[str, Left]:
     """What each solver has left of its budget after the rows that are there."""
     own: dict[str, list[Row]] = {label: [] for label in labels}
     for row in work.store.rows:

@@ -155,7 +155,7 @@ def run_sweep(
         writable_folder(folder / RUNS)
         with Store(folder, sweep_record(sweeps)) as store:
             done = store.keys
-            todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
+            todo = [(s, p) for s, p in every if key_of(_name_fields(s, p)) not in done]
             _run(store, todo, executor, slots, progress, folder)
             return sorted(store.rows, key=key_of)
 
@@ -214,7 +214,7 @@ def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
         reason = failure.reason
         trajectory = failure.trajectory
     came_to = outcomes(trajectory)
-    row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": came_to}
+    row = _name_fields(sweep, point) | {"outcome": outcome, "reason": reason, "measures": came_to}
     return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
 
 
@@ -234,7 +234,7 @@ def _run(
             bar.update()
 
 
-def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:
+def _name_fields(sweep: Sweep, point: dict[str, Any]) -> Row:
     return {"sweep": sweep.name, "scenario": Path(sweep.scenario).stem, "values": point}
 
 

@@ -52,7 +52,7 @@ def serve(read: int, write: int) -> None:
         except QuasistaticError as error:
             outbox.send_bytes(str(error).encode())
             return
-        _served(inbox, outbox, called)
+        _serve(inbox, outbox, called)
     except (EOFError, BrokenPipeError):
         return  # the keeper is gone
 
@@ -137,7 +137,7 @@ class Called:
         return Response(reply, tuple(times))
 
 
-def _served(inbox: Connection, outbox: Connection, called: Called) -> None:
+def _serve(inbox: Connection, outbox: Connection, called: Called) -> None:
     forms: OrderedDict[int, StandardForm] = OrderedDict()
     while True:
         message = inbox.recv()

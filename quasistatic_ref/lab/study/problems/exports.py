@@ -30,7 +30,7 @@ QPBENCHMARK = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
 """Columns of its Parquet files: min 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub."""
 
 
-def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> list[Path]:
+def exported_files(name: str, problems: Sequence[Problem], to: str, folder: Path) -> list[Path]:
     """Write problems in a format.
 
     Parameters
@@ -63,7 +63,7 @@ def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> l
         QPS: lambda: [*(_qps(folder / "qps", one) for one in problems),
                       _npz(folder / f"{name}.npz", problems)],
     }  # fmt: skip
-    return [*own[to](), *_carried(name, len(problems), to, folder)]
+    return [*own[to](), *_carried_files(name, len(problems), to, folder)]
 
 
 def has_place(one: Problem, to: str) -> bool:
@@ -73,7 +73,7 @@ def has_place(one: Problem, to: str) -> bool:
     return to != QPS or one.facts["kind"] == QP
 
 
-def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
+def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
     """The README, the licences and the citation."""
     here = Path(__file__).parent
     layouts = (here / "layouts.txt").read_text("utf-8")

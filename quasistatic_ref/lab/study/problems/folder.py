@@ -97,7 +97,7 @@ def set_read(
         if name not in known:
             raise InputError(f"is not a family of the set; it has {', '.join(known)}", value=name)
     try:
-        return _some(folder, list(known), families, ids)
+        return _some_problems(folder, list(known), families, ids)
     except InputError:
         raise
     except UNREADABLE as error:
@@ -105,7 +105,7 @@ def set_read(
         raise InputError(words[:200], file=folder) from None
 
 
-def _some(
+def _some_problems(
     folder: Path, known: list[str], families: Sequence[str] | None, ids: Sequence[str] | None
 ) -> list[Problem]:
     """The problems of some of the families that a set has, or of some names."""
@@ -194,7 +194,7 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
     arrays = npz_arrays(path, "the numbers of a family")
     at = dict.fromkeys(arrays, 0)
 
-    def taken(name: str, size: int) -> NDArray[Any]:
+    def numbers(name: str, size: int) -> NDArray[Any]:
         first = at[name]
         last = at[name] + size
         if last > len(arrays[name]):
@@ -203,10 +203,10 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
         return arrays[name][first:last]
 
     def matrix(name: str, rows: int, columns: int) -> csr_matrix:
-        starts = np.concatenate([[0], np.cumsum(taken(f"{name}_entries", rows), dtype=np.int64)])
+        starts = np.concatenate([[0], np.cumsum(numbers(f"{name}_entries", rows), dtype=np.int64)])
         count = int(starts[-1])
-        values = taken(f"{name}_values", count)
-        places = taken(f"{name}_columns", count)
+        values = numbers(f"{name}_values", count)
+        places = numbers(f"{name}_columns", count)
         return csr_matrix((values, places.astype(np.int32), starts), shape=(rows, columns))
 
     def one(line: Mapping[str, Any]) -> Problem:
@@ -215,14 +215,14 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
         solved = line["farkas"] is None
         H = matrix("H", n, n)
         A = matrix("A", m, n)
-        g = taken("g", n)
-        b = taken("b", m)
-        S = np.exp2(taken("coordinate", n).astype(np.float64))
+        g = numbers("g", n)
+        b = numbers("b", m)
+        S = np.exp2(numbers("coordinate", n).astype(np.float64))
         own = line["log2_units"]
         units = Units(S, 2.0 ** own["length"], 2.0 ** own["size"])
         said = line["answer"]
         x, net, slack, lam = (
-            taken(name, size if solved else 0) if name in arrays else np.zeros(0)
+            numbers(name, size if solved else 0) if name in arrays else np.zeros(0)
             for name, size in (("x", n), ("net", n), ("slack", m), ("lam", m))
         )
         farkas = {int(i): y for i, y in (line["farkas"] or {}).items()}

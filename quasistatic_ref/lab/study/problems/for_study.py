@@ -12,7 +12,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read, set_written
-from quasistatic_ref.lab.study.problems.making import harvested
+from quasistatic_ref.lab.study.problems.making import problems_of_runs
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
 from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
 
@@ -75,7 +75,7 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
     if test_set.source:
         problems = problems_taken(test_set.source, test_set.families, test_set.most)
     else:
-        problems = harvested(test_set.scenarios, test_set.families[SCENARIOS], progress)
+        problems = problems_of_runs(test_set.scenarios, test_set.families[SCENARIOS], progress)
     set_written(folder, FOLDER, problems, made_of=made_of)
     return problems
 

@@ -21,7 +21,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 
-def harvested(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
+def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
     """Steps of the runs of scenarios, evenly spaced and never twice.
 
     Parameters

@@ -48,11 +48,11 @@ def problems_taken(
         if not all(one.facts["kind"] == QP for one in own):
             words = "has cones; studies contain rows only"
             raise InputError(words, field="problems.families", value=family)
-        found += chosen(own, family, count, most.get(family))
+        found += problems_along_dial(own, family, count, most.get(family))
     return found
 
 
-def chosen(
+def problems_along_dial(
     own: Sequence[Problem], family: str, count: int, most: float | None = None
 ) -> list[Problem]:
     """Some problems of a family, evenly along its dial; of sequences whole ones, in order.

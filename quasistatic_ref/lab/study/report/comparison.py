@@ -159,16 +159,16 @@ class Comparison:
     def soonest(self) -> list[Soonest]:
         """Each solver and interface at its setting, the fastest first, or that with most digits."""
         chosen: dict[str, tuple[float, int, str]] = {}
-        for (label, setting), rows in self.called.groups("label", "setting").items():
+        for (label, setting), rows in self.calls.groups("label", "setting").items():
             half = rows.at(half=0) or rows
             mean = shifted_geometric_mean(to_digits(half, self.limit))
             order = self.settings.index(setting)
             if label not in chosen or (mean, order) < chosen[label][:2]:
                 chosen[label] = (mean, order, setting)
-        found = [self._judged(label, setting) for label, (*_, setting) in chosen.items()]
+        found = [self._soonest(label, setting) for label, (*_, setting) in chosen.items()]
         return sorted(found, key=self._order)
 
-    def _judged(self, label: str, setting: str) -> Soonest:
+    def _soonest(self, label: str, setting: str) -> Soonest:
         rows = self.rows.at(self.at(setting), label=label)
         rows = rows.at(half=1) or rows
         called = rows.at(called=True) or rows
@@ -205,7 +205,7 @@ class Comparison:
         return ""
 
     @cached_property
-    def called(self) -> Rows:
+    def calls(self) -> Rows:
         """The rows that are compared first, of calls that were made."""
         return self.rows.at(self.base, called=True)
 
@@ -215,14 +215,14 @@ class Comparison:
         def silent_and_slow(one: Soonest) -> tuple[bool, float]:
             return hides(one.rows.first("interface"), one.rows.first("solver")), one.mean
 
-        found = [one for one in self.soonest if one.machine == self.drawn]
+        found = [one for one in self.soonest if one.machine == self.figure_machine]
         by_solver: dict[str, Soonest] = {}
         for one in sorted(found, key=silent_and_slow):
             by_solver.setdefault(one.rows.first("who"), one)
         return sorted(by_solver.values(), key=self._order)
 
     @property
-    def drawn(self) -> str:
+    def figure_machine(self) -> str:
         """The machine that figures are of; empty where there is only one."""
         counts = Counter(str(row["machine"]) for row in self.rows)
         return min(counts, key=lambda name: (-counts[name], name))

@@ -107,10 +107,10 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
         of the first call on a copy of the problem, if there was one, else of the repeated call; the
         time limit where the solver does not say so; ``call``: of any call.
     """
-    return Rows([row | _more(row, limit) for row in rows])
+    return Rows([row | _derived_fields(row, limit) for row in rows])
 
 
-def _more(row: Row, limit: float) -> Row:
+def _derived_fields(row: Row, limit: float) -> Row:
     machine = row.get("machine", "")
     seconds = row["seconds"]
     solved = row["outcome"] == SOLVED

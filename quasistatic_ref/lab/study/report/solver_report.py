@@ -73,7 +73,7 @@ def _one_screen(
         words.append(f"{label} was never run with {filter_words(comparison.base)}.")
     if machines := comparison.study.get("machines"):
         words.append(f"Made on {len(machines)} machines: {', '.join(machines)}; this table and "
-                     f"the figures are of {comparison.drawn}.")  # fmt: skip
+                     f"the figures are of {comparison.figure_machine}.")  # fmt: skip
     for one in comparison.soonest:
         if cheat := cheat_alone(comparison.every_call(one).at(feasible=True)):
             words.append(f"{one.label} looks as if it {cheat}.")
@@ -121,7 +121,7 @@ def _of_problems(
         "Every interface": [tables.interface_table(comparison)],
         "Accuracy and time": [*profiles, _against_time(comparison, best), *each],
         "Claims": [*false, tables.detection(comparison.first)],
-        "Tolerances and digits": _kept(comparison, asked),
+        "Tolerances and digits": _kept_digits(comparison, asked),
         "Worst problems": tables.worst_problems(comparison, facts, comparison.fastest(), store),
         "By problem family": [tables.family_table(comparison, name) for name in comparison.main],
         "Units, warm starts, interfaces": _contrasts(comparison),
@@ -136,11 +136,11 @@ def _left_out(comparison: Comparison, setting: str) -> list[str]:
     return [f"Not called at {setting}, which means nothing to them: {', '.join(absent)}."]
 
 
-def _kept(comparison: Comparison, settings: Sequence[str]) -> list[Block]:
+def _kept_digits(comparison: Comparison, settings: Sequence[str]) -> list[Block]:
     """Accuracy against digits, of answers that kept their tolerances."""
     if not settings:
         return []
-    rows = comparison.called
+    rows = comparison.calls
     table = tables.kept_digits(rows, settings)
     lines = {line[0]: line[1:] for line in table.rows}
     data = {"settings": settings, "lines": lines} if lines else {}
@@ -154,7 +154,7 @@ def _kept(comparison: Comparison, settings: Sequence[str]) -> list[Block]:
 
 def _profiles(comparison: Comparison, best: Sequence[str]) -> Block:
     found = {one.label: one.setting for one in comparison.soonest if one.label in best}
-    own = comparison.called.kept(lambda row: found.get(row["label"]) == row["setting"]).common()
+    own = comparison.calls.kept(lambda row: found.get(row["label"]) == row["setting"]).common()
     parts = {label: part for (label,), part in own.groups("label").items()}
     data = {}
     if parts:
@@ -179,7 +179,7 @@ def _picture(name: str, data: Mapping[str, Any], caption: str, where: Where, sai
 def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
     own_ = {s["name"]: s["accuracy"] is None for s in comparison.study["settings"]}
-    own = comparison.called.common("label", "setting")
+    own = comparison.calls.common("label", "setting")
     lines = {
         label: [
             (own_[s], float(np.median(at["seconds"])), float(np.median(at["digits"])))

@@ -57,7 +57,7 @@ def performance_ratios(seconds: np.ndarray, good: np.ndarray) -> np.ndarray:
     return ratios
 
 
-def resampled(values: np.ndarray, strata: np.ndarray) -> np.ndarray:
+def resampled_means(values: np.ndarray, strata: np.ndarray) -> np.ndarray:
     """Means of values over problems that are drawn again, with replacement, within each stratum.
 
     Parameters

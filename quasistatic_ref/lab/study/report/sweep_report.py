@@ -41,7 +41,7 @@ def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
 def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[Block]:
     axes = list(rows[0]["values"]) if rows else []
     names = list(dict.fromkeys(name for row in rows for name in row["measures"]))
-    ordered = sorted(rows, key=lambda row: [_sortable(v) for v in row["values"].values()])
+    ordered = sorted(rows, key=lambda row: [_sort_key(v) for v in row["values"].values()])
     cells = tuple(
         (*(_cell(v) for v in row["values"].values()), row["reason"] or row["outcome"],
          *(_cell(row["measures"].get(key)) for key in names))
@@ -54,14 +54,14 @@ def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[
     ]
     whole = [row for row in ordered if row["outcome"] == "done"]
     if whole and len(axes) <= 2:
-        drawn = _drawn(axes, whole, (names[0], LAYER))
+        drawn = _line_data(axes, whole, (names[0], LAYER))
         words = f"{names[0]} and {LAYER}, {sweep['scenario']}."
         blocks.insert(0, Picture(f"sweep_{number + 1}", "sweep", drawn, words,
                                  f"{where}, outcome = done"))  # fmt: skip
     return blocks
 
 
-def _drawn(axes: Sequence[str], rows: Sequence[Row], shown: tuple[str, str]) -> dict[str, Any]:
+def _line_data(axes: Sequence[str], rows: Sequence[Row], shown: tuple[str, str]) -> dict[str, Any]:
     """Lines of two measures against the first axis, one a value of the second."""
     lines: dict[str, list[tuple[Any, float, float]]] = {}
     for row in rows:
@@ -78,7 +78,7 @@ def _axis(name: str, rows: Sequence[Row]) -> str:
     return f"{name} [{UNITS.get(name, OTHER)}]"
 
 
-def _sortable(value: object) -> tuple[int, float, str]:
+def _sort_key(value: object) -> tuple[int, float, str]:
     return (0, float(value), "") if isinstance(value, int | float) else (1, 0.0, str(value))
 
 

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.report.statistics import (
     LOW,
     SHIFT,
     interval,
-    resampled,
+    resampled_means,
     shifted_geometric_mean,
     success,
 )
@@ -105,7 +105,7 @@ next two: beyond the tolerances, and within them), and that there is none."""
 def solver_table(comparison: Comparison, setting: str) -> Table:
     """Every solver at one setting: digits, success and time, of the calls that were made."""
     where = comparison.at(setting)
-    own = comparison.called.at(setting=setting)
+    own = comparison.calls.at(setting=setting)
     heads = solver_headings(comparison.rows)
     rows = [
         (*solver_cells(part), *(cell(part) for cell in CELLS.values()))
@@ -133,7 +133,7 @@ def same_problems(rows: Rows) -> str:
 
 def _shares(own: Rows) -> str:
     """The share with 6 digits, and its interval."""
-    samples = resampled((own["digits"] >= WANTED).astype(float), own["family"])
+    samples = resampled_means((own["digits"] >= WANTED).astype(float), own["family"])
     span = " to ".join(map(tenths, interval(100 * samples)))
     return f"{_share(WANTED)(own)} ({span})"
 
@@ -180,7 +180,7 @@ def interface_table(comparison: Comparison) -> Table:
     lines = []
     for one in found:
         own = one.rows
-        span = interval(np.exp(resampled(np.log(one.times + SHIFT), own["family"])) - SHIFT)
+        span = interval(np.exp(resampled_means(np.log(one.times + SHIFT), own["family"])) - SHIFT)
         given = options_words(comparison.options[own.first("way")][one.setting], LIMITS)
         lines.append((
             *solver_cells(own), one.setting, f"`{given}`", str(len(own)),
@@ -230,7 +230,7 @@ def claims_sentences(rows: Rows) -> list[str]:
     by_multipliers = len(possible.at(wrong=True, wrong_multipliers=True))
     false = len(possible.at(wrong=True))
     beyond = len(impossible.at(wrong=True))
-    kept = len(rows.at(said_optimal=True, wrong=True).kept(within))
+    kept = len(rows.at(said_optimal=True, wrong=True).kept(is_within_limits))
     return [
         f"Of {len(possible):,} claims of success on problems with a solution {false:,} are false: "
         f"in {by_multipliers:,} the dual residual or the gap is larger than promised, in the other "
@@ -244,7 +244,7 @@ def claims_sentences(rows: Rows) -> list[str]:
     ]
 
 
-def within(row: Row) -> bool:
+def is_within_limits(row: Row) -> bool:
     """Whether each residual is within its limit, in a row that was judged by residuals."""
     limits = {name: most for name, most in row["allowed"].items() if most is not None}
     judged = row["outcome"] == SOLVED and bool(limits)
@@ -350,7 +350,7 @@ def contrast(
 def family_table(comparison: Comparison, setting: str) -> Table:
     """Median digits of each solver by family, at one setting."""
     where = comparison.at(setting)
-    own = comparison.called.at(setting=setting)
+    own = comparison.calls.at(setting=setting)
     labels = [label for (label,) in own.groups("label")]
     lines = []
     for (family,), part in own.groups("family").items():

@@ -79,7 +79,7 @@ def part_read(words: str) -> Part:
     return Part(folder, Contents(study, rows, found.problems, found.unreached))
 
 
-def merged(parts: Sequence[Part], out: str | Path) -> Path:
+def merged_store(parts: Sequence[Part], out: str | Path) -> Path:
     """Write the rows of all parts as one store; whatever happens, the whole of it or nothing.
 
     Parameters
@@ -114,7 +114,7 @@ def merged(parts: Sequence[Part], out: str | Path) -> Path:
         begun.mkdir(parents=True)
         with Store(begun, study, parts[0].found.problems) as store:
             store.add(*rows)
-            store.unreached(unreached)
+            store.keep_unreached(unreached)
         for part in [part for part in parts if (part.folder / FOLDER).exists()][:1]:
             shutil.copytree(part.folder / FOLDER, begun / FOLDER)
         begun.rename(out)
@@ -155,7 +155,7 @@ def _rows(parts: Sequence[Part]) -> list[Row]:
     where: dict[tuple[Any, ...], Path] = {}
     made: dict[str, Path] = {}
     for part in parts:
-        timed = [_measured(row) for row in part.found.rows if row["calls"] >= TIMED]
+        timed = [_text_without_machine(row) for row in part.found.rows if row["calls"] >= TIMED]
         known = [made[one] for one in timed if one in made]
         if len(known) > TWICE * len(timed):
             problem = f"holds {len(known):,} rows that {known[0]} has too; give each only once"
@@ -173,6 +173,6 @@ def _rows(parts: Sequence[Part]) -> list[Row]:
     return [row for part in parts for row in part.found.rows]
 
 
-def _measured(row: Row) -> str:
+def _text_without_machine(row: Row) -> str:
     """A row without its machine, and short: the same of a store and of that store packed."""
     return json_text(shorter({k: v for k, v in row.items() if k != "machine"}))

@@ -24,7 +24,7 @@ DECIMALS = 3
 """Of digits, which are rounded down, so that no threshold is passed that was not."""
 
 
-def packed(folder: str | Path, out: str | Path) -> Path:
+def packed_store(folder: str | Path, out: str | Path) -> Path:
     """Write a store again, packed; ``study report`` reads it as it reads the other.
 
     Parameters

@@ -106,22 +106,22 @@ class Store:
             claimed = wanted if there is None else continued(there.study, wanted, Path(folder))
             self.rows = [] if there is None else there.rows
             if there is None:
-                self._made(claimed, problems)
-            with self._written():
+                self._make(claimed, problems)
+            with self._errors_of_writing():
                 self._tables = sqlite3.connect(self.path)
                 self._tables.execute("PRAGMA foreign_keys = ON")
-            with self._written(), self._tables:
+            with self._errors_of_writing(), self._tables:
                 about_written(self._tables, claimed, problems)
         except BaseException:
             os.close(self._folder)
             raise
 
-    def _made(self, study: Mapping[str, Any], problems: Sequence[Mapping[str, Any]]) -> None:
+    def _make(self, study: Mapping[str, Any], problems: Sequence[Mapping[str, Any]]) -> None:
         """Make the file under another name, until it is whole: a process may end in between."""
         new = self.path.with_name(f".{STORE}")
         for path in (new, new.with_name(f"{new.name}-journal")):
             path.unlink(missing_ok=True)
-        with self._written(), closing(sqlite3.connect(new)) as tables:
+        with self._errors_of_writing(), closing(sqlite3.connect(new)) as tables:
             tables.executescript(SCHEMA)
             with tables:
                 about_written(tables, study, problems)
@@ -140,20 +140,20 @@ class Store:
         InputError
             If they cannot be written, as on a full disk; the rows before them are kept.
         """
-        with self._written(), self._tables:
+        with self._errors_of_writing(), self._tables:
             for row in rows:
                 row_put(self._tables, row)
         self.rows += rows
 
-    def unreached(self, reasons: Mapping[str, str]) -> None:
+    def keep_unreached(self, reasons: Mapping[str, str]) -> None:
         """Keep which solvers could not be imported, and why; a later run tries them again."""
-        with self._written(), self._tables:
+        with self._errors_of_writing(), self._tables:
             self._tables.execute("DELETE FROM unreached")
             for solver, reason in reasons.items():
                 put(self._tables, "unreached", {"solver": solver, "reason": reason})
 
     @contextmanager
-    def _written(self) -> Iterator[None]:
+    def _errors_of_writing(self) -> Iterator[None]:
         try:
             yield
         except sqlite3.Error as error:
@@ -195,8 +195,10 @@ def contents(folder: str | Path, every: bool = False) -> Contents:
         tables.executescript(SCHEMA)
         try:
             with tables:
-                for name, columns, lines in (_unpacked if path.name == PACKED else _stored)(path):
-                    inserted(tables, name, columns, lines)
+                for name, columns, lines in (
+                    _unpacked_tables if path.name == PACKED else _stored_tables
+                )(path):
+                    insert_lines(tables, name, columns, lines)
             return _contents(tables, every)
         except UNREADABLE as error:
             if isinstance(error, InputError):
@@ -254,10 +256,10 @@ def row_put(tables: sqlite3.Connection, row: Row) -> None:
 def put(tables: sqlite3.Connection, name: str, record: Mapping[str, Any]) -> None:
     """Add a record to a table."""
     columns = flat(record)
-    inserted(tables, name, list(columns), [tuple(columns.values())])
+    insert_lines(tables, name, list(columns), [tuple(columns.values())])
 
 
-def inserted(
+def insert_lines(
     tables: sqlite3.Connection, name: str, columns: Sequence[str], lines: Iterable[Line]
 ) -> None:
     """Add lines to a table.
@@ -287,7 +289,7 @@ def records_of(tables: sqlite3.Connection, name: str) -> Iterator[Row]:
         yield nested(dict(zip(columns, line, strict=True)))
 
 
-def _stored(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
+def _stored_tables(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
     """Every table of a file of SQLite, with its columns and lines."""
     with closing(sqlite3.connect(path)) as there:
         work = itertools.count()
@@ -314,7 +316,7 @@ def _too_large(path: Path) -> InputError:
     return InputError(f"holds more than {LARGEST_UNPACKED / 2**20:g} MiB", file=path)
 
 
-def _unpacked(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
+def _unpacked_tables(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
     """Every packed table, with its columns and lines."""
     head = json.loads(_decompressed(path))
     if (head["format"], head["version"]) != (FORMAT, VERSION):

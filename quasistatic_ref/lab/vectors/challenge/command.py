@@ -51,14 +51,14 @@ def challenge_status(options: argparse.Namespace) -> int:
             scope=scope_read(options.scope),
             say=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
         )
-    _shown(outcome, options)
+    _print_outcome(outcome, options)
     return outcome.status
 
 
-def _shown(outcome: Outcome, options: argparse.Namespace) -> None:
+def _print_outcome(outcome: Outcome, options: argparse.Namespace) -> None:
     """Print what was found, and write its counterexamples."""
     written = [] if options.again else [
-        finding.written(options.out, options.program) for finding in outcome.findings
+        finding.write_folder(options.out, options.program) for finding in outcome.findings
     ]  # fmt: skip
     if options.json:
         record = {

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import FLOOD, Program, Reply
 from quasistatic_ref.lab.vectors.challenge.simpler import shrunk
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
-from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of, predicted
+from quasistatic_ref.lab.vectors.check.mistakes import Failed, is_explained_by, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
@@ -95,15 +95,15 @@ class Diagnosis:
         """Ask one round, and look into what failed."""
         self._wanted |= {layer for layer, _, _ in tasks}
         self._ask(tasks)
-        new = [layer for layer in LAYERS if self._new(layer)]
+        new = [layer for layer in LAYERS if self._new_failure(layer)]
         for layer in new:
             seed = (*tasks[0][1][:2], len(tasks))
             self._ask([(layer, (*seed, i), (PLAIN, HARD)[i % 2]) for i in range(MORE)])
         for layer in new:
-            while (one := self._new(layer)) and not self.full:
-                self._found(layer, one)
+            while (one := self._new_failure(layer)) and not self.full:
+                self._add_finding(layer, one)
 
-    def ended(self) -> Outcome:
+    def final_outcome(self) -> Outcome:
         """The outcome, with remarks."""
         self.outcome.implementation = self.program.said.implementation
         if self.program.flood > FLOOD:
@@ -153,16 +153,16 @@ class Diagnosis:
                 self._troubles[layer] += reply.kind in ("crash", "hang", "late", "garbage")
                 self._trouble(reply.kind, layer, id, reply.said, case)
             return
-        one = self._judged(id, layer, case, record, reply)
+        one = self._judgement(id, layer, case, record, reply)
         self.outcome.verdicts[layer, one.verdict.verdict] += 1
         if one.verdict.verdict == FAILED:
-            self._seen()
+            self._note_time()
         (self._failed if one.verdict.verdict == FAILED else self._right)[layer].append(one)
 
-    def _seen(self) -> None:
+    def _note_time(self) -> None:
         self.outcome.found_after = min(self.outcome.found_after, time.monotonic() - self._began)
 
-    def _judged(self, id: str, layer: str, case: Json, record: Json, reply: Reply) -> Failed:
+    def _judgement(self, id: str, layer: str, case: Json, record: Json, reply: Reply) -> Failed:
         with np.errstate(all="ignore"):  # answers may be any numbers
             whole = Case(id, "", case)
             said = self.program.said
@@ -174,7 +174,7 @@ class Diagnosis:
         """A finding without an answer: once by layer and kind, its case made smaller."""
         if (layer, kind) in self._known or self.full:
             return
-        self._seen()
+        self._note_time()
         self._known.add((layer, kind))
         if kind in ("error", "crash"):
             case = shrunk(case, lambda other: self._replies(layer, other, kind), 60)
@@ -185,37 +185,37 @@ class Diagnosis:
     def _replies(self, layer: str, case: Json, kind: str) -> bool:
         if self.late or record_of(layer, case) is None:
             return False
-        return self._again(layer, case).kind == kind
+        return self._reply_again(layer, case).kind == kind
 
-    def _again(self, layer: str, case: Json) -> Reply:
+    def _reply_again(self, layer: str, case: Json) -> Reply:
         self._shrinks += 1
         return self.program.ask(f"{layer}/smaller/{self._shrinks}", layer, case)
 
-    def _new(self, layer: str) -> Failed | None:
+    def _new_failure(self, layer: str) -> Failed | None:
         """The smallest failure of a field that is not yet known."""
         new = [one for one in self._failed[layer] if (layer, one.verdict.field) not in self._known]
         return min(new, key=lambda one: len(str(one.case)), default=None)
 
-    def _found(self, layer: str, one: Failed) -> None:
+    def _add_finding(self, layer: str, one: Failed) -> None:
         """Name a failure and make its case smaller."""
         at = one.verdict.field
         same = [other for other in self._failed[layer] if other.verdict.field == at]
         self._known.add((layer, at))
         with np.errstate(all="ignore"):
             named = mistakes_of(layer, same, self._right[layer])
-            same_way = [o for o in same if self._explained(layer, named, o)] or [one]
+            same_way = [o for o in same if self._is_explained(layer, named, o)] or [one]
             one = min(same_way, key=lambda o: len(str(o.case)))
             best = [one]
 
             def fails(case: Json) -> bool:
                 record = None if self.late else record_of(layer, case)
-                reply = self._again(layer, case) if record is not None else Reply("none")
+                reply = self._reply_again(layer, case) if record is not None else Reply("none")
                 if reply.kind != "output":
                     return False
-                other = self._judged(one.id, layer, case, record, reply)
+                other = self._judgement(one.id, layer, case, record, reply)
                 if other.verdict.verdict != FAILED or other.verdict.field != at:
                     return False
-                if named and not self._explained(layer, named, other):
+                if named and not self._is_explained(layer, named, other):
                     return False
                 best[0] = other
                 return True
@@ -245,5 +245,5 @@ class Diagnosis:
             )
         )  # fmt: skip
 
-    def _explained(self, layer: str, named: Sequence[Named], one: Failed) -> bool:
-        return any(predicted(layer, name.name, one) for name in named)
+    def _is_explained(self, layer: str, named: Sequence[Named], one: Failed) -> bool:
+        return any(is_explained_by(layer, name.name, one) for name in named)

@@ -80,7 +80,7 @@ class Finding:
             "sentences": list(self.sentences),
         }
 
-    def written(self, folder: Path, command: str) -> Path:
+    def write_folder(self, folder: Path, command: str) -> Path:
         """Write its folder: the record, and a page with the line that runs it again."""
         place = folder / self.name
         record = json.dumps(mapped(self.record, _finite), indent=1, allow_nan=False)

@@ -116,7 +116,7 @@ def record_of(name: str, case: Json) -> Json | None:
         tolerance["absolute"] *= MARGIN
     output = record["output"]
     flags = record["flags"]
-    if name == "step" and (flags["tie"] or not _definite(output["H"])):
+    if name == "step" and (flags["tie"] or not _is_definite(output["H"])):
         return None
     smooth = name == "derivative" and output["differentiable"]
     if smooth and (not is_tame(output) or hangs_on_rounding(case)):
@@ -132,7 +132,7 @@ FARTHEST = 1e3
 do."""
 
 
-def _definite(H: Json) -> bool:
+def _is_definite(H: Json) -> bool:
     return not H or bool(np.linalg.eigvalsh(np.array(H)).min() > 0)
 
 
@@ -293,14 +293,14 @@ def _distance(rng: Rng, level: int) -> Json:
     sides = sides[:: 1 if rng.integers(2) else -1]
     places = [random_pose(rng, 0.6) for _ in sides]
     if level != EASY and rng.integers(6) == 0:  # a small ball inside of a turned box
-        sides, places = _inside(rng, places[0])
+        sides, places = _ball_in_box(rng, places[0])
     if level == HARD and rng.integers(4) == 0:
         places = [{**place, "xyz": few_digits(1e4 * np.array(place["xyz"]))} for place in places]
     named = zip(("alpha", "beta"), sides, places, strict=True)
     return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
 
 
-def _inside(rng: Rng, place: Json) -> tuple[list[Json], list[Json]]:
+def _ball_in_box(rng: Rng, place: Json) -> tuple[list[Json], list[Json]]:
     """A ball whose centre is in a box: the normal is that of the nearest face."""
     size = np.array(SHAPES["box"]["size"])
     R, t = frame(place)

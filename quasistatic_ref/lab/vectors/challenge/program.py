@@ -131,7 +131,7 @@ class Program:
             if reply is not None:
                 if warming:  # started again, it may take twice that
                     self._warming = 2 * took
-                return reply if took <= allowed else _late(reply, took, allowed)
+                return reply if took <= allowed else _late_reply(reply, took, allowed)
             if len(strays) >= STRAY:
                 self._stop()
                 return Reply("garbage", said=strays[0], strays=tuple(strays[:1]))
@@ -212,15 +212,15 @@ class Program:
         self._threads = [
             threading.Thread(target=target, args=arguments, daemon=True)
             for target, arguments in (
-                (_fed, (pipes[0], self._inbox)),
+                (_send_lines, (pipes[0], self._inbox)),
                 (_read, (pipes[1], self._lines)),
-                (self._drained, (pipes[2],)),
+                (self._drain, (pipes[2],)),
             )
         ]
         for thread in self._threads:
             thread.start()
 
-    def _drained(self, pipe: IO[bytes]) -> None:
+    def _drain(self, pipe: IO[bytes]) -> None:
         with contextlib.suppress(OSError, ValueError):
             while part := os.read(pipe.fileno(), 65536):
                 self.flood += len(part)
@@ -248,13 +248,13 @@ class Program:
                     pipe.close()
 
 
-def _late(reply: Reply, took: float, allowed: float) -> Reply:
+def _late_reply(reply: Reply, took: float, allowed: float) -> Reply:
     """What an answer is that came too late: not judged."""
     said = f"answered after {took:.3g} s; {allowed:g} s are allowed"
     return Reply("late", said=said, strays=reply.strays)
 
 
-def _fed(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:
+def _send_lines(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:
     """Send the cases: a program that does not read holds up nobody else."""
     with contextlib.suppress(OSError, ValueError):
         while (line := lines.get()) is not None:

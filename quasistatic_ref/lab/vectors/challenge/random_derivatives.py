@@ -43,13 +43,13 @@ def derivative_at_random(rng: Rng, level: int) -> Json:
     if kind == 0:
         return random_scene(rng, hard=level == 2)
     wanted = "derivative/kink/" if level == 2 else "derivative/pair/"
-    chosen = [case.input for case in _known() if case.id.startswith(wanted)]
+    chosen = [case.input for case in _committed_cases() if case.id.startswith(wanted)]
     case: Json = chosen[int(rng.integers(len(chosen)))]
     return case if level == 2 else _varied(rng, case)
 
 
 @cache
-def _known() -> list[Case]:
+def _committed_cases() -> list[Case]:
     """The cases among the vectors that come along."""
     return inputs_read(vectors_folder(), "derivative")
 

@@ -24,21 +24,21 @@ def fewer_parts(case: Json) -> Iterator[Json]:
     for path, value in nodes(case):
         name = str(path[-1]) if path else ""
         if isinstance(value, list) and (name in LISTS or path[:-1] == ("phi",)):
-            for part in _fewer(value):
+            for part in _fewer_values(value):
                 if len(part) >= LISTS.get(name, 0):
-                    yield _used(replaced(case, path, part))
+                    yield _without_unused_shapes(replaced(case, path, part))
         elif name == "k":
             yield from (replaced(case, path, k) for k in range(1, value))
     if "bodies" in case:  # of the layer wrench
         for name in case["bodies"]:
             rest = {key: value for key, value in case["bodies"].items() if key != name}
-            yield {**case, "bodies": rest, "contacts": _loose(case["contacts"], name)}
+            yield {**case, "bodies": rest, "contacts": _loose_contacts(case["contacts"], name)}
     if "A" in case:
-        for kept in _fewer(range(len(case["b"]))):
+        for kept in _fewer_values(range(len(case["b"]))):
             yield {**case, **{key: [case[key][i] for i in kept] for key in ("A", "b")}}
 
 
-def _fewer(values: Sequence[Json]) -> Iterator[list[Json]]:
+def _fewer_values(values: Sequence[Json]) -> Iterator[list[Json]]:
     """Half of them, one alone, all but one."""
     if len(values) > 3:
         half = len(values) // 2
@@ -49,7 +49,7 @@ def _fewer(values: Sequence[Json]) -> Iterator[list[Json]]:
         yield [*values[:i], *values[i + 1 :]]
 
 
-def _used(case: Json) -> Json:
+def _without_unused_shapes(case: Json) -> Json:
     """A step without shapes that no pair names."""
     if "shapes" not in case:
         return case
@@ -57,7 +57,7 @@ def _used(case: Json) -> Json:
     return {**case, "shapes": {k: v for k, v in case["shapes"].items() if k in named}}
 
 
-def _loose(contacts: Json, name: str) -> Json:
+def _loose_contacts(contacts: Json, name: str) -> Json:
     """Contacts on the world in the place of a body."""
     sides = ("alpha_body", "beta_body")
     loose = [{**c, **{s: None for s in sides if c[s] == name}} for c in contacts]
@@ -73,14 +73,14 @@ def fewer_bodies(case: Json) -> Iterator[Json]:
             for other in bodies
         )
         if not carries and len(bodies) > 1:
-            yield _without(case, body["name"])
+            yield _without_body(case, body["name"])
     for k, body in enumerate(bodies):
         if body["parent"] is not None:
             rest = [*bodies[:k], {**body, "parent": None}, *bodies[k + 1 :]]
             yield {**case, "mechanism": {"bodies": rest}}
 
 
-def _without(case: Json, name: str) -> Json:
+def _without_body(case: Json, name: str) -> Json:
     """The case without a body, its entries of q and delta_q, its contacts, shapes and wrenches."""
     q = slice(0, 0)
     v = slice(0, 0)
@@ -93,14 +93,14 @@ def _without(case: Json, name: str) -> Json:
     if "delta_q" in case:
         changed["delta_q"] = _cut(case["delta_q"], v)
     if "contacts" in case:
-        changed["contacts"] = _loose(case["contacts"], name)
+        changed["contacts"] = _loose_contacts(case["contacts"], name)
     if "shapes" in case:
         on = {key for key, entry in case["shapes"].items() if entry["body"] == name}
         changed["pairs"] = [p for p in case["pairs"] if not {p["alpha"], p["beta"]} & on]
         changed["wrenches"] = [w for w in case.get("wrenches", []) if w["body"] != name]
         changed["K_q"] = _cut([_cut(row, v) for row in case["K_q"]], v)
         changed["q_bar_a"] = _cut(case["q_bar_a"], q)
-        changed = _used(changed)
+        changed = _without_unused_shapes(changed)
     return changed
 
 

@@ -85,7 +85,7 @@ def challenge(
         if jobs > 1:
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
-            makers = partial(pool.map, _made)
+            makers = partial(pool.map, _task_and_case)
         found = Diagnosis(player, digits, makers, scope, until)
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
@@ -101,7 +101,7 @@ def challenge(
             number += 1
             if first and found.outcome.findings:
                 break
-    return found.ended()
+    return found.final_outcome()
 
 
 def _round(names: Sequence[str], seed: int, number: int) -> list[Task]:
@@ -110,12 +110,12 @@ def _round(names: Sequence[str], seed: int, number: int) -> list[Task]:
     return [(name, (seed, number, i), level) for name in names for i in range(ROUND[name])]
 
 
-def _made(task: Task) -> tuple[Task, Json, Json]:
+def _task_and_case(task: Task) -> tuple[Task, Json, Json]:
     return (task, *fresh_case(*task))
 
 
 def _made_here(tasks: Iterable[Task]) -> Iterator[tuple[Task, Json, Json]]:
-    return map(_made, tasks)
+    return map(_task_and_case, tasks)
 
 
 def sent_again(program: Program, finding: Json, digits: float | None = None) -> Outcome:
@@ -144,4 +144,4 @@ def sent_again(program: Program, finding: Json, digits: float | None = None) -> 
         found.outcome.sent[layer] += 1
         found.ask("again", layer, case, record)
     found.as_before(layer, tuple(finding["mistakes"]), tuple(finding["sentences"]))
-    return found.ended()
+    return found.final_outcome()

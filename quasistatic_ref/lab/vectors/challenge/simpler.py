@@ -26,7 +26,7 @@ BUDGET = 250
 """At most so many inputs are tried."""
 
 
-def few(value: Json, digits: int) -> Json:
+def in_digits(value: Json, digits: int) -> Json:
     """All numbers of a value with so many significant digits."""
 
     def rounded(x: Json) -> Json:
@@ -39,7 +39,7 @@ def rounded_case(name: str, case: Json) -> Json:
     """The same with numbers of one digit and frames along the axes; a whole step as it is."""
     if name in ("step", "derivative"):
         return case  # rounded, what nearly touches would not
-    changed = few(case, 1)
+    changed = in_digits(case, 1)
     for contact in changed.get("contacts", []):
         contact |= axes_of(contact)
     return changed
@@ -80,15 +80,15 @@ def simpler_fields(case: Json) -> Iterator[Json]:
 def simpler_numbers(case: Json) -> Iterator[Json]:
     """All numbers, those of a list, or one: of few digits, or none."""
     for digits in (1, 2, 3):
-        yield few(case, digits)
+        yield in_digits(case, digits)
     for path, value in nodes(case):
         if path and path[-1] not in KEPT and not set(path) & set(FRAME):
             if isinstance(value, list) and value and not isinstance(value[0], dict | str):
                 yield replaced(case, path, mapped(value, lambda _: 0.0))
                 for digits in (1, 2, 3):
-                    yield replaced(case, path, few(value, digits))
+                    yield replaced(case, path, in_digits(value, digits))
             elif isinstance(value, float) and value:
-                for other in (0.0, few(value, 1), few(value, 2), few(value, 3)):
+                for other in (0.0, in_digits(value, 1), in_digits(value, 2), in_digits(value, 3)):
                     yield replaced(case, path, other)
 
 

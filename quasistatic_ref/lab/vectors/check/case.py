@@ -22,7 +22,7 @@ from quasistatic_ref.lab.vectors.check.freedoms import (
 )
 from quasistatic_ref.lab.vectors.check.loosened import loosened
 from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
-from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 
@@ -52,11 +52,11 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     Verdict
         Its id is empty. Fields that the layer does not ask for are named, and not looked at.
     """
-    asked, extra = _asked(layer, record, answer)
+    asked, extra = _asked_fields(layer, record, answer)
     return replace(_verdict(layer, case, record, asked), extra=extra)
 
 
-def _asked(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[str, ...]]:
+def _asked_fields(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[str, ...]]:
     """An answer without the fields that its layer never asks for, and their names."""
     if not isinstance(answer, dict):
         return answer, ()
@@ -86,22 +86,22 @@ def _verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
         if "forces" not in expected and "delta_q" in expected:  # as before version 6
             answer = {name: value for name, value in answer.items() if name != "forces"}
         if "farkas" in answer and "farkas" in expected:
-            return _infeasible(layer, case, record, answer)
+            return _verdict_on_proof(layer, case, record, answer)
         if "farkas" in answer:
             return failure("farkas", "farkas is given, but the case has a solution")
         if "farkas" in expected and (layer == "qp" or "delta_q" in answer):
             return _unseen(case, record, answer)
     if layer == "qp" and isinstance(answer, dict) and "certificate" in answer:
-        return _certified(case, record, answer)
+        return _verdict_with_certificate(case, record, answer)
     expected = {name: value for name, value in expected.items() if name not in NO_NUMBERS}
-    missing = absent(expected, answer) if layer in IN_PART and isinstance(answer, dict) else ()
+    missing = omissions(expected, answer) if layer in IN_PART and isinstance(answer, dict) else ()
     if missing:
         record = {**record, "contacts": expected.get("contacts")}
-        record["output"] = expected = _given(expected, missing)
-    return replace(_compared(layer, case, record, expected, answer), without=missing)
+        record["output"] = expected = _expected_without(expected, missing)
+    return replace(_field_verdict(layer, case, record, expected, answer), without=missing)
 
 
-def _compared(layer: str, case: Json, record: Json, expected: Json, answer: Json) -> Verdict:
+def _field_verdict(layer: str, case: Json, record: Json, expected: Json, answer: Json) -> Verdict:
     """The verdict on the fields of an answer, number by number and by its layer's freedoms."""
     problem = shape_problem(layer, expected, answer)
     if problem:
@@ -112,7 +112,7 @@ def _compared(layer: str, case: Json, record: Json, expected: Json, answer: Json
     free = dependent_fields(layer, record)
     digits = min((d.digits for name, d in found.items() if name not in free), default=None)
     if not failing and signed != answer:
-        return acceptable("-q in the place of a quaternion q", digits)
+        return acceptance("-q in the place of a quaternion q", digits)
     if not failing:
         return Verdict("", PASSED, digits=digits)
     freedom = FREEDOMS.get(layer)
@@ -134,11 +134,11 @@ def verdict_to_digits(
     loose = case_verdict(layer, case, loosened(record, digits), answer)
     if loose.verdict == FAILED:
         return loose
-    right = acceptable(f"right to {digits:g} digits", loose.digits)
+    right = acceptance(f"right to {digits:g} digits", loose.digits)
     return replace(right, without=loose.without, extra=loose.extra, loose=True)
 
 
-def absent(expected: Json, answer: Json) -> tuple[str, ...]:
+def omissions(expected: Json, answer: Json) -> tuple[str, ...]:
     """Fields that an answer leaves out, if it has any others."""
     names = [name for name in expected if name not in (*answer, *OPTIONAL["step"])]
     contacts = answer.get("contacts")
@@ -148,7 +148,7 @@ def absent(expected: Json, answer: Json) -> tuple[str, ...]:
     return tuple(names) if set(expected) & set(answer) else ()
 
 
-def _given(expected: Json, missing: tuple[str, ...]) -> Json:
+def _expected_without(expected: Json, missing: tuple[str, ...]) -> Json:
     """What is expected without some of its fields."""
     kept = {name: value for name, value in expected.items() if name not in missing}
     if "contacts" in kept:
@@ -157,7 +157,7 @@ def _given(expected: Json, missing: tuple[str, ...]) -> Json:
     return kept
 
 
-def _certified(case: Json, record: Json, answer: Json) -> Verdict:
+def _verdict_with_certificate(case: Json, record: Json, answer: Json) -> Verdict:
     """An answer with a certificate, which is the expected one or has to hold by itself."""
     rest = {name: value for name, value in answer.items() if name != "certificate"}
     verdict = case_verdict("qp", case, record, rest)
@@ -165,7 +165,7 @@ def _certified(case: Json, record: Json, answer: Json) -> Verdict:
         return verdict
     if problem := certificate_problem(case, answer):
         return failure("certificate", f"certificate: {problem}")
-    return acceptable("another certificate that holds", verdict.digits)
+    return acceptance("another certificate that holds", verdict.digits)
 
 
 def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
@@ -180,10 +180,10 @@ def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
         return missing
     if not (slack >= -CONTRADICTION * size).all():  # not: NaN
         return missing
-    return acceptable("a contradiction smaller than rounding is not seen")
+    return acceptance("a contradiction smaller than rounding is not seen")
 
 
-def _infeasible(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
+def _verdict_on_proof(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     """A proof that a case has no solution; of a whole step, after what led to it."""
     if layer == "step":
         proved = ("farkas", "certificate")

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 
@@ -29,7 +29,7 @@ def existence_verdict(record: Json, answer: Json) -> Verdict | None:
     if claimed:
         return None
     if record["flags"]["switch"]:
-        return acceptable("no derivative is given where a part of the step changes its branch")
+        return acceptance("no derivative is given where a part of the step changes its branch")
     return failure("differentiable", "q+ has derivatives here, and the answer says it has none")
 
 
@@ -48,7 +48,7 @@ def _kink(expected: Sequence[Json], answer: Json) -> Verdict:
     if given == wanted:
         return Verdict("", PASSED)
     if given > wanted:
-        return acceptable("the right reasons and further ones")
+        return acceptance("the right reasons and further ones")
     return failure("reasons", f"the reason is another one: {why}")
 
 

@@ -77,7 +77,7 @@ def check_answers(
     reports = []
     for name in known:
         records = expected_read(vectors, name)
-        cases = _named(inputs_read(vectors, name), only, name)
+        cases = _cases_named(inputs_read(vectors, name), only, name)
         within = [one for one in cases if scope.holds(name, one.input, records[one.id])]
         if within:
             report = layer_report(name, within, records, found[name], digits, scope)
@@ -86,7 +86,7 @@ def check_answers(
     return Report(str(folder), tuple(reports), digits, own)
 
 
-def _named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
+def _cases_named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
     """The cases of a layer whose ids are named, or begin as is named; all where none is."""
     found: list[Case] = []
     for one in only:

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.check.multipliers import (
 )
 from quasistatic_ref.lab.vectors.check.other_contacts import contacts_problem, record_from
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
-from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.check.verdict import Difference, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.expected import Json
 
@@ -52,7 +52,7 @@ def another_witness(case: Json, record: Json, answer: Json, failing: Failing) ->
             first = next(iter(failing.values()))
             sentence = f"{first.sentence}; nor is it another valid one: {problem}"
             return failure(first.field, sentence, first.digits)
-    return acceptable("another witness of the same distance")
+    return acceptance("another witness of the same distance")
 
 
 def _far(failing: Failing) -> bool:
@@ -78,7 +78,7 @@ def other_choice(case: Json, record: Json, answer: Json, failing: Failing) -> Ve
             return plain_failure(failing)
     if not unit:
         return failure("indices", "indices: equal distances stand in the order of their places")
-    return acceptable("another choice among distances that are equal to so many digits")
+    return acceptance("another choice among distances that are equal to so many digits")
 
 
 def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
@@ -103,7 +103,7 @@ def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) 
     problem = multipliers_problem(rows, record, answer["lam"], conic=conic)
     if problem:
         return failure("lam", f"lam is another one, and {problem}")
-    return acceptable("other multipliers with the same A'lam")
+    return acceptance("other multipliers with the same A'lam")
 
 
 def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
@@ -119,7 +119,7 @@ def other_step(case: Json, record: Json, answer: Json, failing: Failing) -> Verd
         return failure("lam", f"lam is another one, and {problem}")
     if "wrench" in answer and (problem := wrench_problem(case, record, answer)):
         return failure("wrench", problem)
-    return acceptable("other multipliers with the same A'lam")
+    return acceptance("other multipliers with the same A'lam")
 
 
 def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
@@ -144,7 +144,7 @@ def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) ->
         verdict = other_step(case, own, answer, failing)
         if verdict.field:
             return verdict
-    return acceptable("other contacts where rounding decides, and what follows from them")
+    return acceptance("other contacts where rounding decides, and what follows from them")
 
 
 FREEDOMS: dict[str, Callable[[Json, Json, Json, Failing], Verdict]] = {

@@ -62,7 +62,7 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
         if layer not in mistake.predictions:
             continue
         perfect = any(score == len(tried) for score, _, _ in found)
-        explained = _explained(layer, mistake, tried, len(tried) if perfect else None)
+        explained = _hit_count(layer, mistake, tried, len(tried) if perfect else None)
         if not explained:
             continue
         spoiled = sum(_would_spoil(layer, mistake, one) for one in checked)
@@ -76,12 +76,12 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
     )
 
 
-def _explained(layer: str, mistake: Mistake, tried: Sequence[Failed], least: int | None) -> int:
+def _hit_count(layer: str, mistake: Mistake, tried: Sequence[Failed], least: int | None) -> int:
     """How many of the failures it predicts; 0 if less than `least`, or than half."""
     wanted = -(-len(tried) // 2) if least is None else least
     explained = 0
     for i, one in enumerate(tried):
-        explained += _predicted(layer, mistake, one)
+        explained += _is_predicted(layer, mistake, one)
         if explained + len(tried) - i - 1 < wanted:
             return 0
     return explained
@@ -99,7 +99,7 @@ def _predictions(layer: str, mistake: Mistake, one: Failed) -> list[Json]:
         return []  # a mistake that cannot be made in this case
 
 
-def _predicted(layer: str, mistake: Mistake, one: Failed) -> bool:
+def _is_predicted(layer: str, mistake: Mistake, one: Failed) -> bool:
     """Whether one of the predictions is the answer wherever it is not the right answer.
 
     The field that fails first has to be one of those. Of a whole step no field after it is
@@ -110,11 +110,11 @@ def _predicted(layer: str, mistake: Mistake, one: Failed) -> bool:
     answered = parts(one.output)
     for prediction in _predictions(layer, mistake, one):
         fields = {name: v for name, v in parts(prediction).items() if name in answered}
-        wrong = [n for n, v in fields.items() if not _same(one, n, v, one.record["output"])]
+        wrong = [n for n, v in fields.items() if not _is_same(one, n, v, one.record["output"])]
         first = [i for i, name in enumerate(wrong) if _is_of(one.verdict.field, name)]
         if layer == "step" and first:
             wrong = wrong[: first[0] + 1]
-        if first and all(_same(one, name, fields[name], one.output) for name in wrong):
+        if first and all(_is_same(one, name, fields[name], one.output) for name in wrong):
             return True
     return False
 
@@ -124,22 +124,22 @@ def _is_of(field: str, name: str) -> bool:
     return field in ("", name, name.partition(".")[0])
 
 
-def predicted(layer: str, name: str, one: Failed) -> bool:
+def is_explained_by(layer: str, name: str, one: Failed) -> bool:
     """Whether a mistake of that name explains an answer."""
     known = next(mistake for mistake in MISTAKES if mistake.name == name)
-    return _predicted(layer, known, one)
+    return _is_predicted(layer, known, one)
 
 
 def _would_spoil(layer: str, mistake: Mistake, one: Failed) -> bool:
     """Whether every prediction is another than the answer, which is right."""
     predictions = _predictions(layer, mistake, one)
     return bool(predictions) and not any(
-        all(_same(one, field, value, one.output) for field, value in parts(prediction).items())
+        all(_is_same(one, field, value, one.output) for field, value in parts(prediction).items())
         for prediction in predictions
     )
 
 
-def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
+def _is_same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
     try:
         ours = prediction
         theirs = parts(output)[field]

@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
-from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
+from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptance, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.data import Array
@@ -133,7 +133,7 @@ def farkas_verdict(case: Json, record: Json, y: Json) -> Verdict:
         return failure("farkas", f"the largest entry must be 1, not {float(max(exact))!r}")
     expected = record["output"]["farkas"]
     same = all(float(value) == wanted for value, wanted in zip(exact, expected, strict=True))
-    return Verdict("", PASSED) if same else acceptable("another Farkas vector")
+    return Verdict("", PASSED) if same else acceptance("another Farkas vector")
 
 
 def _proof_problem(case: Json, y: list[Fraction], room: float) -> str | None:

@@ -83,12 +83,12 @@ def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
     near = np.flatnonzero(sizes <= sizes.min() + TIED)
     if (sizes[near] == sizes.min()).all():
         near = near[:1]
-    if not any(np.abs(d1 - _projected(int(i), n)).max() <= 4 * room for i in near):
+    if not any(np.abs(d1 - _tangent_along_axis(int(i), n)).max() <= 4 * room for i in near):
         return "d1 is not the projection of the axis farthest from n, the first of equals"
     return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * room else "d2 is not n x d1"
 
 
-def _projected(axis: int, n: Array) -> Array:
+def _tangent_along_axis(axis: int, n: Array) -> Array:
     d = np.eye(3)[axis] - n[axis] * n
     return np.asarray(d / np.linalg.norm(d))
 

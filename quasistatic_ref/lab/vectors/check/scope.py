@@ -121,11 +121,11 @@ class Scope:
         """
         said = []
         if self.pairs is not None:
-            said.append(_listed([" on ".join(pair) for pair in self.pairs]))
+            said.append(_listed_names([" on ".join(pair) for pair in self.pairs]))
         elif self.shapes is not None:
-            said.append(_listed(self.shapes))
+            said.append(_listed_names(self.shapes))
         if self.cones is not None:
-            said.append(f"cone {_listed(self.cones)}")
+            said.append(f"cone {_listed_names(self.cones)}")
         if self.rows != ROWS:
             said.append("without torsion" if self.rows == (4,) else "with torsion only")
         if self.law == "coulomb":
@@ -139,7 +139,7 @@ class Scope:
         return ", ".join(said)
 
 
-def _listed(names: tuple[str, ...] | list[str]) -> str:
+def _listed_names(names: tuple[str, ...] | list[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
@@ -183,7 +183,7 @@ def scope_read(path: str | Path | None) -> Scope:
         top.check_format(FORMAT, 1)
         law = top.text("law", LAWS[0], choices=LAWS)
         possible = COULOMB if law == "coulomb" else LAYERS
-        layers = _known(top, "layers", LAYERS) if "layers" in top else possible
+        layers = _known_names(top, "layers", LAYERS) if "layers" in top else possible
         for one in layers:
             if one not in possible:
                 problem = f"cannot be compared under Coulomb's law; these can: {', '.join(COULOMB)}"
@@ -191,7 +191,7 @@ def scope_read(path: str | Path | None) -> Scope:
         found = Scope(
             top.text("name"),
             tuple(name for name in LAYERS if name in layers),
-            shapes=_known(top, "shapes", KINDS) if "shapes" in top else None,
+            shapes=_known_names(top, "shapes", KINDS) if "shapes" in top else None,
             cones=tuple(top.words("cones")) if "cones" in top else None,
             pairs=_pairs_read(top) if "pairs" in top else None,
             rows=_rows_read(top) if "rows" in top else ROWS,
@@ -210,7 +210,7 @@ def scope_read(path: str | Path | None) -> Scope:
     return found
 
 
-def _known(top: TableReader, field: str, known: tuple[str, ...]) -> tuple[str, ...]:
+def _known_names(top: TableReader, field: str, known: tuple[str, ...]) -> tuple[str, ...]:
     """Names of which each is known."""
     words = top.words(field)
     for one in words:

@@ -40,7 +40,7 @@ class Mistake:
 
 
 @lru_cache(maxsize=32)
-def _right(layer: str, case: str) -> Json:
+def _right_answer(layer: str, case: str) -> Json:
     """What the program answers without a patch."""
     return parts(program()(layer, json.loads(case)))
 
@@ -48,10 +48,10 @@ def _right(layer: str, case: str) -> Json:
 def _predictions(patches: list[str], layer: str) -> Prediction:
     """What each patch changes in the program's answer."""
 
-    def predicted(case: Json, output: Json) -> Iterable[Json]:
+    def predictions(case: Json, output: Json) -> Iterable[Json]:
         if not output.get("differentiable", True):
             return  # no number is right there
-        right = _right(layer, json.dumps(case))
+        right = _right_answer(layer, json.dumps(case))
         for patch in patches:
             try:
                 wrong = parts(program(patch)(layer, case))
@@ -59,17 +59,17 @@ def _predictions(patches: list[str], layer: str) -> Prediction:
                 continue  # a mistake that cannot be made in this case
             yield {name: value for name, value in wrong.items() if value != right.get(name)}
 
-    return predicted
+    return predictions
 
 
 def _at_kinks(kinds: list[str]) -> Prediction:
     """Any numbers where there is no derivative for a reason of one of these kinds."""
 
-    def predicted(case: Json, output: Json) -> Iterable[Json]:
+    def predictions(case: Json, output: Json) -> Iterable[Json]:
         if {reason["kind"] for reason in output["reasons"]} & set(kinds):
             yield {"differentiable": True}
 
-    return predicted
+    return predictions
 
 
 def _variants(lines: str) -> list[str]:

@@ -105,7 +105,7 @@ def failure(field: str, reason: str, digits: float | None = None) -> Verdict:
     return Verdict("", FAILED, one_line(reason), one_line(field), digits)
 
 
-def acceptable(reason: str, digits: float | None = None) -> Verdict:
+def acceptance(reason: str, digits: float | None = None) -> Verdict:
     """A verdict that the answer is another right one."""
     return Verdict("", ACCEPTABLE, reason, "", digits)
 

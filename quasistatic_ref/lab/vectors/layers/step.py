@@ -151,7 +151,7 @@ def shape_pose(case: Json, entry: Json) -> Json:
 
     def world() -> Any:
         at = kinematics(place["mechanism"], np.array(place["q"]))
-        R, t = program.placed(place["shapes"]["it"], at)
+        R, t = program.pose_in_world(place["shapes"]["it"], at)
         return {"xyz": t, "quaternion": quaternion_of(R)}
 
     return rounded_results(world)[0]

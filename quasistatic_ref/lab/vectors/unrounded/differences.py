@@ -47,10 +47,10 @@ class Base:
 
     def contacts_at(self, at: World) -> list[Contact]:
         """The contacts of a case nearby."""
-        found = [near for pair in range(len(self.pools)) for near in self._kept(at, pair)]
+        found = [near for pair in range(len(self.pools)) for near in self._kept_of_pair(at, pair)]
         return [contact(at, near) for near in found]
 
-    def _kept(self, at: World, pair: int) -> list[Near]:
+    def _kept_of_pair(self, at: World, pair: int) -> list[Near]:
         near = candidates(at, pair, self.pools[pair])
         return kept_candidates(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.lab.program.integration import joined, moved
+from quasistatic_ref.lab.program.integration import joint_parts, moved
 from quasistatic_ref.lab.vectors.exact.precision import Real, Vector, number, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
@@ -17,7 +17,7 @@ def along(mechanism: Json, q: Sequence[Real], way: Vector) -> Vector:
     """Configuration q (+) way, on the grid, of all joints or of the actuated ones."""
     with working_precision():
         at = np.array(q)
-        found = joined(mechanism, lambda body, i, k: moved(body, at[i], way[k]), len(at))
+        found = joint_parts(mechanism, lambda body, i, k: moved(body, at[i], way[k]), len(at))
         return on_grid(found)
 
 

@@ -41,7 +41,7 @@ class World:
         """A shape of the case where it is."""
         entry = self.case["shapes"][name]
         with working_precision():
-            R, t = (_settled(part) for part in program.placed(entry, self.at))
+            R, t = (_settled(part) for part in program.pose_in_world(entry, self.at))
             here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
             return replace(placed_shape(entry["shape"], here), R=R, t=t)
 

@@ -22,7 +22,7 @@ def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
     assert cold.iterations == first.iterations > warm.iterations
 
 
-def said(**extras):
+def solver_reply(**extras):
     """What qpsolvers returns of a solver."""
     return SimpleNamespace(extras=extras, found=True)
 
@@ -38,10 +38,10 @@ class Microseconds:
 @pytest.mark.parametrize(
     ("solution", "seconds"),
     [
-        (said(solve_time=4.0, setup_time=2.0), (4e-3, 2e-3)),  # SCS: ms
-        (said(info=Microseconds()), (5e-6, None)),  # zero: not measured
-        (said(info=SimpleNamespace(solve_time=0.5)), (0.5, None)),
-        (said(), (None, None)),
+        (solver_reply(solve_time=4.0, setup_time=2.0), (4e-3, 2e-3)),  # SCS: ms
+        (solver_reply(info=Microseconds()), (5e-6, None)),  # zero: not measured
+        (solver_reply(info=SimpleNamespace(solve_time=0.5)), (0.5, None)),
+        (solver_reply(), (None, None)),
     ],
 )
 def test_times_that_solvers_report_are_in_seconds(solution, seconds):
@@ -51,9 +51,9 @@ def test_times_that_solvers_report_are_in_seconds(solution, seconds):
 @pytest.mark.parametrize(
     ("solution", "expected"),
     [
-        (said(iterations=np.array([3, 1])), ("found", 3)),  # quadprog: added, dropped
-        (said(status="SolverStatus.Solved", iter=7), ("Solved", 7)),
-        (said(info=SimpleNamespace(status="solved", iter=25)), ("solved", 25)),
+        (solver_reply(iterations=np.array([3, 1])), ("found", 3)),  # quadprog: added, dropped
+        (solver_reply(status="SolverStatus.Solved", iter=7), ("Solved", 7)),
+        (solver_reply(info=SimpleNamespace(status="solved", iter=25)), ("solved", 25)),
         (SimpleNamespace(extras=None, found=False), ("not found", None)),
     ],
 )

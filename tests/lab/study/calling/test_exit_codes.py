@@ -58,12 +58,12 @@ def test_each_solver_says_of_a_program_whether_it_has_a_solution(way):
     call = call_of(one)
     options = one.settings_of(HIGH, 5.0) if one.takes(HIGH) else {}
 
-    def said(A, b):
+    def claim_on(A, b):
         form = StandardForm(np.eye(1), np.zeros(1), np.array(A), np.array(b))
         return one.claim(reply_or_failure(call, form, options, None).status)
 
-    assert said([[1.0]], [1.0]) == OPTIMAL
-    assert said([[1.0], [-1.0]], [1.0, 0.0]) == (HIDDEN if hides(*way) else INFEASIBLE)
+    assert claim_on([[1.0]], [1.0]) == OPTIMAL
+    assert claim_on([[1.0], [-1.0]], [1.0, 0.0]) == (HIDDEN if hides(*way) else INFEASIBLE)
 
 
 def test_what_an_interface_hides_is_not_said():

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.study.calling.packages import announced, announced_function
+from quasistatic_ref.lab.study.calling.packages import announced_function, announced_solvers
 from quasistatic_ref.lab.study.store.store import contents
 
 PROBLEMS = "repetitions = 2\n[problems]\nset = 'contact-qp-2'\nfamilies = { gaps = 2 }\n"
@@ -77,7 +77,7 @@ def test_names_that_are_not_clear_or_not_there_are_refused(planted, study):
         study(PROBLEMS + runs.replace("NAME", "othre"))
     with pytest.raises(InputError, match=r"solvers\.x\.package: is announced by no package"):
         study(PROBLEMS + '[solvers.x]\npackage = "nobody"\n[[runs]]\nsolvers = ["x"]\n')
-    assert list(announced()) == ["mine", "other"]
+    assert list(announced_solvers()) == ["mine", "other"]
 
 
 @pytest.mark.parametrize(("value", "words"), [

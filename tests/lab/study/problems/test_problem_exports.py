@@ -33,7 +33,7 @@ def few(members, older):
 
 
 def export(to, folder, problems):
-    assert exports.exported("contact-qp-2", problems, to, folder)
+    assert exports.exported_files("contact-qp-2", problems, to, folder)
 
 
 def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.problems.for_study import study_problems
-from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
+from quasistatic_ref.lab.study.problems.selection import problems_along_dial, problems_taken
 from tests.closeness import assert_relative
 
 STUDY = """
@@ -18,14 +18,14 @@ solvers = ["qpsolvers:daqp"]
 """
 
 
-def taken(study, families):
+def problems_of(study, families):
     return study(STUDY.format(families=families)).problems
 
 
 def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
     """Angles from 0.1 rad down: those of at least `most`, both ends among them."""
     own = [one for one in members if one.facts["family"] == "capped_wedge"]
-    dials = [one.facts["dial"] for one in chosen(own, "capped_wedge", 5, 1e-3)]
+    dials = [one.facts["dial"] for one in problems_along_dial(own, "capped_wedge", 5, 1e-3)]
     assert len(dials) == 5
     assert max(dials) == 0.1
     assert 1e-3 <= min(dials) < 1.2e-3
@@ -35,12 +35,12 @@ def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
 
 def test_sequences_are_taken_whole_and_in_order(members):
     own = [one for one in members if one.facts["family"] == "moving"]
-    found = chosen(own, "moving", 30)
+    found = problems_along_dial(own, "moving", 30)
     assert [one.facts["sequence"]["place"] for one in found] == [*range(12), *range(12)]
 
 
 def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_path):
-    test_set = taken(study, "capped_wedge = { count = 3, most = 1e-3 }, gaps = 2, jammed = 2")
+    test_set = problems_of(study, "capped_wedge = { count = 3, most = 1e-3 }, gaps = 2, jammed = 2")
     found = study_problems(test_set, tmp_path, progress=False)
     families = [one.facts["family"] for one in found]
     assert families == ["gaps"] * 2 + ["capped_wedge"] * 3 + ["jammed"] * 2
@@ -52,7 +52,7 @@ def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_pat
         np.testing.assert_array_equal(one.answer.x, there.answer.x)
         assert one.answer.farkas == there.answer.farkas
     with pytest.raises(InputError, match="holds another test set"):
-        study_problems(taken(study, "gaps = 2"), tmp_path, progress=False)
+        study_problems(problems_of(study, "gaps = 2"), tmp_path, progress=False)
 
 
 def test_a_family_of_cones_is_refused():

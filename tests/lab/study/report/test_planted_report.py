@@ -64,7 +64,7 @@ def screen(harmless, tmp_path_factory):
                 own = {"problem": one.id, "family": one.facts["family"], "solver": name}
                 store.add({**keys, **own, **measured(name, one)})
     page = markdown_page(study_report(folder))
-    (_, _, columns, body), *_ = plain_report.parsed(page)
+    (_, _, columns, body), *_ = plain_report.tables_of(page)
     return page, {line[0]: dict(zip(columns, line, strict=True)) for line in body}
 
 

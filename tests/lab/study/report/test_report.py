@@ -22,16 +22,16 @@ from quasistatic_ref.lab.study.report.rows import rows_of
 from quasistatic_ref.lab.study.report.statistics import (
     interval,
     performance_ratios,
-    resampled,
+    resampled_means,
 )
 from quasistatic_ref.lab.study.store.store import Store, contents
 from tests.lab.study import made_store, plain_report
-from tests.lab.study.plain_report import agrees, delivered, picked, quantile
+from tests.lab.study.plain_report import agrees, digits_delivered, quantile, rows_named
 from tests.legible import faults
 
 
 def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
-    assert plain_report.checked(tables, rows, made_store.LIMIT) > 150
+    assert plain_report.checked_count(tables, rows, made_store.LIMIT) > 150
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def mixed(store, tmp_path_factory):
     return folder
 
 
-def counted(rows):
+def claim_counts(rows):
     """Claims by kind, by plain loops."""
     kinds = dict.fromkeys(
         ["rows", "multipliers", "no numbers", "no solution", "kept, no solution", "infeasible"], 0
@@ -72,15 +72,15 @@ def test_false_claims_are_those_of_the_rows(tables, rows):
     assert len(found) == 16
     for _, where, columns, (solver, *cells) in found:
         for setting, cell in zip(columns[1:], cells, strict=True):
-            own = picked(rows, f"{where}, label = {solver}, setting = {setting}")
+            own = rows_named(rows, f"{where}, label = {solver}, setting = {setting}")
             said = sum(row["said_optimal"] for row in own)
-            assert cell == f"{' + '.join(counted(own))} / {said}"
+            assert cell == f"{' + '.join(claim_counts(own))} / {said}"
 
 
 def test_the_first_screen_counts_every_solver_on_every_problem(mixed):
     """Its claims are of all problems, its digits and times of half of those with a solution."""
     rows = [row for row in contents(mixed).rows if row["repetition"] == 0]
-    tables = plain_report.parsed(markdown_page(study_report(mixed)))
+    tables = plain_report.tables_of(markdown_page(study_report(mixed)))
     (_, where, columns, body), *_ = tables
     shown = {line[0]: dict(zip(columns, line, strict=True)) for line in body}
     assert sorted(shown) == ["ant", "bee", "cat"]
@@ -89,9 +89,9 @@ def test_the_first_screen_counts_every_solver_on_every_problem(mixed):
     for name, line in shown.items():
         words = f"label = {line['interface']}:{name}"
         words += f", setting = {settings[name, line['interface']]}"
-        every = picked(rows, f"{where.split(';')[0]}, {words}")
+        every = rows_named(rows, f"{where.split(';')[0]}, {words}")
         called = [row for row in every if row["outcome"] != "not_run_budget"]
-        assert [line[c] for c in columns if c.startswith(("false", "kept"))] == counted(called)
+        assert [line[c] for c in columns if c.startswith(("false", "kept"))] == claim_counts(called)
         failed = [row for row in called if row["feasible"] and not row["said_optimal"]]
         missed = len(every) - len(called)
         assert [line["failures"], line["calls not made"]] == [str(len(failed)), str(missed)]
@@ -99,12 +99,12 @@ def test_the_first_screen_counts_every_solver_on_every_problem(mixed):
         half = [r for r in possible if crc32(r["problem"].rpartition("/")[0].encode()) % 2]
         for least in (3, 6):
             cell = next(line[c] for c in columns if c.startswith(f">= {least} digits"))
-            share = 100 * sum(delivered(row) >= least for row in half) / len(half)
+            share = 100 * sum(digits_delivered(row) >= least for row in half) / len(half)
             assert agrees(cell.split(" (")[0], share)
         times = [plain_report.seconds(row, 1.0) for row in half if row["outcome"] == "solved"]
         for column, part in (("time, median [ms]", 0.5), ("time, 95 % [ms]", 0.95)):
             assert agrees(line[column], 1e3 * quantile(times, part))
-        net = [delivered(row, "net_wrench") for row in half if row["outcome"] == "solved"]
+        net = [digits_delivered(row, "net_wrench") for row in half if row["outcome"] == "solved"]
         assert agrees(line["digits of A'lam, median"], quantile(net, 0.5))
 
 
@@ -148,9 +148,9 @@ def test_digits_by_family_are_those_of_the_rows(tables, rows):
     found = plain_report.lines(tables, titled="Median digits by family")
     for _, where, columns, (family, *cells) in found:
         for solver, cell in zip(columns[1:], cells, strict=True):
-            own = picked(rows, f"{where}, family = {family}, label = {solver}")
+            own = rows_named(rows, f"{where}, family = {family}, label = {solver}")
             own = [r for r in own if r["outcome"] != "not_run_budget"]
-            assert agrees(cell, quantile([delivered(r) for r in own], 0.5))
+            assert agrees(cell, quantile([digits_delivered(r) for r in own], 0.5))
     assert len(found) == 2 * len(made_store.FAMILIES)
 
 
@@ -166,7 +166,7 @@ def test_the_lines_of_the_report_make_its_first_table_again(mixed, tmp_path, mon
     table = names["table"].join(names["claims"])
     again = {key[:2]: (key[3], own) for key, own in table.iterrows()}
     (_, _, columns, body), *_ = (
-        table for table in plain_report.parsed(page) if "its own options" in table[2]
+        table for table in plain_report.tables_of(page) if "its own options" in table[2]
     )
     assert len(body) == len(again) == len(made_store.SOLVERS)
     for line in body:
@@ -189,7 +189,7 @@ def headline(folder, rows, **changes):
     with Store(folder, made_store.STUDY | changes, made_store.facts(12)) as store:
         store.add(*rows)
     page = markdown_page(study_report(folder))
-    _, _, columns, body = next(t for t in plain_report.parsed(page) if "its own options" in t[2])
+    _, _, columns, body = next(t for t in plain_report.tables_of(page) if "its own options" in t[2])
     return page, [dict(zip(columns, line, strict=True)) for line in body]
 
 
@@ -211,7 +211,7 @@ def test_bootstraps_hold_their_value_and_narrow_with_the_root_of_the_count():
     for n in (100, 10_000):
         values = np.arange(n) % 2
         strata = np.array(["a", "b"])[np.arange(n) * 2 // n]
-        low, high = interval(resampled(values, strata))
+        low, high = interval(resampled_means(values, strata))
         expected = 1.96 / np.sqrt(4 * n)
         assert 0.5 - low == pytest.approx(expected, rel=0.3)
         assert high - 0.5 == pytest.approx(expected, rel=0.3)
@@ -241,13 +241,13 @@ def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):
     _, _, columns, body = next(table for table in tables if "its own options" in table[2])
     at = {f"{line[1]}:{line[0]}": line[columns.index("setting")] for line in body
           if f"{line[1]}:{line[0]}" in panel["labels"]}  # fmt: skip
-    own = [r for r in picked(rows, "units = natural, warm = false")
-           if at.get(plain_report.said(r, "label")) == r["setting"]]  # fmt: skip
-    own = plain_report.shared(own, ["label"])
+    own = [r for r in rows_named(rows, "units = natural, warm = false")
+           if at.get(plain_report.entry(r, "label")) == r["setting"]]  # fmt: skip
+    own = plain_report.shared_rows(own, ["label"])
     times = {label: {} for label in panel["labels"]}
     for r in own:
-        if delivered(r) >= 6:
-            times[plain_report.said(r, "label")][r["problem"]] = plain_report.seconds(r, 1.0)
+        if digits_delivered(r) >= 6:
+            times[plain_report.entry(r, "label")][r["problem"]] = plain_report.seconds(r, 1.0)
     problems = {r["problem"] for r in own}
     for label, ratios in zip(panel["labels"], panel["ratios"], strict=True):
         for tau in (1.0, 3.0, 50.0):
@@ -296,7 +296,7 @@ def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
 def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
     rows = made_store.sweep_written(tmp_path / "store")
     report = study_report(tmp_path / "store")
-    (_, where, columns, body), *_ = plain_report.parsed(markdown_page(report))
+    (_, where, columns, body), *_ = plain_report.tables_of(markdown_page(report))
     assert where == "sweep = slide"
     assert columns[:3] == ["mu [the scenario's unit]", "h [s]", "outcome"]
     assert columns[3:] == list(rows[0]["measures"])

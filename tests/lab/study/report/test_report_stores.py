@@ -34,9 +34,9 @@ def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, caps
         digits = whole["digits"]["delta_q"]
         if digits is not None:
             assert digits - 1.001e-3 < row["digits"]["delta_q"] <= digits
-    packed_tables = plain_report.parsed(markdown_page(study_report(tmp_path)))
+    packed_tables = plain_report.tables_of(markdown_page(study_report(tmp_path)))
     for (title, _, columns, body), (_, _, _, whole) in zip(
-        packed_tables, plain_report.parsed(markdown_page(study_report(store))), strict=True
+        packed_tables, plain_report.tables_of(markdown_page(study_report(store))), strict=True
     ):
         for k, column in enumerate(columns):
             if ">=" in column or "wrong" in title:
@@ -62,7 +62,9 @@ def test_a_study_that_has_hardly_begun_is_reported_too(rows, tmp_path, keep):
     kept = [row for row in rows if keep(row)]
     made_of(tmp_path, kept)
     report = study_report(tmp_path)
-    counts = [t for t in plain_report.parsed(markdown_page(report)) if t[0].startswith("How the")]
+    counts = [
+        t for t in plain_report.tables_of(markdown_page(report)) if t[0].startswith("How the")
+    ]
     first = [row for row in kept if row["repetition"] == 0]
     assert sum(int(line[1]) for line in counts[0][3]) == len(first)
     for picture in report.pictures:

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.study.measuring.ask import question
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store, plain_report
-from tests.lab.study.plain_report import delivered, picked, seconds
+from tests.lab.study.plain_report import digits_delivered, rows_named, seconds
 
 WEDGE = "wedge/0.1/0"
 
@@ -33,18 +33,18 @@ def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tables, rows):
     bounds = {fact["id"]: fact["bound"] for fact in made_store.facts(12)}
     assert len(worst(tables)) == 3  # ant, bee and cat, each by one interface
     for _, where, _, body in worst(tables):
-        own = picked(rows, where)
+        own = rows_named(rows, where)
         assert len(own) == 12
         key = {}
         for row in own:
-            missed = max(most(bounds[row["problem"]]) - delivered(row), 0)
+            missed = max(most(bounds[row["problem"]]) - digits_delivered(row), 0)
             key[row["problem"]] = (-missed, -seconds(row, made_store.LIMIT), row["problem"])
         assert [line[0] for line in body] == sorted(key, key=key.get)[:10]
         for problem, outcome, _, false, _, digits, known, time in body:
             assert plain_report.agrees(known, most(bounds[problem]))
             (row,) = (row for row in own if row["problem"] == problem)
             assert outcome == row["outcome"]
-            assert plain_report.agrees(digits, delivered(row))
+            assert plain_report.agrees(digits, digits_delivered(row))
             assert plain_report.agrees(time, 1e3 * seconds(row, made_store.LIMIT))
             assert false == ("yes" if row["wrong"] else "no")
 
@@ -55,7 +55,7 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
     rows = [row for row in contents(whole).rows if row["repetition"] == 0]
     page = markdown_page(study_report(whole, whole.parent))
     assert "Not called at high, which means nothing to them: callable:mine." in page
-    tables = worst(plain_report.parsed(page))
+    tables = worst(plain_report.tables_of(page))
     with pytest.raises(InputError, match="is not a solver of the study"):
         question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
     labels = {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables}
@@ -65,7 +65,7 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
         assert words[:3] == ["quasistatic-ref", "study", "ask"]
         status = main([*words[1:], "--json"])
         found = json.loads(capsys.readouterr().out)
-        (row,) = (r for r in picked(rows, where) if r["problem"] == problem)
+        (row,) = (r for r in rows_named(rows, where) if r["problem"] == problem)
         assert status == int(row["wrong"] or row["wrong_multipliers"])
         names = ("problem", "outcome", "claimed", "wrong", "setting")
         assert {n: found[n] for n in names} == {n: row[n] for n in names}

@@ -8,7 +8,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.store import store as stores
-from quasistatic_ref.lab.study.store.pack import packed
+from quasistatic_ref.lab.study.store.pack import packed_store
 from quasistatic_ref.lab.study.store.rows import flat, key_of, nested
 from quasistatic_ref.lab.study.store.store import PACKED, STORE, Store, contents, packed_tables
 from tests.lab.study import made_store
@@ -17,7 +17,7 @@ from tests.lab.study import made_store
 @pytest.fixture
 def rows(tmp_path):
     """Those of a store in ``tmp_path / "store"``, sorted."""
-    return sorted(made_store.written(tmp_path / "store", count=2), key=key_of)
+    return sorted(made_store.write_store(tmp_path / "store", count=2), key=key_of)
 
 
 @pytest.fixture
@@ -25,7 +25,7 @@ def folder(tmp_path, rows):
     return tmp_path / "store"
 
 
-def changed(folder, statement):
+def change(folder, statement):
     """Change a store behind its back: its schema is not asked."""
     tables = sqlite3.connect(folder / STORE)
     with tables:
@@ -124,7 +124,7 @@ SPOILT = {
 
 @pytest.mark.parametrize("statement", SPOILT.values(), ids=SPOILT)
 def test_what_no_study_has_written_is_refused(folder, statement):
-    changed(folder, statement)
+    change(folder, statement)
     with pytest.raises(InputError, match="holds what no study has written") as refused:
         contents(folder)
     assert "\n" not in str(refused.value)
@@ -133,7 +133,7 @@ def test_what_no_study_has_written_is_refused(folder, statement):
 @pytest.mark.parametrize("measures", ["{}", '{"steps": "a", "boundary_layer_um": 1}', "3"])
 def test_a_run_without_its_measures_is_refused(tmp_path, measures):
     made_store.sweep_written(tmp_path / "sweep")
-    changed(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")
+    change(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")
     with pytest.raises(InputError, match="holds what no study has written"):
         contents(tmp_path / "sweep")
 
@@ -144,13 +144,13 @@ def test_a_run_without_its_measures_is_refused(tmp_path, measures):
 )
 def test_an_infinite_number_is_refused(folder, tmp_path, number):
     """A study writes none in the place of a number that is not finite."""
-    changed(folder, f"UPDATE rows SET {number}")
+    change(folder, f"UPDATE rows SET {number}")
     with pytest.raises(InputError, match="written: a number that is not finite"):
-        packed(folder, tmp_path / "out")
+        packed_store(folder, tmp_path / "out")
 
 
 def test_an_infinite_number_in_json_is_refused(folder):
-    changed(folder, "UPDATE machines SET facts = '{\"cores\": 9e999}'")
+    change(folder, "UPDATE machines SET facts = '{\"cores\": 9e999}'")
     with pytest.raises(InputError, match="written: a number that is not finite"):
         contents(folder)
 

@@ -33,7 +33,7 @@ def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
     bound = {"error_bound": float("inf")}
     expected = {"x": [0.5, 1.0], "certificate": bound}
     finding = Finding("qp", "wrong", "x", (), (), "it is", {}, expected, given, "first", 1)
-    folder = finding.written(tmp_path, "./sim")
+    folder = finding.write_folder(tmp_path, "./sim")
 
     def refused(word):
         raise AssertionError(f"{word} is no JSON")

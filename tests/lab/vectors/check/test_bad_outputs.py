@@ -11,7 +11,7 @@ from tests.lab.vectors.material import (
     answer_file,
     by_layer,
     cases,
-    expected,
+    expected_of,
     report_on,
     right_answers,
 )
@@ -94,7 +94,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize(("case", "field", "change", "says"), HOSTILE.values(), ids=HOSTILE)
 def test_a_hostile_answer_fails_in_one_sentence(case, field, change, says):
-    output = expected("qp")[case]["output"]
+    output = expected_of("qp")[case]["output"]
     verdict = report_on("qp", {case: {**output, field: change(output[field])}}).first
     assert verdict is not None
     assert says in verdict.reason

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
-from tests.lab.vectors.material import cases, expected, right_answers
+from tests.lab.vectors.material import cases, expected_of, right_answers
 
 SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
 
@@ -177,7 +177,7 @@ def test_minus_q_is_q_but_minus_cos_sin_is_not():
             if set(kinds.values()) == {"floating"} and field in answers[case.id]:
                 answer = copy.deepcopy(answers[case.id])
                 answer[field][3:7] = [-x for x in answer[field][3:7]]
-                found = case_verdict(layer, case.input, expected(layer)[case.id], answer)
+                found = case_verdict(layer, case.input, expected_of(layer)[case.id], answer)
                 assert found.verdict == "acceptable"
                 assert found.digits > 15
                 break
@@ -189,7 +189,7 @@ def test_minus_q_is_q_but_minus_cos_sin_is_not():
         if [b["joint"] for b in case.input["mechanism"]["bodies"]] == ["continuous"]
     )
     answer = {"q": [-x for x in right_answers("integrate")[turning.id]["q"]]}
-    found = case_verdict("integrate", turning.input, expected("integrate")[turning.id], answer)
+    found = case_verdict("integrate", turning.input, expected_of("integrate")[turning.id], answer)
     assert found.verdict == "failed"
 
 
@@ -197,7 +197,7 @@ def test_a_certificate_may_be_given_and_has_to_hold():
     layer = "qp"
     name, wanted = next(
         (name, wanted)
-        for name, wanted in expected(layer).items()
+        for name, wanted in expected_of(layer).items()
         if wanted["output"].get("certificate", {}).get("working_set")
         and len(wanted["output"]["lam"]) > 4
     )

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers import layer as layer_of
-from tests.lab.vectors.material import cases, expected, in_float32, report_on, right_answers
+from tests.lab.vectors.material import cases, expected_of, in_float32, report_on, right_answers
 
 SOLVED = ("delta_q", "lam", "A_lam", "wrench", "q_next", "farkas")
 """What comes after A and b in a step."""
@@ -25,7 +25,7 @@ EIGHT = [name for name in LAYERS if name != "derivative"]
 """Derivatives by inputs in float32 are those of another step."""
 
 
-def without(*names):
+def answers_without(*names):
     """Right answers to all steps without some of their fields."""
     answers = copy.deepcopy(right_answers("step"))
     return {
@@ -41,7 +41,7 @@ def without(*names):
 
 
 def test_a_step_up_to_A_and_b_is_judged_for_what_it_contains():
-    answers = without(*SOLVED)
+    answers = answers_without(*SOLVED)
     report = report_on("step", answers)
     assert report.count("passed") == len(answers)
     assert "nothing is said of delta_q" in report.partial
@@ -54,7 +54,7 @@ def test_a_step_up_to_A_and_b_is_judged_for_what_it_contains():
 
 def test_a_step_from_J_on_is_judged_for_what_it_contains():
     names = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2")
-    answers = without(*(f"contacts.{name}" for name in names))
+    answers = answers_without(*(f"contacts.{name}" for name in names))
     report = report_on("step", answers)
     assert report.count("passed") == len(answers)
     named = report.partial.rpartition("said of ")[2]
@@ -94,7 +94,7 @@ def test_contacts_in_another_order_than_that_of_index_fail():
 
 
 def groups(case):
-    contacts = expected("step")[case.id]["output"]["contacts"]
+    contacts = expected_of("step")[case.id]["output"]["contacts"]
     names = {pair["name"] for pair in case.input["pairs"]}
     return [[c for c in contacts if c["pair"] == name] for name in names]
 
@@ -129,7 +129,7 @@ def test_a_port_that_reads_and_answers_in_float32_is_right_to_four_digits(layer,
         except InputError:  # solids that touch and now meet, where their pair has no closed form
             continue
         output.pop("certificate", None)
-        record = expected(layer)[case.id]
+        record = expected_of(layer)[case.id]
         found = verdict_to_digits(layer, case.input, record, in_float32(output), 4)
         assert found.verdict != "failed", (case.id, found.reason)
 
@@ -139,7 +139,7 @@ def test_float32_is_right_to_six_digits_and_not_to_twelve(layer):
     # float32 rounds to 2^-24 = 6e-8 of a number: that is below 1e-6 and above 1e-12.
     inexact = 0
     for case in cases(layer):
-        record = expected(layer)[case.id]
+        record = expected_of(layer)[case.id]
         answer = in_float32(right_answers(layer)[case.id])
         verdicts = [
             verdict_to_digits(layer, case.input, record, answer, d).verdict for d in (None, 6, 12)
@@ -176,8 +176,10 @@ def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, caps
 def test_one_case_is_shown_number_by_number(answers, capsys):
     assert main(["vectors", "check", str(answers), "--case", "rows/random/3"]) == 1
     printed = capsys.readouterr().out
-    wanted = expected("rows")["rows/random/3"]["output"]["b"][0]
+    wanted = expected_of("rows")["rows/random/3"]["output"]["b"][0]
     (row,) = (line.split() for line in printed.splitlines() if line.startswith("b[0]"))
     assert row == ["b[0]", repr(wanted), repr(wanted + 0.5), "0.5"]
     assert "A[0]" not in printed
-    assert f"{sum(map(len, expected('rows')['rows/random/3']['output']['A']))} the same" in printed
+    assert (
+        f"{sum(map(len, expected_of('rows')['rows/random/3']['output']['A']))} the same" in printed
+    )

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
 from quasistatic_ref.lab.vectors.conformance.conformance import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
-from tests.lab.vectors.material import VECTORS, cases, expected, in_float32, right_answers
+from tests.lab.vectors.material import VECTORS, cases, expected_of, in_float32, right_answers
 
 HEAD = 'format = "quasistatic-ref/scope"\nversion = 1\n'
 BOXES = f"""{HEAD}name = "boxes and half-spaces"
@@ -54,7 +54,7 @@ def cut_down(folder, scope, change=lambda output: output):
     for layer in scope.layers:
         inputs = {case.id: case.input for case in cases(layer)}
         own = {name: change(output) for name, output in right_answers(layer).items()
-               if scope.holds(layer, inputs[name], expected(layer)[name])}  # fmt: skip
+               if scope.holds(layer, inputs[name], expected_of(layer)[name])}  # fmt: skip
         answers_written(folder, layer, "partial 0.1", own)
     return folder
 
@@ -136,7 +136,7 @@ def test_a_scope_that_cannot_be_is_refused_in_a_sentence(scope, text, problem):
 @pytest.mark.parametrize("layer", ["jacobian", "rows", "wrench"])
 def test_digits_of_an_answer_do_not_depend_on_the_digits_that_are_asked_for(layer):
     for case in cases(layer):
-        record = expected(layer)[case.id]
+        record = expected_of(layer)[case.id]
         given = in_float32(right_answers(layer)[case.id])
         found = {
             verdict_to_digits(layer, case.input, record, given, digits).digits

@@ -9,7 +9,7 @@ from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import (
     by_size,
-    expected,
+    expected_of,
     report_on,
     right_answers,
     small_cases,
@@ -48,7 +48,7 @@ def patched_answers(layer, asked, patch):
 @pytest.mark.parametrize(("name", "layer", "patch"), PATCHES.values(), ids=PATCHES)
 def test_a_patch_is_caught_by_the_expected_answers(name, layer, patch):
     assert any(
-        case_verdict(layer, case.input, expected(layer)[case.id], output).verdict == FAILED
+        case_verdict(layer, case.input, expected_of(layer)[case.id], output).verdict == FAILED
         for case, output in patched_answers(layer, by_size(layer), patch)
     )
 

@@ -6,7 +6,7 @@ from quasistatic_ref.lab.vectors.challenge.removals import replaced
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
-from tests.lab.vectors.material import cases, expected, right_answers
+from tests.lab.vectors.material import cases, expected_of, right_answers
 
 
 def numbers_in(value):
@@ -17,7 +17,7 @@ def numbers_in(value):
 @pytest.mark.parametrize("layer", LAYERS)
 def test_no_tolerance_passes_anything_or_nothing(layer):
     """At most 1e-5 of what a field holds, or of one; 0 only of copies and of sums of zeros."""
-    for name, record in expected(layer).items():
+    for name, record in expected_of(layer).items():
         for field, tolerance in record["tolerance"].items():
             outer, _, inner = field.partition(".")
             value = record["output"][outer]
@@ -38,7 +38,7 @@ def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
     answers = right_answers(layer)
     tried = 0
     for case in cases(layer):
-        wanted = expected(layer)[case.id]
+        wanted = expected_of(layer)[case.id]
         answer = answers[case.id]
         found = numbers_in(answer)
         for i in rng.permutation(len(found))[:3]:

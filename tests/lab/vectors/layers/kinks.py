@@ -15,7 +15,7 @@ MASS = {
 }
 
 
-def free(shape, xyz, **more):
+def free_body(shape, xyz, **more):
     """A floating body with one shape, nothing else yet."""
     body = link("body", None, "floating", **MASS)
     given = {"h": H, "gravity": G, "pairs": [], **more}
@@ -31,7 +31,7 @@ def onto(table, name, shape, pose=ORIGIN, **more):
     return {**table, "shapes": shapes, "pairs": [*table["pairs"], pair]}
 
 
-def pushed(table, force):
+def with_force_on_body(table, force):
     """The same with a force on the body, along the world's axes [N]."""
     wrench = {"body": "body", "force": force, "torque": [0.0, 0.0, 0.0]}
     return {**table, "wrenches": [wrench]}
@@ -46,8 +46,8 @@ def squeezed_ball(push, cone="frictionless"):
     """
     held = 0.25
     radius = 0.5
-    table = free({"kind": "sphere", "radius": held}, [0.0] * 3, cone=cone, gravity=[0.0] * 3)
+    table = free_body({"kind": "sphere", "radius": held}, [0.0] * 3, cone=cone, gravity=[0.0] * 3)
     for name, side in (("below", -1.0), ("above", 1.0)):
         place = at(side * (held + radius), 0.0, 0.0)
         table = onto(table, name, {"kind": "sphere", "radius": radius}, place, rows=4)
-    return pushed(table, [push, 0.0, 0.0])
+    return with_force_on_body(table, [push, 0.0, 0.0])

@@ -35,7 +35,7 @@ SQUARE = {"kind": "box", "size": [0.25, 0.25, 0.125]}
 CONES = ("frictionless", "pyramid", "product", "facets-6")
 
 
-def along(one, way, force):
+def quotient_along(one, way, force):
     """The quotient of q+ as q moves along one vector and the force along another."""
 
     def inputs(by):
@@ -58,11 +58,11 @@ def test_between_two_balls_the_slope_is_no_sum_of_two_slopes(push):
     one = step_of(squeezed_ball(float(push)))
     still = way(Y, 0)
     for c in (-32, 32, 0):
-        found = along(one, way(Y), way(Y, c))
+        found = quotient_along(one, way(Y), way(Y, c))
         held = 1 + max(fmpq(c, 32) + fmpq(push, 24), fmpq(-1, 2))
         assert abs(found.column[Y] - held) < BEND
         assert found.bend < BEND
-        alone = [along(one, way(Y), still), along(one, still, way(Y, c))]
+        alone = [quotient_along(one, way(Y), still), quotient_along(one, still, way(Y, c))]
         assert all(each.bend < BEND for each in alone)
         total = sum(each.column[Y] for each in alone)
         assert abs(total - (1 + fmpq(c, 32) + fmpq(push, 24))) < BEND
@@ -81,8 +81,8 @@ def test_a_squeezed_ball_has_no_derivative_and_both_contacts_are_named(push):
 
 def box(cone, push=0.5):
     """A box on the floor, on its four corners, of 8 N with what presses it."""
-    table = kinks.free(SQUARE, [0.0, 0.0, 0.0625], cone=cone)
-    return kinks.pushed(kinks.onto(table, "floor", FLOOR, k=4), [push, 0.25, -4.0])
+    table = kinks.free_body(SQUARE, [0.0, 0.0, 0.0625], cone=cone)
+    return kinks.with_force_on_body(kinks.onto(table, "floor", FLOOR, k=4), [push, 0.25, -4.0])
 
 
 def sliding_ball(cone):
@@ -92,20 +92,20 @@ def sliding_ball(cone):
 
 def ball_between_walls(cone):
     """A ball between two walls."""
-    table = kinks.free({"kind": "sphere", "radius": 0.25}, [0.0] * 3, cone=cone)
+    table = kinks.free_body({"kind": "sphere", "radius": 0.25}, [0.0] * 3, cone=cone)
     for name, side in (("left", 1.0), ("right", -1.0)):
         wall = {"kind": "halfspace", "normal": [side, 0.0, 0.0], "offset": -0.25}
         table = kinks.onto(table, name, wall, rows=4)
-    return kinks.pushed(table, [1.0, 0.5, 0.0])
+    return kinks.with_force_on_body(table, [1.0, 0.5, 0.0])
 
 
-def stuck(cone):
+def stuck_ball(cone):
     """A ball between two balls on which it cannot slide, however it is pushed."""
     return squeezed_ball(1.0, cone=cone)
 
 
 SMOOTH = [(scene, cone) for scene in (box, sliding_ball, ball_between_walls) for cone in CONES]
-SMOOTH += [(stuck, cone) for cone in CONES[1:]]
+SMOOTH += [(stuck_ball, cone) for cone in CONES[1:]]
 
 
 @pytest.mark.parametrize(("scene", "cone"), SMOOTH)
@@ -120,7 +120,7 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
     for c in (-64, 64):
         ways = vector(range(1, 7)) / 8
         forces = c * vector(range(3, -3, -1))
-        whole = along(one, ways, forces)
+        whole = quotient_along(one, ways, forces)
         total = ways @ np.array(found.columns["q"]) + forces @ np.array(found.columns["tau"])
         size = max(map(abs, total))
         assert whole.bend < BEND
@@ -129,7 +129,7 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
 
 def test_a_contact_that_is_replaced_is_compared_with_nothing():
     one = step_of(squeezed_ball(1.0))
-    found = along(one, way(Y), way(Y, 0))
+    found = quotient_along(one, way(Y), way(Y, 0))
     assert dependence_breaks(one, [found])
     sides = [(step, [_another(contact) for contact in others]) for step, others in found.sides]
     assert not dependence_breaks(one, [replace(found, sides=tuple(sides))])

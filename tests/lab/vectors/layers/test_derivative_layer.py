@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.program.derivative import EPS, derivative, held
+from quasistatic_ref.lab.program.derivative import EPS, case_with_tau, derivative
 from quasistatic_ref.lab.program.integration import integrate, way
 from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.vectors.check.case import case_verdict
@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.layers import layer
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, expected, report_on
+from tests.lab.vectors.material import cases, expected_of, report_on
 
 CHECKED = ("ball/pyramid", "forces/turned", "arm/passive_elbow", "planar/push",
            "mimic/revolute_actuated", "pair/sphere_ellipsoid_1", "pair/cylinder_box_0")  # fmt: skip
@@ -31,7 +31,7 @@ def case_of(name):
 
 
 def output_of(name):
-    return expected("derivative")[f"derivative/{name}"]["output"]
+    return expected_of("derivative")[f"derivative/{name}"]["output"]
 
 
 def kinks():
@@ -48,7 +48,7 @@ def test_differences_in_float64_are_the_same(name):
 def test_there_are_three_hundred_cases_and_kinks_of_every_kind():
     found = cases("derivative")
     assert len(found) >= 300
-    named = [{r["kind"] for r in expected("derivative")[case.id]["output"]["reasons"]}
+    named = [{r["kind"] for r in expected_of("derivative")[case.id]["output"]["reasons"]}
              for case in kinks()]  # fmt: skip
     assert [{case.id.split("/")[2]} for case in kinks()] == named
     kinds = [kind for one in named for kind in one]
@@ -59,13 +59,13 @@ def test_there_are_three_hundred_cases_and_kinks_of_every_kind():
 def test_kinks_without_rounding_are_found_anew_by_kind_and_name():
     for case in kinks()[::9]:
         found = layer("derivative").expected(case.input)
-        assert found.output == expected("derivative")[case.id]["output"]
+        assert found.output == expected_of("derivative")[case.id]["output"]
 
 
 def test_one_sided_differences_of_another_program_differ_at_kinks():
     names = ("row/landing_pyramid", "row/beside", "selection/cloud_two_in", "multipliers/bar_1")
     for name in names:
-        case = held(case_of(f"kink/{name}").input)
+        case = case_with_tau(case_of(f"kink/{name}").input)
         start = q_next(case)
         jumps = []
         for e in np.eye(len(way(case["mechanism"], start, start))):
@@ -77,7 +77,7 @@ def test_one_sided_differences_of_another_program_differ_at_kinks():
 
 def verdict(name, answer):
     case = case_of(name)
-    return case_verdict("derivative", case.input, expected("derivative")[case.id], answer)
+    return case_verdict("derivative", case.input, expected_of("derivative")[case.id], answer)
 
 
 def test_a_verdict_needs_the_kind_and_the_name():
@@ -113,7 +113,7 @@ def test_numbers_may_be_answered_in_part_and_are_refused_where_wrong():
 
 
 def test_no_derivative_is_acceptable_where_a_part_switches():
-    records = expected("derivative").items()
+    records = expected_of("derivative").items()
     names = [id for id, r in records if r["flags"]["switch"] and r["output"]["differentiable"]]
     assert names
     for id in names:

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, at
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, expected
+from tests.lab.vectors.material import cases, expected_of
 
 CUBE = {"kind": "box", "size": [1.0, 1.0, 1.0]}
 BALL = {"kind": "sphere", "radius": 1.0}
@@ -51,7 +51,7 @@ def test_every_answer_is_the_committed_one_and_few_are_unique_but_for_rounding()
     settled_by_rounding = 0
     for one in cases("distance"):
         output, _, unique = distance.answer(one.input)
-        wanted = expected("distance")[one.id]
+        wanted = expected_of("distance")[one.id]
         cloud = "cloud" in (one.input["alpha"]["kind"], one.input["beta"]["kind"])
         found = output if cloud else {key: value[0] for key, value in output.items()}
         assert found == wanted["output"], one.id

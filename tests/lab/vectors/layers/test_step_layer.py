@@ -10,7 +10,7 @@ from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, expected, right_answers
+from tests.lab.vectors.material import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
 
@@ -50,7 +50,7 @@ def test_a_step_of_a_scenario_is_that_of_the_simulator():
     scenario = load_scenario("bunny_grasp", fast=True)
     q = scenario.system.q_start
     result = scenario.simulator().step(q, scenario.targets(scenario.h))
-    output = expected("step")["step/bunny_grasp/0"]["output"]
+    output = expected_of("step")["step/bunny_grasp/0"]["output"]
     size = np.abs(result.solution.delta_q).max()
     assert_within(output["delta_q"], result.solution.delta_q, ROUNDING * size)
     assert_within(output["q_next"], result.q, ROUNDING)
@@ -58,14 +58,14 @@ def test_a_step_of_a_scenario_is_that_of_the_simulator():
 
 def test_consecutive_steps_of_a_run_follow_each_other():
     by_id = {case.id: case.input for case in cases("step")}
-    after = expected("step")["step/stack/15"]["output"]["q_next"]
+    after = expected_of("step")["step/stack/15"]["output"]["q_next"]
     assert_within(after, by_id["step/stack/16"]["q"], ROUNDING)
 
 
 def case_of(name):
     """A case, what is expected of it, and that as an answer."""
     (case,) = (case for case in cases("step") if case.id == name)
-    return case.input, expected("step")[name], right_answers("step")[name]
+    return case.input, expected_of("step")[name], right_answers("step")[name]
 
 
 def stack():

@@ -45,7 +45,7 @@ def body(xyz, rpy=(0.0, 0.0, 0.0)):
     return System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=xyz, rpy=rpy)])
 
 
-def kept(system, pair, q=None):
+def couples_of(system, pair, q=None):
     where = system.kinematics(system.q_start if q is None else q)
     points = closest_points([pair], where)
     return points, couples([pair], points, where.R, where.t)
@@ -57,7 +57,7 @@ def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
     # the others are quarter turns from it: all slide as the cylinder turns.
     system = body((0.01, 0.02, 0.08), (0.4, 0.3, 0.2))
     pair = pair_of(system, FLOOR, Cylinder(0.04, 0.06), first, 9)
-    points, found = kept(system, pair)
+    points, found = couples_of(system, pair)
     assert {c.rim.quarter for c in found if c.rim is not None} == {0, 1, 2, 3}
     J = MotionRates(system.kinematics(system.q_start), system.column_map).J
     rates = contact_rates(found, J)
@@ -81,13 +81,13 @@ def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
     # Alpha's candidates are 0 to 4, beta's 5 to 9: of each cone the tip, then its rim. On its base
     # the rim of a larger one is over no face, and four contacts fill the number.
     system = body((0.01, 0.0, -0.1001), (np.pi, 0.0, 0.0))
-    _, found = kept(system, pair_of(system, Cone(0.05, 0.06), Cone(0.03, 0.04), "fixed", 11))
+    _, found = couples_of(system, pair_of(system, Cone(0.05, 0.06), Cone(0.03, 0.04), "fixed", 11))
     expected = dict.fromkeys((0, 5, 10, 11, 12, 13, 14))
     expected |= {6 + quarter: Rim(1, quarter, 0.03) for quarter in range(4)}
-    points = kept(system, found[0].of.pair)[0].point
+    points = couples_of(system, found[0].of.pair)[0].point
     assert {int(k): c.rim for k, c in zip(points, found, strict=True)} == expected
     assert not any(c.crosses for c in found)
-    _, found = kept(system, pair_of(system, Cone(0.03, 0.06), Cone(0.05, 0.04), "fixed", 11))
+    _, found = couples_of(system, pair_of(system, Cone(0.03, 0.06), Cone(0.05, 0.04), "fixed", 11))
     rims = {c.rim for c in found if c.rim is not None}
     assert rims == {Rim(0, quarter, 0.03) for quarter in range(4)}
 
@@ -108,7 +108,7 @@ def test_edges_cross_where_bodies_lie_across_each_other(shape, xyz, rpy, k, cros
     # Turned by 45 deg, each edge of a box crosses two of the other's; no corner is over the other.
     # The lines of capsules at a right angle cross once. A closest pair alone is no crossing.
     system = body(xyz, rpy)
-    _, found = kept(system, pair_of(system, shape, shape, "fixed", k))
+    _, found = couples_of(system, pair_of(system, shape, shape, "fixed", k))
     assert sum(couple.crosses for couple in found) == crossings
 
 
@@ -125,7 +125,7 @@ def test_the_ball_about_a_capsule_s_corner_is_its_own():
     # The corners of a capsule are the ends of its segment, t +- half_length * axis.
     system = body((0.0, 0.0, 0.2), (0.4, 0.3, 0.2))
     capsule = Capsule(0.03, 0.05)
-    _, found = kept(system, pair_of(system, FLOOR, capsule, "fixed", 2))
+    _, found = couples_of(system, pair_of(system, FLOOR, capsule, "fixed", 2))
     own = found[0].of.bodies[1]
     ends = [own.t - 0.05 * own.R[:, 2], own.t + 0.05 * own.R[:, 2]]
     ends.sort(key=lambda end: end[2])
@@ -152,7 +152,7 @@ def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
     much = (0.0, 1e-3, 0.0)
     for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
         system = body((away, away, 0.06), rpy)
-        _, (couple,) = kept(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
+        _, (couple,) = couples_of(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
         end = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.04, 0.0, -0.06])
         assert nearly_level(couple._replace(points=(end, end))) == expected
         middle = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.01, 0.0, -0.06])
@@ -162,7 +162,7 @@ def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
 def test_merged_features_are_those_of_either_side_with_their_ends_free():
     x, y = np.eye(3)[:2]
     system = body((0.0, 0.0, 0.2))
-    _, (couple,) = kept(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
+    _, (couple,) = couples_of(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
     one = Feature(np.eye(3), x[None], y[None])
     other = Feature(2 * np.eye(3), y[None])
     first, second = couple._replace(features=(one, other)).merged.features

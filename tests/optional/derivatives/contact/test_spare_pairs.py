@@ -10,7 +10,7 @@ from quasistatic_ref.optional.derivatives.contact import spare_pairs
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import _face_corners, spare_pair
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.step import reason
-from tests.optional.derivatives.contact.test_couples import body, kept, pair_of
+from tests.optional.derivatives.contact.test_couples import body, couples_of, pair_of
 
 SLAB = Box(np.array([0.3, 0.3, 0.05]))
 SMALL = Box(np.array([0.1, 0.1, 0.05]))
@@ -24,7 +24,7 @@ PRISM = convex_hull([[x, y, z] for x, y in TRIANGLE for z in (-0.05, 0.05)])
 def kind(lower, upper, xyz, first, k):
     """The jump's kind of an upper shape at xyz over a lower one at the origin, or None."""
     system = body(xyz)
-    points, found = kept(system, pair_of(system, lower, upper, first, k))
+    points, found = couples_of(system, pair_of(system, lower, upper, first, k))
     rates = MotionRates(system.kinematics(system.q_start), system.column_map)
     jump = spare_pair(found, points, rates.J)
     return None if jump is None else jump[0]

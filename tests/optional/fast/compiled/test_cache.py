@@ -22,28 +22,28 @@ def cache(tmp_path, monkeypatch):
     return Cache(KEY)
 
 
-def kept(cache, text=b"a library"):
+def kept_library(cache, text=b"a library"):
     made = cache.folder / "made.so"
     made.write_bytes(text)
     return cache.keep(made)
 
 
 def test_what_is_kept_is_found_by_the_next_process(cache):
-    file = kept(cache)
+    file = kept_library(cache)
     assert Cache(KEY).library() == file
     assert file.stat().st_mode & 0o777 == 0o700
     assert Cache("f" * 16).library() is None
 
 
-def cut(file):
+def cut_short(file):
     file.write_bytes(file.read_bytes()[:3])
 
 
-def emptied(file):
+def empty_file(file):
     file.write_bytes(b"")
 
 
-def flipped(file):
+def flip_bit(file):
     text = bytearray(file.read_bytes())
     text[4] ^= 1
     file.write_bytes(text)
@@ -64,16 +64,16 @@ def writable(file):
     file.chmod(0o722)
 
 
-@pytest.mark.parametrize("spoil", [cut, emptied, flipped, fifo, link, writable])
+@pytest.mark.parametrize("spoil", [cut_short, empty_file, flip_bit, fifo, link, writable])
 def test_a_library_that_is_not_what_was_kept_is_removed(cache, spoil):
-    file = kept(cache)
+    file = kept_library(cache)
     spoil(file)
     assert cache.library() is None
     assert not os.path.lexists(file)
 
 
 def test_a_folder_in_the_place_of_the_library_is_refused(cache):
-    file = kept(cache)
+    file = kept_library(cache)
     file.unlink()
     (file / "more").mkdir(parents=True)
     with pytest.raises(CompileError, match=r"is not a library of this user, and cannot be removed"):
@@ -83,7 +83,7 @@ def test_a_folder_in_the_place_of_the_library_is_refused(cache):
 @pytest.mark.parametrize("mode", [0o777, 0o770, 0o707])
 def test_a_folder_in_which_others_may_write_is_refused(cache, mode):
     """Another user could put a library there, or exchange the one that is kept."""
-    kept(cache)
+    kept_library(cache)
     cache.folder.chmod(mode)
     with pytest.raises(CompileError, match=r"^others may write in .* by chmod go-w$"):
         Cache(KEY)

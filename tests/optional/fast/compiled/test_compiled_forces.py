@@ -23,7 +23,7 @@ def in_c(step):
 def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
     """Cones of other corners than the pyramid's are left to the core."""
     known = forces.knows
-    steps = [make(seed) for seed in range(30) for make in (degenerate_step, mixed)]
+    steps = [make(seed) for seed in range(30) for make in (degenerate_step, mixed_step)]
     decided = 0
     for step in filter(lambda step: known(step.cone), steps):
         wrench, left = in_c(step)
@@ -34,7 +34,7 @@ def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
     assert decided > 0.85 * len(steps) / 2
 
 
-def mixed(seed):
+def mixed_step(seed):
     return random_case(seed)[1]
 
 

@@ -115,11 +115,11 @@ def arrays(step, form, points):
     return {**points._asdict(), **contacts, **own, **form._asdict()}
 
 
-def differing(one, other):
+def differing_names(one, other):
     return [name for name in one if one[name].tobytes() != other[name].tobytes()]
 
 
-def compared(system, pairs, cone, rng):
+def wrong_arrays(system, pairs, cone, rng):
     """Names of the arrays in which compiled steps differ from the plain path's."""
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
     simulator = Simulator(system, pairs, h=0.01, K_q=K_q, certify="off", cone=cone, fast=True)
@@ -132,7 +132,7 @@ def compared(system, pairs, cone, rng):
         simulator.contacts.find(simulator.poses)
         found = arrays(*simulator.posed_step(q, goal, force))
         assert simulator.gap == expected["phi"].min()
-        wrong.update(differing(found, expected))
+        wrong.update(differing_names(found, expected))
         after = simulator.screws.integrate(move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)
@@ -144,7 +144,7 @@ def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_the_plain_path(t
     rng = np.random.default_rng(CONES.index(cone))
     system = bodies(tmp_path)
     pairs = [*shapes_and_clouds(system, KNOWN, rng), *solids(system, rng)]
-    assert compared(system, pairs[::-1], cone, rng) == []
+    assert wrong_arrays(system, pairs[::-1], cone, rng) == []
 
 
 @needs_compiler
@@ -153,7 +153,7 @@ def test_pairs_that_compiled_code_does_not_know_are_those_of_the_plain_path(tmp_
     system = bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
     pairs += solids(system, rng)
-    assert compared(system, pairs, "pyramid", rng) == []
+    assert wrong_arrays(system, pairs, "pyramid", rng) == []
     simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
     known = zip(pairs, simulator.contacts.known, strict=True)
     assert [pair.name for pair, is_known in known if not is_known] == ["p6", "p7"]
@@ -203,7 +203,7 @@ def test_clouds_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path():
             simulator = Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)), **made)
             result = simulator.step(system.q_start, np.zeros(0))
             found.append(arrays(result.step, standard_form(result.step), result.points))
-        assert differing(*found) == []
+        assert differing_names(*found) == []
 
 
 def python(source, **settings):

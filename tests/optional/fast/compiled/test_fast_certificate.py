@@ -76,14 +76,14 @@ def holds(library):
 
 
 def test_the_bounds_of_a_proof_are_bounds(tmp_path):
-    assert holds(made(tmp_path, "", ""))
+    assert holds(mutant_library(tmp_path, "", ""))
 
 
 def test_a_bound_that_is_infinite_shows_no_contraction(tmp_path):
     R, G = np.full((2, 2), 1e300), np.full((2, 2), 0.9)
     r, e = np.full(2, 1e10), np.zeros(2)
     given = pointer(R), pointer(G), pointer(r), ctypes.c_int64(2), pointer(e)
-    assert not made(tmp_path, "", "").error_bounds(*given)
+    assert not mutant_library(tmp_path, "", "").error_bounds(*given)
 
 
 MUTANTS = {
@@ -100,10 +100,10 @@ MUTANTS = {
 
 @pytest.mark.parametrize("name", MUTANTS)
 def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
-    assert not holds(made(tmp_path, *MUTANTS[name]))
+    assert not holds(mutant_library(tmp_path, *MUTANTS[name]))
 
 
-def made(folder, text, other):
+def mutant_library(folder, text, other):
     """The functions of contraction.c, which call no other file, with one text replaced."""
     changed_sources(folder, "contraction.c", text, other)
     out = folder / "mutant.so"

@@ -64,7 +64,7 @@ CLOUDS = ["grid", "copies", "shell", "one place", "random"]
 MOVES = ["stay", "creep", "slide", "turn", "come and go", "run", "jump", "inside"]
 
 
-def moved(R, t, move, rng):
+def next_pose(R, t, move, rng):
     """The next pose of a body."""
     small = {"creep": 1e-5, "turn": 1e-3, "run": 1e-2}.get(move, 0.0)
     turn = Rotation.from_rotvec(small * rng.normal(size=3)).as_matrix()
@@ -135,7 +135,7 @@ def test_followed_contacts_are_those_of_brute_force(names, kinds, moves, N, k, w
     t[1 + len(names) :] = rng.uniform(-0.3, 0.3, size=(len(names), 3))
     for move in moves:
         for link in range(1, L):
-            R[link], t[link] = moved(R[link], t[link], move, rng)
+            R[link], t[link] = next_pose(R[link], t[link], move, rng)
         same_bits(tracker, pairs, R, t)
 
 

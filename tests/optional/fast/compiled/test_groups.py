@@ -24,7 +24,7 @@ from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.random_steps import any_step
 from validation.make.confirmed_bits import NEARBY, OTHERS, differing_fields
-from validation.make.grouped_proofs import unlike
+from validation.make.grouped_proofs import unlike_fields
 
 pytestmark = needs_compiler
 
@@ -73,7 +73,7 @@ def test_groups_that_merge_and_split_have_the_bits_of_each_by_itself(monkeypatch
             other = by_the_exact_method(monkeypatch, both, answer)
             may = NEARBY if found.multipliers_unique else OTHERS
             assert set(differing_fields(found, other)) <= may, (seed, k)
-            assert unlike(found, form_optimum(exact_form(step))) == [], (seed, k)
+            assert unlike_fields(found, form_optimum(exact_form(step))) == [], (seed, k)
             of_groups = kept.prover.s["code"].tolist()
             codes.update(of_groups)
             several += len(of_groups) > 1

@@ -49,7 +49,7 @@ CERTIFIED = "off", "full"
 NONE = np.zeros(0)
 
 
-def refused(*_):
+def refuse(*_):
     raise AssertionError("the method that decides everything was called, or prepared")
 
 
@@ -57,7 +57,7 @@ def refused(*_):
 @needs_compiler
 def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch):
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
-    monkeypatch.setattr(proofs, "group_optimum", refused)
+    monkeypatch.setattr(proofs, "group_optimum", refuse)
     scenario = load_scenario("allegro_turn", fast=True)
     simulator = scenario.simulator()
     q = scenario.system.q_start
@@ -77,18 +77,18 @@ def test_boxes_at_rest_on_each_other_do_not_cost_the_exact_method(monkeypatch):
     q = falling.system.q_start
     for _ in range(50):
         q = falling.step(q, NONE).q
-    monkeypatch.setattr(proofs, "group_optimum", refused)
+    monkeypatch.setattr(proofs, "group_optimum", refuse)
     assert certified.step(q, NONE).solution.certificate.kind == "exact"
 
 
 @needs_compiler
 def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
     """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
-    monkeypatch.setattr(proofs, "group_optimum", refused)
+    monkeypatch.setattr(proofs, "group_optimum", refuse)
     assert solve_step(pinch(grip=5.0), "clarabel", fast=True).certificate.kind == "exact"
 
 
-def walked(A, b, g, guess):
+def proved_working_set(A, b, g, guess):
     """The working set that is proved where a guess is not; None if none is."""
     step = step_of(A, b, g)
     assert proof(step, ascending(guess)) is None
@@ -137,4 +137,4 @@ D = round(8e-5 * 2**44) / 2**44
     ],
 )
 def test_walks_from_a_wrong_guess_end_at_the_working_set(A, b, g, guess, right):
-    assert walked(A, b, g, guess) == right
+    assert proved_working_set(A, b, g, guess) == right

@@ -20,7 +20,7 @@ SPINS = [4, 5]
 """Rows of a contact. Both of its spins hold its gap and its spin."""
 
 
-def proved(step, working):
+def proof_on(step, working):
     return proof(step, np.array(working, dtype=np.int64))
 
 
@@ -46,7 +46,7 @@ def test_degenerate_steps_have_the_bits_of_the_exact_method():
 )
 def test_claims_of_rows_without_slack(loads, working, unique, smooth):
     step = resting_point(**loads)
-    found = proved(step, working)
+    found = proof_on(step, working)
     assert (found.multipliers_unique, found.differentiable) == (unique, smooth)
     assert differing_fields(found, form_optimum(exact_form(step), working)) == []
 
@@ -58,7 +58,7 @@ def test_rows_that_other_contacts_span_are_zero_although_no_combination_of_their
     J = twice.J.copy()
     J[1] /= 2
     step = step.replace(contacts=changed(twice, J=J))
-    found = proved(step, SPINS)
+    found = proof_on(step, SPINS)
     assert isinstance(found, ExactOptimum)
     assert (found.multipliers_unique, found.differentiable) == (False, True)
     assert differing_fields(found, form_optimum(exact_form(step), SPINS)) == []
@@ -67,7 +67,7 @@ def test_rows_that_other_contacts_span_are_zero_although_no_combination_of_their
 def test_a_slack_that_is_small_but_not_zero_is_no_zero():
     """A weight of 3 N and a push of 2^-300 N: it moves by 2^-300 h^2 / m."""
     step = resting_point(tau_x=2.0**-300)
-    found = proved(step, SPINS)
+    found = proof_on(step, SPINS)
     truth = form_optimum(exact_form(step), SPINS)
     assert truth.working_set != tuple(SPINS)
     assert not isinstance(found, ExactOptimum) or differing_fields(found, truth) == []
@@ -76,7 +76,7 @@ def test_a_slack_that_is_small_but_not_zero_is_no_zero():
 @pytest.mark.parametrize("k", [1, 3])
 def test_numbers_half_way_between_two_others_are_the_even_ones(k):
     step = half_way(k)
-    found = proved(step, [0, 1])
+    found = proof_on(step, [0, 1])
     assert isinstance(found, ExactOptimum)
     assert differing_fields(found, form_optimum(exact_form(step), (0, 1))) == []
     even = 1.0 if k == 1 else 1 + 2.0**-51  # 1 + 2^-53 and 1 + 3 2^-53
