@@ -44,8 +44,8 @@ class Observer:
         results : sequence of StepResult
             Of the last steps.
         arrays : dict of str to ndarray
-            What the recorder keeps of them, by the names of a trajectory [of the notation]; of q
-            where each step has led.
+            What the recorder keeps of them, read-only, by the names of a trajectory [of the
+            notation]; of q where each step has led.
         """
         return {}
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.certify.contact_forces import CONTACT_FORCES
 from quasistatic_ref.certify.solution import UNKNOWN
@@ -31,6 +32,7 @@ PACKED = 100
 LARGEST = 1_000_000
 """Entries of J that are kept so, beyond those of one step."""
 POINTS = ("phi", "alpha", "beta", "n", "point")
+IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED)
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
@@ -125,14 +127,21 @@ class Recorder(Shown):
         Raises
         ------
         InputError
-            If the record holds forces and they are not known.
+            If the record holds forces and they are not known, or an extension's rows are not those
+            of the step before.
         """
         solution = result.solution
+        rows = result.step.extra.names
+        if self.steps and rows != self.extra:
+            pairs = zip_longest(self.extra, rows, fillvalue="no row")
+            was, now = next((was, now) for was, now in pairs if was != now)
+            problem = f"has {now} in step {self.steps}, where the step before has {was}; "
+            raise InputError(problem + "give the same rows in each step", field="extension")
         if self.record == "forces" and not solution.alone:
             raise InputError(UNKNOWN, field="forces")
         self._latest.append((q_bar_a, result))
         self.alone &= solution.alone
-        self.extra = result.step.extra.names
+        self.extra = rows
         self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
         self.steps += 1
         most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.kept_J.size))
@@ -143,12 +152,15 @@ class Recorder(Shown):
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._latest:
             q_bar_a, results = zip(*self._latest, strict=True)
-            self._latest = []
             arrays = self._arrays(q_bar_a, results)
+            for array in arrays.values():
+                read_only(array)
+            self.parts.append(arrays)  # before an observer may raise
+            self._latest = []
             for observer in self.observers:
-                notes = observer.after(self, results, arrays)
-                arrays |= {name: np.array(one, np.float64) for name, one in notes.items()}
-            self.parts.append(arrays)
+                notes = observer.after(self, results, dict(arrays))
+                for name, note in notes.items():
+                    arrays[name] = _checked_note(name, note, len(results))
         return self.parts
 
     def _arrays(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> StepArrays:
@@ -218,8 +230,13 @@ class Recorder(Shown):
         return tuple(name for observer in self.observers for name in observer.notes)
 
     def noted(self, name: str) -> NDArray[Any]:
-        """What an observer kept of each step so far, shape (steps, ...) [any unit]."""
+        """What an observer kept of each step so far, shape (steps, ...) [any unit].
+
+        Without the last steps, while it is asked about them, and after it has failed there.
+        """
         parts = self.packed()
+        if name in self.notes:
+            parts = list(takewhile(lambda part: name in part, parts))
         return _over_all_steps(parts, name) if parts else np.zeros(0)
 
     def trajectory(self, failed: str | None = None, interrupted: bool = False) -> Trajectory:
@@ -234,7 +251,7 @@ class Recorder(Shown):
         """
         parts = self.packed()
         kept = parts[0] if parts else {}
-        known = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED) if name in kept]
+        known = [name for name in IN_ORDER if name in kept]
         arrays = {name: _over_all_steps(parts, name) for name in known} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
@@ -305,6 +322,20 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
         extra = [step.extra for step in steps]
         arrays |= {"extra_A": _of_all(extra, "A"), "extra_b": _of_all(extra, "b")}
     return arrays
+
+
+def _checked_note(name: str, note: ArrayLike, steps: int) -> Array:
+    """What an observer notes of some steps, shape (steps, ...) [any unit]; InputError otherwise."""
+    if name in (*IN_ORDER, "q", "tau") or name.startswith(SECONDS):
+        raise InputError("is a name of the record's own; take another", field=f"note {name}")
+    try:
+        array = np.array(note, np.float64)
+    except (TypeError, ValueError):
+        array = np.zeros(())
+    if array.shape[:1] != (steps,):
+        problem = f"must be an array of {steps} rows of numbers, one for each of the results"
+        raise InputError(problem, field=f"note {name}", value=note)
+    return read_only(array)
 
 
 def _of_all(objects: Sequence[Any], name: str) -> NDArray[Any]:

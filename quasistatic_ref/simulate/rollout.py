@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -174,14 +174,18 @@ def rollout(
                     observer.before(recorder)
                 q_bar_a = q_bar_a_at(t, q, last)
                 last = simulator.step(q, q_bar_a, force_at(t, q, last))
+                recorder.add(q_bar_a, last)
+                if k + 1 == steps:
+                    recorder.packed()
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
                 step = failure.step if isinstance(failure, StepNotSolved) else None
+                with suppress(QuasistaticError):  # of an observer: the run has failed already
+                    recorder.packed()
                 trajectory = recorder.trajectory(reason, interrupted)
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
-            recorder.add(q_bar_a, last)
         return recorder.trajectory()
 
 

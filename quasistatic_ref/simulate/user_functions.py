@@ -15,7 +15,7 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.target import Targets
-from quasistatic_ref.step.arrays import checked_numbers
+from quasistatic_ref.step.arrays import checked_numbers, read_only
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _by_blocks(
     @lru_cache(maxsize=1)
     def block(first: int) -> Array | None:
         t: Array = np.arange(first + 1.0, first + AT_ONCE + 1.0) * h
-        q_bar_a = targets.over(t) + 0.0
+        q_bar_a = read_only(targets.over(t) + 0.0)
         return q_bar_a if system.surely_actuated(q_bar_a) else None
 
     def at(t: float, q: Array, last: "StepResult | None") -> Array:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, Recorder, RunFailed, load_scenario, rollout
+from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario, rollout
 from quasistatic_ref.simulate import recorder as recorder_module
 from quasistatic_ref.simulate import user_functions
 from quasistatic_ref.simulate.observer import Observer
@@ -118,6 +118,75 @@ def test_an_observer_ends_a_run_as_any_failure_does(scenario):
         run_with(scenario, witness)
     assert witness.asked[-2:] == [("before", 2), ("end", 2, "step 2: high enough", False)]
     assert caught.value.trajectory.header["heights"] == caught.value.trajectory.q[1:, 2].tolist()
+
+
+class Failing(Observer):
+    """Returns a note, or raises it, where it is asked for the second time; keeps what it found."""
+
+    notes = ("note",)
+
+    def __init__(self, note):
+        self.note = note
+        self.found = []
+
+    def after(self, recorder, results, arrays):
+        """After several steps."""
+        for array in arrays.values():
+            with pytest.raises(ValueError, match="read-only"):
+                array[:] = array
+        assert len(recorder.trajectory()) == recorder.steps
+        self.found.append((recorder.steps, len(recorder.noted("note"))))
+        arrays.clear()
+        if len(self.found) == 1:
+            return {"note": np.zeros(len(results))}
+        if isinstance(self.note, Exception):
+            raise self.note
+        return self.note
+
+
+FAILS = {
+    "an error": (InputError("low", field="x", value=1), r"x: low \(got 1\)"),
+    "a number": (
+        {"note": 3.0},
+        r"note note: must be an array of . rows of numbers, .* \(got 3.0\)",
+    ),
+    "one row of seven": ({"note": [1.0]}, "note note: must be an array of . rows"),
+    "words": ({"note": ["high"] * 7}, "note note: must be an array of . rows"),
+    "a name of the record's": ({"lam": np.zeros(7)}, "note lam: is a name of the record's own"),
+}
+
+
+@pytest.mark.parametrize(("note", "says"), FAILS.values(), ids=FAILS)
+@pytest.mark.parametrize("steps", [12, 20])
+def test_an_observer_that_fails_in_a_block_leaves_all_steps(note, says, steps, monkeypatch):
+    """Whether it is the last block of the run, which may be shorter, or not."""
+    taken = min(14, steps)
+    monkeypatch.setattr(recorder_module, "PACKED", 7)
+    scene = load_scenario("sphere_spin", steps=steps)
+    observer = Failing(note)
+    with pytest.raises(RunFailed, match=f"^step {taken - 1}: {says}") as caught:
+        scene.run(progress=False, observers=[observer])
+    assert observer.found == [(7, 0), (taken, 7)]
+    kept = caught.value.trajectory
+    monkeypatch.undo()
+    whole = load_scenario("sphere_spin", steps=taken).run(progress=False)
+    assert kept.header == {**whole.header, "failed": str(caught.value)}
+    for key, array in whole.arrays.items():
+        assert kept[key].tobytes() == array.tobytes()
+
+
+def test_rows_of_an_extension_that_change_are_refused(scenario):
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    result = simulator.step(q, np.zeros(0))
+    limits = Extra(("ceiling", "wall"), np.zeros((2, 6)), np.zeros(2))
+    other = replace(result, step=result.step.replace(extra=limits))
+    recorder = Recorder(simulator, q)
+    recorder.add(np.zeros(0), result)
+    says = "extension: has ceiling in step 1, where the step before has no row; give the same rows"
+    with pytest.raises(InputError, match=says):
+        recorder.add(np.zeros(0), other)
+    assert len(recorder.trajectory()) == 1
 
 
 def test_what_is_not_known_is_nan_and_notes_outlast_the_packing(scenario):

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import ModelError, ScenarioError, load_scenario
 from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
-from quasistatic_ref.simulate.user_functions import target_function
+from quasistatic_ref.simulate.user_functions import AT_ONCE, target_function
 from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
@@ -76,16 +76,20 @@ def test_targets_of_many_steps_have_the_bits_of_each(scene, rng):
         JointTrack(scene.joint("desk/slide"), TIMES, rng.normal(size=(3, 1))),
     ]
     targets = Targets(scene.q_start[: scene.n_q_a], tracks)
-    h = 0.05
-    at = target_function(scene, h, targets, 100)
-    found = [at((k + 1) * h, scene.q_start, None) for k in range(100)]
+    h = 0.02
+    steps = 250
+    assert steps > 2 * AT_ONCE
+    at = target_function(scene, h, targets, steps)
+    found = [at((k + 1) * h, scene.q_start, None) for k in range(steps)]
+    assert not any(q_bar_a.flags.writeable for q_bar_a in found)
     for k, q_bar_a in enumerate(found):
         t = (k + 1) * h
         one = scene.checked(scene.with_actuated(scene.q_start, targets(t)))[: scene.n_q_a]
         assert q_bar_a.tobytes() == one.tobytes()
     slide = scene.joint("desk/slide").q.start
+    t = h * np.arange(1, steps + 1)
     np.testing.assert_allclose(
-        np.array(found)[:, slide], np.interp(h * np.arange(1, 101), TIMES, tracks[2].values[:, 0]),
+        np.array(found)[:, slide], np.interp(t, TIMES, tracks[2].values[:, 0]),
         rtol=0, atol=ROUNDING,
     )  # fmt: skip
 

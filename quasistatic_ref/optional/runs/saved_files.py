@@ -187,24 +187,28 @@ class SavedSteps(Observer):
     def save(self, recorder: Recorder) -> None:
         """Write the steps since the save before into a file of their own."""
         parts = recorder.packed()
-        new = parts[self._saved :]
+        # A part is incomplete if an observer was interrupted.
+        new = list(
+            itertools.takewhile(lambda part: part.keys() >= {*self.kept}, parts[self._saved :])
+        )
         if new:
             keys = [key for key in new[0] if key not in (*PROGRAM, *EXTRA[1:])]
             arrays: dict[str, Any] = {key: np.concatenate([p[key] for p in new]) for key in keys}
             steps = len(arrays["t"])
+            first = sum(len(part["t"]) for part in parts[: self._saved])
             header = {
                 "format": FORMAT,
                 "version": VERSION,
-                "first": recorder.steps - steps,
+                "first": first,
                 "steps": steps,
                 "extra": list(recorder.extra),
                 "settings": self.settings,
             }
             arrays["header"] = json_array(header)
-            path = self.folder / f"{recorder.steps - steps:09d}.npz"
+            path = self.folder / f"{first:09d}.npz"
             try:
                 written_whole(path, lambda file: np.savez(file, **arrays))
-                self._saved = len(parts)
+                self._saved += len(new)
                 self._failing = False
             except InputError as error:
                 if not self._failing:
