@@ -4,7 +4,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
-from tests.lab.vectors.material import answer_file, cases
+from tests.lab.vectors.committed_cases import answer_file, cases
 from tests.quoted import QUOTED, ROOT, expected_phrases, flat, outside, printed_blocks, stale
 
 PAGES = sorted(

@@ -1,4 +1,7 @@
-"""Random steps that may be anything: what the exact answer and its certificate are tried on."""
+"""Random steps that may be anything: what the exact answer and its certificate are tried on.
+
+Those that commands and the vectors draw are in ``lab/scenes/at_random.py``.
+"""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.oracle.pipes import ERROR, HEAD, lines_served, numbers_served
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
 from quasistatic_ref.optional.fast.compiled.library import compiler
-from tests.lab.vectors.material import ROOT
+from tests.lab.vectors.committed_cases import ROOT
 
 CLIENTS = ROOT / "validation" / "programs" / "clients"
 BALL = [0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0]

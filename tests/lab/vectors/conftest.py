@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.lab.vectors.material import LIGHT, answer_file, right_answers
+from tests.lab.vectors.committed_cases import LIGHT, answer_file, right_answers
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import pytest
 
 from quasistatic_ref.cli.main import main
-from tests.lab.vectors.material import VECTORS, answer_file, right_answers
+from tests.lab.vectors.committed_cases import VECTORS, answer_file, right_answers
 
 CHECK = ["check", "answers"]
 REPORT = ["report", "answers", "--out", "out.svg"]

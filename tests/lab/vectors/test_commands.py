@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.material import by_size, cases, inputs_file
+from tests.lab.vectors.committed_cases import by_size, cases, inputs_file
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.vectors.conformance.conformance import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
-from tests.lab.vectors.material import VECTORS, cases, right_answers
+from tests.lab.vectors.committed_cases import VECTORS, cases, right_answers
 
 LABEL = f"quasi-dynamic vectors {RELEASE}"
 SIZE = {layer: len(cases(layer)) for layer in LAYERS}

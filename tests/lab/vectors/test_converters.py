@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.vectors.converters import tangent_map, xyzw
-from tests.lab.vectors.material import report_on, right_answers, small_cases
+from tests.lab.vectors.committed_cases import report_on, right_answers, small_cases
 
 
 @pytest.mark.parametrize("tangent", ["world", "mujoco"])

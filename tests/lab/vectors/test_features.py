@@ -2,7 +2,7 @@
 
 from quasistatic_ref.lab.vectors.features import FEW, features
 from quasistatic_ref.lab.vectors.tables import follower, free_body, scene
-from tests.lab.vectors.material import ROOT
+from tests.lab.vectors.committed_cases import ROOT
 from validation.make import vector_features
 
 TABLE = ROOT / "validation" / "results" / "vector_features.csv"

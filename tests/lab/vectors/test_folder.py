@@ -16,7 +16,14 @@ from quasistatic_ref.lab.vectors.files import line
 from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, own_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
-from tests.lab.vectors.material import ROOT, VECTORS, by_size, cases, expected_of, inputs_file
+from tests.lab.vectors.committed_cases import (
+    ROOT,
+    VECTORS,
+    by_size,
+    cases,
+    expected_of,
+    inputs_file,
+)
 
 MEBIBYTES = 25
 """Promised size of the folder."""

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answer
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.closeness import assert_within
-from tests.lab.vectors.material import NUMPY, VECTORS
+from tests.lab.vectors.committed_cases import NUMPY, VECTORS
 from tests.tolerances import CLOSED_FORM
 from validation.make.challenges import PLAIN
 

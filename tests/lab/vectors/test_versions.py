@@ -13,7 +13,7 @@ from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.pack import write_zip
 from quasistatic_ref.lab.vectors.versions import RELEASE, edition, manifest
-from tests.lab.vectors.material import ROOT, VECTORS
+from tests.lab.vectors.committed_cases import ROOT, VECTORS
 
 
 @pytest.fixture

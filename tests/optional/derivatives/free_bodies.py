@@ -16,7 +16,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from tests.contact.still import placed_shape
-from tests.lab.vectors.material import cases
+from tests.lab.vectors.committed_cases import cases
 
 H = 0.01
 G = 9.81

@@ -9,7 +9,7 @@ import pytest
 
 from quasistatic_ref import Extension, InputError, derivatives
 from quasistatic_ref.lab.vectors.layers import layer
-from tests.lab.vectors.material import cases, report_on
+from tests.lab.vectors.committed_cases import cases, report_on
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.tolerances import DIFFERENCE_OF_STEPS
 

@@ -10,7 +10,7 @@ from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import BEARING, NEARLY
 from tests.closeness import assert_relative
-from tests.lab.vectors.material import cases
+from tests.lab.vectors.committed_cases import cases
 from tests.optional.derivatives.free_bodies import (
     BOX,
     FLOOR,

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.vectors.challenge.simpler import MOVES, shrunk
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.lab.vectors.challenge.programs import command
-from tests.lab.vectors.material import ROOT
+from tests.lab.vectors.committed_cases import ROOT
 from validation.make import challenges
 
 

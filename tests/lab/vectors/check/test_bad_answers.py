@@ -6,7 +6,14 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.folder import check_answers
-from tests.lab.vectors.material import LIGHT, VECTORS, answer_file, by_layer, cases, right_answers
+from tests.lab.vectors.committed_cases import (
+    LIGHT,
+    VECTORS,
+    answer_file,
+    by_layer,
+    cases,
+    right_answers,
+)
 
 
 def test_right_answers_pass_and_layers_without_a_file_are_named(folder):

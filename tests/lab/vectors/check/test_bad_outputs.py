@@ -5,7 +5,7 @@ import pytest
 from quasistatic_ref.lab.vectors.check.folder import check_answers
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS, correct_digits
 from tests.closeness import assert_relative
-from tests.lab.vectors.material import (
+from tests.lab.vectors.committed_cases import (
     LIGHT,
     VECTORS,
     answer_file,

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
-from tests.lab.vectors.material import cases, expected_of, right_answers
+from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 
 SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
 

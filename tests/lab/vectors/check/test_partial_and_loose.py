@@ -11,7 +11,13 @@ from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers import layer as layer_of
-from tests.lab.vectors.material import cases, expected_of, in_float32, report_on, right_answers
+from tests.lab.vectors.committed_cases import (
+    cases,
+    expected_of,
+    in_float32,
+    report_on,
+    right_answers,
+)
 
 SOLVED = ("delta_q", "lam", "A_lam", "wrench", "q_next", "farkas")
 """What comes after A and b in a step."""

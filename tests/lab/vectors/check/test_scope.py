@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
 from quasistatic_ref.lab.vectors.conformance.conformance import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
-from tests.lab.vectors.material import VECTORS, cases, expected_of, in_float32, right_answers
+from tests.lab.vectors.committed_cases import VECTORS, cases, expected_of, in_float32, right_answers
 
 HEAD = 'format = "quasistatic-ref/scope"\nversion = 1\n'
 BOXES = f"""{HEAD}name = "boxes and half-spaces"

@@ -7,7 +7,7 @@ from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
 from quasistatic_ref.lab.vectors.check.table import FACTOR
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
-from tests.lab.vectors.material import (
+from tests.lab.vectors.committed_cases import (
     by_size,
     expected_of,
     report_on,

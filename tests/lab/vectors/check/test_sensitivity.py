@@ -6,7 +6,7 @@ from quasistatic_ref.lab.vectors.challenge.removals import replaced
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
-from tests.lab.vectors.material import cases, expected_of, right_answers
+from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 
 
 def numbers_in(value):

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.layers import layer
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, expected_of, report_on
+from tests.lab.vectors.committed_cases import cases, expected_of, report_on
 
 CHECKED = ("ball/pyramid", "forces/turned", "arm/passive_elbow", "planar/push",
            "mimic/revolute_actuated", "pair/sphere_ellipsoid_1", "pair/cylinder_box_0")  # fmt: skip

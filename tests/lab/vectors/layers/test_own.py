@@ -9,7 +9,7 @@ from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.own.system import own_system
 from quasistatic_ref.lab.vectors.tables import follower, free_body, link
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, report_on
+from tests.lab.vectors.committed_cases import cases, report_on
 
 
 @pytest.mark.parametrize("name", ["distance", *LAYERS[1:4], "wrench", "integrate"])

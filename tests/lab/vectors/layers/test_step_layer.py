@@ -10,7 +10,7 @@ from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
 from tests.closeness import assert_within
-from tests.lab.vectors.material import cases, expected_of, right_answers
+from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
 
