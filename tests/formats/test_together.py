@@ -13,7 +13,7 @@ def test_files_that_are_read_together_are_counted_in_all():
     spend(MOST)
     with together():
         spend(MOST)
-        with together(), pytest.raises(ModelError, match="more than one scenario may have"):
+        with together(), pytest.raises(ModelError, match="12 s of reading, more than the 8 s of"):
             spend(MOST)
     with together():
         spend(MOST)
