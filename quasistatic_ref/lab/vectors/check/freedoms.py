@@ -69,12 +69,12 @@ def other_choice(case: Json, record: Json, answer: Json, failing: Failing) -> Ve
         last = max([len(phi) - 1, *wanted])  # places after those of phi fill the number
         if not all(isinstance(i, int) and 0 <= i <= last for i in chosen):
             return failure("indices", f"indices must be whole numbers from 0 to {last}")
-        room = unit * max(map(abs, phi), default=0.0)
+        allowed = unit * max(map(abs, phi), default=0.0)
         pairs = [(i, j) for i, j in zip(chosen, wanted, strict=True) if i != j]
         known = all(max(pair) < len(phi) for pair in pairs)
         if len(set(chosen)) < len(chosen) or not known:
             return plain_failure(failing)
-        if any(abs(phi[i] - phi[j]) > room for i, j in pairs):
+        if any(abs(phi[i] - phi[j]) > allowed for i, j in pairs):
             return plain_failure(failing)
     if not unit:
         return failure("indices", "indices: equal distances stand in the order of their places")

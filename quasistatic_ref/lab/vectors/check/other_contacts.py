@@ -38,7 +38,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         As many as are expected, of the same pairs in the same order.
     """
     wanted = record["output"]["contacts"]
-    room = max(
+    allowed = max(
         tolerance_of(record["tolerance"], f"contacts.{name}")
         for name in ("phi", "alpha", "beta", "n")
     )
@@ -53,7 +53,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         if len({c["index"] for c in own}) < len(own):
             return f"{pair['name']} names a candidate twice"
         given = sorted(float(c["phi"]) for c in own)
-        if any(abs(one - other) > 2 * room for one, other in zip(given, due, strict=True)):
+        if any(abs(one - other) > 2 * allowed for one, other in zip(given, due, strict=True)):
             return f"the distances of {pair['name']} are others"
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
@@ -63,9 +63,9 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         for contact in own:
             if not 0 <= contact["index"] < len(candidates):
                 return f"{pair['name']} has no candidate {contact['index']}"
-            if problem := _contact_problem(candidates[contact["index"]], contact, room):
+            if problem := _contact_problem(candidates[contact["index"]], contact, allowed):
                 others = (
-                    i for i, c in enumerate(candidates) if not _contact_problem(c, contact, room)
+                    i for i, c in enumerate(candidates) if not _contact_problem(c, contact, allowed)
                 )
                 if (place := next(others, None)) is not None:
                     problem = f"its point is candidate {place}: candidates have a documented order"
@@ -73,19 +73,19 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     return None
 
 
-def _contact_problem(candidate: Json, contact: Json, room: float) -> str | None:
+def _contact_problem(candidate: Json, contact: Json, allowed: float) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
-    if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * room):
+    if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * allowed):
         return problem
     sizes = np.abs(n)
     near = np.flatnonzero(sizes <= sizes.min() + TIED)
     if (sizes[near] == sizes.min()).all():
         near = near[:1]
-    if not any(np.abs(d1 - _tangent_along_axis(int(i), n)).max() <= 4 * room for i in near):
+    if not any(np.abs(d1 - _tangent_along_axis(int(i), n)).max() <= 4 * allowed for i in near):
         return "d1 is not the projection of the axis farthest from n, the first of equals"
-    return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * room else "d2 is not n x d1"
+    return None if np.abs(d2 - np.cross(n, d1)).max() <= 4 * allowed else "d2 is not n x d1"
 
 
 def _tangent_along_axis(axis: int, n: Array) -> Array:
