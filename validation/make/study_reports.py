@@ -19,7 +19,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section
-from quasistatic_ref.lab.study.measuring.judging import judged_again, write_packed
+from quasistatic_ref.lab.study.measuring.judged_again import judged_again, write_packed
 from quasistatic_ref.lab.study.measuring.sweep import Axis, Sweep, run_sweep
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report

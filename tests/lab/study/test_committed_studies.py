@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
-from quasistatic_ref.lab.study.measuring.verdict import FACTOR
+from quasistatic_ref.lab.study.measuring.false_claims import FACTOR
 from quasistatic_ref.lab.study.problems.folder import manifest
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.report.report import study_report

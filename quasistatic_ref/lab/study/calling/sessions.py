@@ -8,8 +8,8 @@ only. Which of these a solver takes is a fact of its interface.
 from dataclasses import replace
 
 from quasistatic_ref.lab.study.calling.calls import function_of, takes_start
-from quasistatic_ref.lab.study.calling.guests import NATIVELY
 from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.calling.study_only import NATIVELY
 from quasistatic_ref.solve.reply import Reply
 
 COLD = "cold"

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from quasistatic_ref.lab.study.calling.claims import claim
-from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.options import has_accuracy, option_file, options_at
 from quasistatic_ref.lab.study.calling.promises import RESIDUALS, Promise, promise_of, resolved
+from quasistatic_ref.lab.study.calling.study_only import EVERY
 from quasistatic_ref.solve.backends import BACKENDS, Backend
 
 INTERFACES = ("cvxpy", "qpsolvers", "native", "package", "callable", "executable")

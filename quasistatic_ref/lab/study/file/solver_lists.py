@@ -7,10 +7,10 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.lab.study.calling.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.calling.packages import announced_solvers, entry_of
 from quasistatic_ref.lab.study.calling.promises import promise_stated
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, Setting, Solver
+from quasistatic_ref.lab.study.calling.study_only import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.file.fields import MODULE, SOLVER, TABLES
 
 PACKAGE = "package"

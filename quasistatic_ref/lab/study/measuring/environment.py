@@ -5,9 +5,9 @@ import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.packages import entry_of, package_of
 from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.calling.study_only import EVERY
 
 CPU = Path("/sys/devices/system/cpu/cpu0")
 UNKNOWN = "unknown"

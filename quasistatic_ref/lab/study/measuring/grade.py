@@ -15,7 +15,7 @@ from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.promises import UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.measuring.verdict import (
+from quasistatic_ref.lab.study.measuring.false_claims import (
     Terms,
     certificate_holds,
     exact_terms,

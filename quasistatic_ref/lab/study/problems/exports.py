@@ -167,7 +167,7 @@ def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]
     """What qpbenchmark's command takes, and what answers are graded by."""
     stem = name.replace("-", "_")
     title = "".join(part.title() for part in stem.split("_"))
-    template = (Path(__file__).parent / "test_set.txt").read_text("utf-8")
+    template = (Path(__file__).parent / "qpbenchmark_script.txt").read_text("utf-8")
     module = template.format(name=stem, title=title, words=name)
     return [
         parquet_written(folder / f"{stem}.parquet", problems),

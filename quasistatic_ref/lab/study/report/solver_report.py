@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Section
-from quasistatic_ref.lab.study.measuring.verdict import FACTOR, SPREAD
+from quasistatic_ref.lab.study.measuring.false_claims import FACTOR, SPREAD
 from quasistatic_ref.lab.study.report import studied, tables
 from quasistatic_ref.lab.study.report.cheats import cheat_alone
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of

@@ -16,10 +16,10 @@ from quasistatic_ref.lab.study.calling.claims import (
     claim,
     hides,
 )
-from quasistatic_ref.lab.study.calling.guests import installed_here
 from quasistatic_ref.lab.study.calling.options import option_file
 from quasistatic_ref.lab.study.calling.promises import RESIDUALS, UNSTATED
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
+from quasistatic_ref.lab.study.calling.study_only import installed_here
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.step.standard_form import StandardForm
 

@@ -8,9 +8,9 @@ from scipy.sparse import issparse
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
 from quasistatic_ref.lab.study.calling.calls import call_of
-from quasistatic_ref.lab.study.calling.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.calling.options import takes_sparse
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.calling.study_only import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.measuring.grade import grades, problem_forms
 from quasistatic_ref.lab.study.problems.folder import set_read
 

@@ -4,8 +4,8 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.options import has_accuracy, options_at
+from quasistatic_ref.lab.study.calling.study_only import EVERY
 from quasistatic_ref.lab.study.measuring.plan import plan
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'

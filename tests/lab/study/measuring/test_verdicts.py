@@ -7,9 +7,9 @@ import pytest
 
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
+from quasistatic_ref.lab.study.measuring.false_claims import FACTOR, certificate_holds
 from quasistatic_ref.lab.study.measuring.grade import grades, problem_forms
-from quasistatic_ref.lab.study.measuring.judging import judged_again
-from quasistatic_ref.lab.study.measuring.verdict import FACTOR, certificate_holds
+from quasistatic_ref.lab.study.measuring.judged_again import judged_again
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.store.store import Contents
 from quasistatic_ref.solve.reply import Reply

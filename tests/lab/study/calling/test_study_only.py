@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.study.calling import guests
+from quasistatic_ref.lab.study.calling import study_only
 from quasistatic_ref.lab.study.calling.calls import call_of
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE, claim
-from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, natively
 from quasistatic_ref.lab.study.calling.options import option_file, options_at
 from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.calling.study_only import GUESTS, installed_here, natively
 from quasistatic_ref.lab.study.file.solver_lists import solvers_named
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.step.standard_form import StandardForm
@@ -35,7 +35,7 @@ CALLED = marked_parameters(["qoco", "qpax", "mpax"], {"qpax": "jax", "mpax": "ja
 @pytest.fixture
 def only(monkeypatch):
     """A function that says which guests are installed, whatever is."""
-    return lambda *names: monkeypatch.setattr(guests, "find_spec", lambda name: name in names)
+    return lambda *names: monkeypatch.setattr(study_only, "find_spec", lambda name: name in names)
 
 
 @pytest.fixture

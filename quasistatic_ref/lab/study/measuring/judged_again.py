@@ -6,9 +6,9 @@ from functools import partial
 from pathlib import Path
 
 from quasistatic_ref.lab.study.calling.claims import claim
-from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.promises import promise_of
-from quasistatic_ref.lab.study.measuring.verdict import exact_terms, judged
+from quasistatic_ref.lab.study.calling.study_only import EVERY
+from quasistatic_ref.lab.study.measuring.false_claims import exact_terms, judged
 from quasistatic_ref.lab.study.problems.names import NATURAL
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
