@@ -1,4 +1,4 @@
-"""The program (13) of any step: its cone, rows of a user's own, multipliers in the order of A."""
+"""The program (13) of any step: the page of ``step/problem.py``, with any cone and own rows."""
 
 import cvxpy as cp
 import numpy as np

@@ -24,6 +24,31 @@ def test_any_command_can_be_interrupted(tmp_path, capsys, monkeypatch):
     assert one_sentence(capsys.readouterr().err) == "interrupted"
 
 
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "the following arguments are required: COMMAND"),
+        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: account, backends"),
+        (["run"], "the following arguments are required: scenario"),
+        (["run", "x.toml", "--slow"], "unrecognized arguments: --slow"),
+        (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),
+        (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
+        (["--set", "h=1", "run", "x.toml"], "invalid choice: 'h=1'; known: account, backends"),
+        (["run", "x.toml", "--slow"], "usage: quasistatic-ref run "),
+        (["run", "x.toml", "--steps", "5"], "did you mean '--set steps=5'?"),
+        (["study", "run", "x.toml", "--slow"], "usage: quasistatic-ref study run "),
+        (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
+        (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
+        (["extract", "x.npz"], "required: --step"),
+    ],
+)
+def test_wrong_usage_is_status_2(capsys, arguments, words):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+    assert words in capsys.readouterr().err
+
+
 def test_backends_lists_what_is_installed(capsys):
     assert main(["backends", "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)

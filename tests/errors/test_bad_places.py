@@ -1,4 +1,4 @@
-"""Paths that leave their folder, outputs that cannot be written, options that mean nothing."""
+"""Paths that leave their folder, settings of no meaning, and outputs that cannot be written."""
 
 import sys
 
@@ -101,31 +101,6 @@ def test_a_scenario_that_does_not_exist_is_refused(refused, name):
     sentence = refused("run", name)
     assert "is neither a file nor an installed scenario" in sentence or "cannot be read" in sentence
     assert "did you mean 'bunny_grasp'" in sentence or name != "bunny_gras"
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ([], "the following arguments are required: COMMAND"),
-        (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: account, backends"),
-        (["run"], "the following arguments are required: scenario"),
-        (["run", "x.toml", "--slow"], "unrecognized arguments: --slow"),
-        (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),
-        (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
-        (["--set", "h=1", "run", "x.toml"], "invalid choice: 'h=1'; known: account, backends"),
-        (["run", "x.toml", "--slow"], "usage: quasistatic-ref run "),
-        (["run", "x.toml", "--steps", "5"], "did you mean '--set steps=5'?"),
-        (["study", "run", "x.toml", "--slow"], "usage: quasistatic-ref study run "),
-        (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
-        (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
-        (["extract", "x.npz"], "required: --step"),
-    ],
-)
-def test_wrong_usage_is_status_2(capsys, arguments, words):
-    with pytest.raises(SystemExit) as caught:
-        main(arguments)
-    assert caught.value.code == 2
-    assert words in capsys.readouterr().err
 
 
 def in_the_way(folder):

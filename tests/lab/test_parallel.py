@@ -1,43 +1,8 @@
-"""Long maps: what was done is kept, and not done again."""
+"""Many calls, some at once."""
 
 import pytest
 
-from quasistatic_ref import InputError
-from quasistatic_ref.lab.parallel import Log, results, workers
-
-HEAD = {"settings": [1, 2]}
-
-
-def log_of(path, head=HEAD):
-    return Log(path, lambda record: record["i"], head)
-
-
-def test_a_run_goes_on_after_the_last_whole_line(tmp_path):
-    path = tmp_path / "log.jsonl"
-    made = []
-
-    def record(i):
-        made.append(i)
-        return {"i": i, "square": i**2}
-
-    assert [one["square"] for one in log_of(path).records(range(3), record)] == [0, 1, 4]
-    whole = path.read_text()
-    path.write_text(whole[:-5])  # the last record is cut off
-    assert [one["square"] for one in log_of(path).records(range(4), record)] == [0, 1, 4, 9]
-    assert made == [0, 1, 2, 2, 3]
-    assert path.read_text().startswith(whole)
-
-
-def test_a_log_of_something_else_is_refused_and_left_as_it_is(tmp_path):
-    path = tmp_path / "log.jsonl"
-    log_of(path).add({"i": 1})
-    with pytest.raises(InputError, match="were made with other settings"):
-        log_of(path, {"settings": []})
-    for text in ('{"settings": [1, 2]}\n{"k": 1}\n', '{"settings": [1, 2]}\n3\n', "x\n"):
-        path.write_text(text)
-        with pytest.raises(InputError, match="holds something else"):
-            log_of(path)
-        assert path.read_text() == text
+from quasistatic_ref.lab.parallel import results, workers
 
 
 def test_one_job_is_done_in_this_process_and_its_error_is_raised():

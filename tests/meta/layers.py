@@ -51,6 +51,7 @@ LAB = (
     "lab/json_schema",
     "lab/digits",
     "lab/folders",
+    "lab/log",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",

@@ -16,8 +16,8 @@ from collections.abc import Iterator, Mapping
 from operator import itemgetter
 from pathlib import Path
 
+from quasistatic_ref.lab.log import Log, Record
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, scope_read

@@ -9,7 +9,7 @@ on. ``--count N`` takes the first seeds only and prints the rows; nothing is wri
 from tqdm import tqdm
 
 from quasistatic_ref.lab.clouds.study import Cell, cells, grid, row
-from quasistatic_ref.lab.parallel import Log
+from quasistatic_ref.lab.log import Log
 from validation.tools.scripts import RESULTS, script_options
 
 ROWS = RESULTS / "clouds.jsonl"

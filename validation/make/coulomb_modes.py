@@ -26,8 +26,9 @@ from quasistatic_ref import (
     coulomb_step,
     solve_step,
 )
+from quasistatic_ref.lab.log import Log, Record
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import Log, Record, results, workers
+from quasistatic_ref.lab.parallel import results, workers
 from quasistatic_ref.optional.coulomb.fixed_point import MOST, longest_slips, slip_norms
 from quasistatic_ref.tolerances import COULOMB_RESIDUAL
 from tests.oracles.planar_coulomb import planar_solutions

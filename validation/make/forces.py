@@ -40,8 +40,8 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.lab.log import Log
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read

@@ -29,7 +29,7 @@ from tqdm import tqdm
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.parallel import Log, Record
+from quasistatic_ref.lab.log import Log, Record
 from validation.tools.scripts import ROOT, environment, script_options, show_page
 
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")

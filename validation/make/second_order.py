@@ -14,7 +14,7 @@ from typing import Any
 from tqdm import tqdm
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.parallel import Log
+from quasistatic_ref.lab.log import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.programs.engines.judge import program_of
 from validation.programs.engines.phenomena import engine_answer

@@ -23,7 +23,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.parallel import Log, results, workers
+from quasistatic_ref.lab.log import Log
+from quasistatic_ref.lab.parallel import results, workers
 from validation.tools.mutating.mutants import Mutant, mutants
 from validation.tools.mutating.mutated import TESTS
 from validation.tools.mutating.tried import PACKAGE, ROOT, said_of

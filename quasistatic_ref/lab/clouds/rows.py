@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.lab.clouds.study import NONE, TORSION, grid
 from quasistatic_ref.lab.folders import clouds_file
-from quasistatic_ref.lab.parallel import Record, records_read
+from quasistatic_ref.lab.log import Record, records_read
 from quasistatic_ref.step.data import Array
 
 

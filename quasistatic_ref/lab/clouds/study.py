@@ -13,7 +13,7 @@ from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab import clouds
 from quasistatic_ref.lab.clouds.held import grasp_record
 from quasistatic_ref.lab.clouds.samplings import SAMPLINGS, Mesh
-from quasistatic_ref.lab.parallel import Record
+from quasistatic_ref.lab.log import Record
 from quasistatic_ref.step.data import Array
 
 NONE = "none"

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.parallel import Log, results, workers
+from quasistatic_ref.lab.log import Log
+from quasistatic_ref.lab.parallel import results, workers
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import Pushed, pushed_scene

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
+from quasistatic_ref.lab.log import Record, records_read
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import Record, records_read
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from validation.programs.engines.second_order import STUDY
