@@ -108,6 +108,8 @@ class UnitParts:
         ModelError
             It names the joint, the length, and what divides by it.
         """
+        if not self._joints:
+            return
         lengths = np.sqrt(np.add.reduceat(np.square(q.take(self._entries)), self._starts))
         wrong = np.abs(lengths - 1) > UNIT_QUATERNION
         if not wrong.any():

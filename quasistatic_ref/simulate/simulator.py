@@ -323,14 +323,14 @@ class Simulator(Settings, Shown):
         """
         return False
 
-    def forces_in_c(self, step: StepData, near: tuple[Array, Array]) -> Array | None:
-        """Forces of single contacts of a step, shape (n_c, 4) [N, N m]; None without `fast`.
+    def forces_in_c(self, step: StepData, near: Array) -> Array | None:
+        """Forces of single contacts of a step, shape (n_c, 4) [N, N m]; None if C leaves one open.
 
         Parameters
         ----------
         step : StepData
-        near : (ndarray, ndarray)
-            delta_q, (n_v,) [m, rad], and wrenches, (n_c, 4) [N, N m], as of its solution.
+        near : ndarray, shape (n_c, 4)
+            The wrenches of its solution [N, N m].
         """
         return None
 

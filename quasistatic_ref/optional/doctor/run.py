@@ -110,8 +110,7 @@ class Run(Start):
         return self._found[k]
 
     def _in_c(self, k: int) -> Array | None:
-        near = self["delta_q"][k], self["wrench"][k]
-        return self.simulator.forces_in_c(self.step_data(k), near)
+        return self.simulator.forces_in_c(self.step_data(k), self["wrench"][k])
 
 
 def wrenches(step: StepData) -> Array | None:

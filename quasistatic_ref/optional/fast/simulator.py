@@ -9,7 +9,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
-from quasistatic_ref.formats.plain import bits, field_values
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.between import BLOCK_COLUMNS, BlockColumns
@@ -21,7 +21,12 @@ from quasistatic_ref.optional.fast.backends import (
 )
 from quasistatic_ref.optional.fast.compiled.answer import as_said
 from quasistatic_ref.optional.fast.compiled.certificate import LARGEST
-from quasistatic_ref.optional.fast.compiled.forces import FastSolution, ForcesOfSteps, knows
+from quasistatic_ref.optional.fast.compiled.forces import (
+    FastSolution,
+    ForcesOfSteps,
+    knows,
+    with_forces,
+)
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
@@ -118,6 +123,8 @@ class FastSimulator(Simulator):
         self.poses = Poses(system)
         self.down = tuple(self.gravity.tolist())
         self.numbers = Scene(self.poses, columns, self.constant, mu, self.gravity_factor)
+        self.given = self.numbers["force"]
+        self.target = self.numbers["delta_q_bar_a"]
         self.contacts = Pairs(self.pairs, self.poses.R, self.poses.t, self.numbers.points)
         self.screws = Screws(system, self.poses)
         compiled = library()
@@ -131,8 +138,8 @@ class FastSimulator(Simulator):
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
         ordinary = self.extension is None and self.law == CONVEX and self.has_rows
-        self.forms_forces = ordinary and system.n_v <= LARGEST
-        self.in_c = ForcesOfSteps()
+        forms_forces = ordinary and system.n_v <= LARGEST
+        self.in_c = ForcesOfSteps() if forms_forces else None
 
     @arguments_checked
     @by_one_thread
@@ -162,8 +169,8 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        if self.forms_forces:
-            solution = posed(FastSolution, field_values(solution), {"in_c": self.in_c})
+        if self.in_c is not None and type(solution) is not FastSolution:
+            solution = with_forces(solution, self.in_c)
         delta_q = solution.delta_q[: self.system.n_v]
         q_next = self.screws.integrate(delta_q)
         if self.compares:
@@ -178,12 +185,19 @@ class FastSimulator(Simulator):
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
     def records_forces(self, solution: StepSolution) -> bool:
-        """As in the base: where C decides those of the first step."""
-        return self.by_c and self.forms_forces and knows(self.cone) and self.in_c.decided(solution)
+        """As in the base: where steps are proved, and C decides the forces of the first.
 
-    def forces_in_c(self, step: StepData, near: tuple[Array, Array]) -> Array | None:
-        """As in the base, with its `near`: shape (n_c, 4) [N, N m], where C forms forces."""
-        return self.in_c.wrench(step, near) if self.by_c and self.forms_forces else None
+        The configurations of other steps have errors of rounding, as small as 1e-30, for whose
+        products the digits of fixed point are too few.
+        """
+        in_c = self.in_c if self.by_c and self.certify == "full" else None
+        if in_c is None or not knows(self.cone):
+            return False
+        return in_c.decided(solution.step, solution.wrench) is not None
+
+    def forces_in_c(self, step: StepData, near: Array) -> Array | None:
+        """As in the base, from `near`, shape (n_c, 4) [N, N m]."""
+        return None if self.in_c is None or not self.by_c else self.in_c.decided(step, near)
 
     def posed_step(
         self, q: Array, q_bar_a: Array, force: Array | float
@@ -199,10 +213,12 @@ class FastSimulator(Simulator):
             If the force has another shape.
         """
         numbers = self.numbers
-        if np.shape(force) != numbers["force"].shape:
+        given = self.given
+        if np.shape(force) != given.shape:
             force = checked_force(self.system, force)
-        numbers["force"][:] = force
-        numbers["delta_q_bar_a"][:] = delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
+        given[:] = force
+        delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
+        self.target[:] = delta_q_bar_a
         delta_q_bar_a.setflags(write=False)
         self.poses.weigh(self.down)
         self.gap = self.form(numbers.address)
@@ -302,7 +318,7 @@ class FastSimulator(Simulator):
         if isinstance(solver, FastSolver):
             units = self.units(solver, step)
             hessian = solver.hessian
-            said = as_said(step, solver, units, accuracy) if certify == "off" else None
+            said = as_said(step, solver, units, accuracy, self.in_c) if certify == "off" else None
             if said is not None:
                 return said
         both = without_warnings(DenseStepInBothUnits, step, hessian, form, units)

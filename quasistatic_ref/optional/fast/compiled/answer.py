@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
+from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.optional.fast.compiled.forces import FastSolution, ForcesOfSteps
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
@@ -18,8 +19,12 @@ SAME = {
 
 
 def as_said(
-    step: StepData, solver: FastSolver, units: Units | None, accuracy: float
-) -> StepSolution | None:
+    step: StepData,
+    solver: FastSolver,
+    units: Units | None,
+    accuracy: float,
+    in_c: ForcesOfSteps | None,
+) -> FastSolution | None:
     """The solution of a step whose program compiled code has written, as the backend gives it.
 
     Parameters
@@ -30,22 +35,28 @@ def as_said(
         In which its program is written; None if it is not.
     accuracy : float
         In natural units [-].
+    in_c : ForcesOfSteps or None
+        As of the solution.
 
     Returns
     -------
-    StepSolution or None
+    FastSolution or None
         That of :func:`~quasistatic_ref.solve.solve.solved` with ``certify="off"``, to the last bit;
         None where `solved` has more to do: further options to try, rows out of reach, or a step to
         refuse.
     """
     if units is None or solver.adapter.NEAR:
         return None
-    return without_warnings(_as_said, step, solver, units, accuracy)
+    return without_warnings(_as_said, step, solver, units, accuracy, in_c)
 
 
 def _as_said(
-    step: StepData, solver: FastSolver, units: Units, accuracy: float
-) -> StepSolution | None:
+    step: StepData,
+    solver: FastSolver,
+    units: Units,
+    accuracy: float,
+    in_c: ForcesOfSteps | None,
+) -> FastSolution | None:
     option_set = solver.option_sets(accuracy)[0]
     try:
         reply = solver.reply(option_set, None)
@@ -65,5 +76,8 @@ def _as_said(
         option_set.accuracy,
         interface=solver.interface,
     )
-    own = {"delta_q": read_only(delta_q), "lam": read_only(lam), "step": step}
-    return posed(StepSolution, SAME, {**own, "backend": solver.name, "statistics": statistics})
+    own = {
+        "delta_q": read_only(delta_q), "lam": read_only(lam), "step": step,
+        "backend": solver.name, "statistics": statistics, "in_c": in_c,
+    }  # fmt: skip
+    return posed(FastSolution, SAME, own)

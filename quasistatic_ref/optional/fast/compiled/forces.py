@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import accumulate, combinations
+from operator import attrgetter
 from threading import Lock
 
 import numpy as np
@@ -19,6 +20,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
 )
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
 from quasistatic_ref.optional.fast.rechecked import check_forces
 from quasistatic_ref.solve.units import hessian_in_both_units
@@ -113,11 +115,21 @@ class ForcesOfSteps:
         with self._one_at_a_time:
             return self._of_steps_like(step).wrench(step, near)
 
-    def decided(self, solution: StepSolution) -> bool:
-        """Whether C leaves no force of a solution's step open."""
-        step = solution.step
+    def decided(self, step: StepData, near: Array) -> Array | None:
+        """The same, shape (n_c, 4) [N, N m]; None if C leaves a force of the step open.
+
+        Parameters
+        ----------
+        step : StepData
+        near : ndarray, shape (n_c, 4)
+            As of :meth:`Forces.in_c` [N, N m].
+        """
         with self._one_at_a_time:
-            return not self._of_steps_like(step).in_c(step, solution.wrench)[1]
+            wrench, left = self._of_steps_like(step).in_c(step, near)
+        if left:
+            return None
+        check_forces(step, wrench)
+        return read_only(wrench)
 
     def _of_steps_like(self, step: StepData) -> Forces:
         of = coupled_by(step)
@@ -155,6 +167,13 @@ class FastSolution(StepSolution):
     def compared_as(cls) -> type:
         """It is compared as :class:`~quasistatic_ref.certify.solution.StepSolution`."""
         return StepSolution
+
+
+def with_forces(solution: StepSolution, in_c: ForcesOfSteps) -> FastSolution:
+    """The same solution, whose forces come from compiled code."""
+    names = StepSolution.kept()
+    values = attrgetter(*names)(solution)
+    return posed(FastSolution, dict(zip(names, values, strict=True)), {"in_c": in_c})
 
 
 def knows(name: str) -> bool:
