@@ -13,6 +13,7 @@ from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, norm, product, total
 from quasistatic_ref.tolerances import SAME_NORMAL, TIED_FACES, TOUCHING_FACES
@@ -84,7 +85,8 @@ def tied_normals(
     """
     shapes = (a.shape, b.shape)
     normal = found.n[None]
-    if found.phi > within or any(isinstance(shape, HalfSpace) for shape in shapes):
+    cores_apart = found.phi + sum(s.core[1] for s in shapes if isinstance(s, Rounded))
+    if cores_apart > within or any(isinstance(shape, HalfSpace) for shape in shapes):
         return normal
     if any(isinstance(shape, Sphere) for shape in shapes):
         gaps_along, normals = _of_centre(a, b, found)

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, ContactError, PointCloud
-from quasistatic_ref.contact.separations import BISECTOR, gaps, pair_normal, rounding
+from quasistatic_ref import Box, Capsule, ContactError, PointCloud, Sphere
+from quasistatic_ref.contact.separations import BISECTOR, OWN, gaps, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.shapes.placed_shape import Shape
@@ -63,6 +64,31 @@ def test_solids_as_deep_along_several_normals_are_refused(a, b):
     with pytest.raises(ContactError, match=r"along \[.*\] as along \[.*\], 0.5 m: ") as refusal:
         pair_normal("p", a, b)
     assert "-0." not in str(refusal.value)
+
+
+@pytest.mark.parametrize("shape", [CAPSULE, Sphere(0.25)])
+def test_cores_that_are_apart_have_one_normal_however_near_another_gap_is(shape):
+    """A core is d (cos a, sin a) beyond a cube's edge: nearly as far as beyond its face, d cos a.
+
+    An end of the capsule's core is there, from where it goes along x, away from the cube.
+    """
+    rng = np.random.default_rng(0)
+    along = X if shape is CAPSULE else 0 * X
+    for d in 10 ** rng.uniform(-8, -1, 50):
+        a = min(1.0, np.sqrt(2e-12 / d) * rng.uniform(0.1, 1.0))
+        way = d * np.array([np.cos(a), np.sin(a), 0.0])
+        R = Rotation.random(rng=rng).as_matrix()
+        placed = (at(CUBE, R=R), at(shape, R @ (X + Y + way + along), R @ TO_X))
+        for (one, other), sign in ((placed, 1), (placed[::-1], -1)):
+            found, tie = pair_normal("p", one, other)
+            assert tie == OWN
+            assert_within(found.phi, d - 0.25, CLOSED_FORM)
+            assert_within(d * found.n, sign * R @ way, CLOSED_FORM)
+
+
+def test_cores_that_are_apart_by_rounding_are_refused_in_an_edge():
+    with pytest.raises(ContactError, match=r"as deep in each other along \[.*\], 0.25 m: "):
+        pair_normal("p", at(CUBE), at(CAPSULE, [2 + 1e-13, 1 + 1e-13, 0.0], TO_X))
 
 
 def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals():

@@ -23,6 +23,8 @@ from quasistatic_ref.step.arrays import Array
 ROUNDING = 1e-12
 """Of lengths up to 10 m [m]."""
 UP = (0.0, 0.0, 1.0)
+BEYOND = (1 - 2e-12, 2e-6, 0.0)
+"""Nearly along x."""
 FLOOR = HalfSpace(np.array(UP), 0.0)
 BOX = Box(np.ones(3))
 TURNED = np.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
@@ -66,6 +68,11 @@ CASES: dict[str, Case] = {
     "two boxes by their edges": (
         BOX, Box(np.array([0.5, 0.5, 3.0])), (5.5, 4.5, 1.0), 1, [5.0], (0.8, 0.6, 0.0),
     ),
+    # the edge through (1, 1) is (1, 2e-6) / 4 away, which is as far as the face within rounding
+    "a capsule beyond an edge": (
+        BOX, Capsule(0.5, 1.0), (1.25, 1 + 5e-7, 0.25), 1, [-0.25], BEYOND,
+    ),
+    "a ball beyond an edge": (BOX, Sphere(0.5), (1.25, 1 + 5e-7, 0.25), 1, [-0.25], BEYOND),
     # corners at the height of the place, and one a unit higher
     "a tetrahedron over a floor": (
         FLOOR, hull_of_mesh(TETRAHEDRON, SIDES), (0.0, 0.0, 0.25), 4, [0.25] * 3 + [1.25], UP,

@@ -272,7 +272,7 @@ static int capsules(const Pair *pair, const double *pose, Contact *nearest)
         n[i] = n[i] / length;
     with_margins(pair, gap, on_a, n, nearest);
     double radii = a->size[3] + b.size[3];
-    return nearest->phi > pair->within || !(-nearest->phi - 2 * radii >= nearest->phi - pair->within);
+    return !(-nearest->phi - 2 * radii >= nearest->phi - pair->within);
 }
 
 int polytopes(const Pair *pair, Contact *nearest)
@@ -319,7 +319,7 @@ int polytopes(const Pair *pair, Contact *nearest)
             return 0;
     }
     with_margins(pair, gap, touching.on_a, n, nearest);
-    if (nearest->phi > pair->within)
+    if (gap > pair->within)
         return 1;
     for (int i = 0; i < gaps.count; i++) {
         gaps.gap[i] = gaps.gap[i] - a->size[3] - b->size[3];

@@ -98,7 +98,7 @@ static int sphere_on_solid(const Pair *pair, double side, Contact *nearest)
     moved_by(centre, -radius, nearest->n, nearest->beta);
     if (side < 0)
         *nearest = swapped(nearest);
-    return nearest->phi > pair->within || one_face(solid, x, phi, pair->within);
+    return phi > pair->within || one_face(solid, x, phi, pair->within);
 }
 
 /* contact/separations: whether no gap is as large as the pair's along another normal than its own. */
