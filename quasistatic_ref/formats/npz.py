@@ -9,6 +9,7 @@ import io
 import json
 import math
 import tokenize
+import warnings
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
@@ -113,9 +114,12 @@ def json_array(header: Mapping[str, Any]) -> NDArray[np.uint8]:
 
 @contextmanager
 def readable(path: str | Path, problem: str) -> Iterator[None]:
-    """InputError, which says `problem`, where what is done with a file in this block fails."""
+    """InputError, which says `problem`, where what is done with a file in this block fails.
+
+    NumPy warns of headers that Python 2 wrote, and Python of odd ones: nothing is printed.
+    """
     try:
-        with about_file(path):
+        with about_file(path), warnings.catch_warnings(action="ignore"):
             yield
     except UNREADABLE as error:
         reason = " ".join(str(error).split())[:80]

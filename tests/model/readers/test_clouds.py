@@ -101,6 +101,7 @@ GOOD: dict[str, tuple[str, bytes]] = {
     "binary pcd": (".pcd", pcd("binary", binary_body("<B3d"))),
     "npy": (".npy", npy(POINTS)),
     "npy of another order": (".npy", npy(np.asfortranarray(POINTS))),
+    "npy of Python 2": (".npy", npy(POINTS).replace(b"(2, 3), }  ", b"(2L, 3L), }")),
     "npz of one array": (".npz", npz(cloud=POINTS)),
     "npz of several": (".npz", npz(colours=np.ones((2, 4)), points=POINTS)),
     "obj": (".obj", b"o thing\nv 0.1 -0.2 0.3\nvn 0 0 1\nv 1.0 2e-3 -0.5 1.0\nf 1 2 1\n"),
