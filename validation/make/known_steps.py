@@ -34,9 +34,11 @@ from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rows_given import (
     DIGITS_MEET,
+    at_rest,
     bounds_decide,
     compliances,
     divisible,
+    forces_float64_misses,
     half_way,
     half_way_forces,
     matrices,
@@ -52,7 +54,7 @@ from validation.tools.scripts import script_options
 SEEDS = 3000
 EACH = 3
 """Steps of one kind: of equal family, size and outcomes of proofs."""
-MOST = 390
+MOST = 394
 CONES = ("pyramid", "frictionless", "facets-8")
 
 
@@ -106,6 +108,7 @@ def chosen_steps() -> Iterator[StepData]:
     yield from compliances()
     yield half_way_forces(2.0**39 + 1.0)
     yield from (half_way_forces(2.0**39 + 5.0, gap) for gap in (2.0**-75, 2.0**-300))
+    yield from (*forces_float64_misses(), at_rest())  # which has an even number
 
 
 def main() -> int:

@@ -187,6 +187,8 @@ class _GroupForces:
     Attributes
     ----------
     s : Structure
+    proof : GroupProof or None
+        Of its H and rows; None where C proves nothing.
     group : int
         Address of its Proof; 0 of a group that C does not know.
     """
@@ -198,11 +200,11 @@ class _GroupForces:
         counts, kind = np.unique(own.counts, return_inverse=True)
         known = [_faces(own.cone, count) for count in counts.tolist()]
         tables = [table for table in known if table is not None]
-        self._proof = group_proof(group, own, hessian_in_both_units(own.H), where)
-        if not n_c or None in known or self._proof is None:
+        self.proof = group_proof(group, own, hessian_in_both_units(own.H), where)
+        if not n_c or None in known or self.proof is None:
             self.group = 0
             return
-        self.group = self._proof.s.address
+        self.group = self.proof.s.address
         of_sides = SIDES.needed("forces")(own)
         integers = [each for each, _ in tables]
         width = max(each.shape[1] for each in integers)

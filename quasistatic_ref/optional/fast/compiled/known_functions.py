@@ -31,6 +31,9 @@ FLOOR = 2.0**-410
 NORMAL = 2.0**-900
 ROUNDS = 8
 BOUNDS = 60
+PRODUCTS = 1 << 14
+LOST = 2
+"""Of fixed_point.h, in a sum at most; and of proof.h, what does not fit."""
 
 
 class MarkedArray:
@@ -104,6 +107,16 @@ def wrong_span(library: ctypes.CDLL) -> str | None:
         if not good or not all(one.kept for one in every):
             return f"of rows {idle} it combines others than {right} from {working}"
     return None
+
+
+def wrong_size(library: ctypes.CDLL) -> str | None:
+    """Whether forces are sought with more contacts than sums have digits for, in words."""
+    group = Structure("proof.h", "Proof")
+    group.put({"n_v": 4, "n_c": (PRODUCTS - 4) // 4})
+    forces = Structure("forces.h", "Forces")
+    forces.put({"group": group.address})
+    begun = library.forces(ctypes.c_void_p(forces.address)) != LOST
+    return "forces of too many contacts are sought" if begun else None
 
 
 def _vectors(cone: Indices, contact: Indices, row: Indices, spins: Array, mu: Array) -> Indices:

@@ -173,6 +173,12 @@ def marks_behind(s: Structure, names: Sequence[str]) -> list[MarkedArray]:
     return found
 
 
+def end_what_is_read(s: Structure) -> None:
+    """Put what is no number behind each array of a group that the library reads."""
+    for array in marks_behind(s, READ):
+        array.all[array.size :] = np.nan
+
+
 def tried(known: Known) -> Iterator[Tried]:
     """All proofs of the groups of a step, on all guesses, by the library of this process."""
     step = known.step
@@ -184,8 +190,7 @@ def tried(known: Known) -> Iterator[Tried]:
         if each is None:
             continue
         arrays += marks_behind(each.s, (*WRITTEN, *OF_GROUP))
-        for array in marks_behind(each.s, READ):
-            array.all[array.size :] = np.nan
+        end_what_is_read(each.s)
     every = guesses(step, known.optimum)
     right = every.get(RIGHT, np.full(step.m, -1.0))
     for words, lam in every.items():
@@ -249,9 +254,11 @@ def knows_forces(known: Known) -> bool:
 
 def wrong_forces(known: Known, forces: Forces) -> str | None:
     """What the forces of a step are that is wrong, in words."""
-    arrays = [
-        array for part in forces.parts if part.group for array in marks_behind(part.s, OF_FORCES)
-    ]
+    arrays = []
+    for part in forces.parts:
+        if part.group and part.proof:
+            arrays += marks_behind(part.s, OF_FORCES)
+            end_what_is_read(part.proof.s)
     wrench, left = forces.in_c(known.step)
     if not all(array.kept for array in arrays):
         return "something is written behind the forces"
@@ -368,5 +375,5 @@ def stale(known: Known) -> str | None:
     if not knows_forces(known):
         return None
     forces = Forces(step)
-    forces.in_c(others["a load"])
+    forces.in_c(others["a number"])
     return wrong_forces(known, forces)

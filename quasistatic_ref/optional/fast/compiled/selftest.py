@@ -7,8 +7,8 @@ Four things are tried, and the first that is wrong is said on standard error, wi
    must be those of Python, which must still be the same once the library is loaded.
 2. Integers of fixed point, on which proofs stand. Products, sums, carries, quotients and roundings
    of numbers of all sizes must have the digits that Python's integers have.
-3. Functions that are tried alone: which rows others combine, bounds from an inverse, and closest
-   points (``known_functions.py``, ``known_pairs.py``).
+3. Functions that are tried alone: which rows others combine, bounds from an inverse, sizes of
+   forces, and closest points (``known_functions.py``, ``known_pairs.py``).
 4. The prover. Steps whose exact optima are stored are proved on right and wrong guesses, and again
    after other data.
 """
@@ -21,7 +21,11 @@ from fractions import Fraction
 
 from quasistatic_ref.optional.fast.compiled import library as compiled
 from quasistatic_ref.optional.fast.compiled.cache import CompileError
-from quasistatic_ref.optional.fast.compiled.known_functions import wrong_bound, wrong_span
+from quasistatic_ref.optional.fast.compiled.known_functions import (
+    wrong_bound,
+    wrong_size,
+    wrong_span,
+)
 from quasistatic_ref.optional.fast.compiled.known_pairs import wrong_points
 from quasistatic_ref.optional.fast.compiled.known_steps import known_steps, stale, wrong
 
@@ -268,6 +272,7 @@ def wrong_parts(file: str) -> str | None:
         or wrong_digits(library)
         or wrong_span(library)
         or wrong_bound(library)
+        or wrong_size(library)
         or wrong_points()
     )
 

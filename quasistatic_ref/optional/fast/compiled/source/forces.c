@@ -129,6 +129,13 @@ static void counted_along(double b[3][3], double *out)
     }
 }
 
+/* By which a row of B is multiplied that is to have no coefficient of friction; 0 if it bears nothing. */
+static double borne(const Force *g, int64_t c, int i)
+{
+    double mu = g->s->mu[4 * c + i];
+    return g->f->bears[i] && mu > 0.0 ? 1 / mu : 0.0;
+}
+
 /* optional/forces/of_group: the compliance; 0 where its exponent is open. */
 static double compliance(const Force *g)
 {
@@ -145,18 +152,14 @@ static double compliance(const Force *g)
             int moves = 0;
             for (int64_t x = f->start[side]; x < f->start[side + 1]; x++)
                 for (int i = 0; i < 3; i++) {
-                    double motion = 0.0;
+                    double motion = 0.0, by = borne(g, c, i);
                     for (int64_t y = f->start[side]; y < f->start[side + 1]; y++)
-                        motion += s->inverse[f->side[x] * n + f->side[y]] * B[i * n + f->side[y]]
+                        motion += s->inverse[f->side[x] * n + f->side[y]] * by * B[i * n + f->side[y]]
                                 * g->way[f->side[y]];
                     for (int j = 0; j < 3; j++)
-                        if (f->bears[i] && f->bears[j])
-                            b[i][j] += B[j * n + f->side[x]] * g->way[f->side[x]] * motion;
-                    moves |= f->bears[i] && B[i * n + f->side[x]] != 0.0;
+                        b[i][j] += borne(g, c, j) * B[j * n + f->side[x]] * g->way[f->side[x]] * motion;
+                    moves |= by * B[i * n + f->side[x]] != 0.0;
                 }
-            for (int i = 0; i < 9; i++) /* without the coefficients of friction */
-                if (b[i / 3][i % 3] != 0.0)
-                    b[i / 3][i % 3] /= s->mu[4 * c + i / 3] * s->mu[4 * c + i % 3];
             if (!moves)
                 continue;
             counted_along(b, g->along + count);
