@@ -33,7 +33,7 @@ from validation.tools.scripts import ROOT, script_options, show_page
 
 FILES = (
     "fixed_point.h", "rounding.c", "span.c", "kkt.c", "certificate.c", "groups.c", "contraction.c",
-    "zeros.c", "walk.c", "forces.c",
+    "zeros.c", "walk.c", "forces.h", "face_guess.c", "forces.c",
 )  # fmt: skip
 """Those that prove."""
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"
@@ -177,7 +177,9 @@ class Builder:
         assert self.compiles(self.objects, plainly)
         self.plain = {name: (folder / f"{name}.o").read_bytes() for name in self.objects}
         self.of_header = [
-            name for name in self.objects if "proof.h" in (folder / f"{name}.c").read_text()
+            name
+            for name in self.objects
+            if re.search('"(proof|forces).h"', (folder / f"{name}.c").read_text())
         ]
 
     def compiles(self, names: list[str], more: str) -> bool:
