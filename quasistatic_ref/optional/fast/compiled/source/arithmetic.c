@@ -36,8 +36,8 @@ void fixed_point(const double *factors, const double *cut, const double *edge, i
                  int64_t terms, double h, int64_t *digits, double *found)
 {
     for (int64_t s = 0; s < sums; s++, factors += 3 * terms, digits += 3 * DIGITS, found += 13) {
-        struct { Sum sum; __int128 behind; } room = {EMPTY, 0}; /* a digit beyond the last shows */
-        Sum *sum = &room.sum;
+        struct { Sum sum; __int128 behind; } workspace = {EMPTY, 0}; /* a digit beyond the last shows */
+        Sum *sum = &workspace.sum;
         Number of[3];
         memset(of, 0x55, sizeof of); /* nothing may depend on digits that are not set */
         lost = 0;

@@ -52,7 +52,7 @@ void motion(const Proof *s, const Number *x, const double *off, int64_t c, int w
 
 /* Whether a number that cannot be rounded may be half-way between two others, which `zeros` decides:
    the even one of these, times a unit. */
-static int tied(Room *m, int of, int64_t at, const Number *x, double e, double h, double unit, double *out)
+static int tied(Workspace *m, int of, int64_t at, const Number *x, double e, double h, double unit, double *out)
 {
     Tie *tie = m->tie + m->ties;
     if (!m->finest || m->ties == TIES || !half_way(x, e, h, unit, out, &tie->middle))
@@ -64,7 +64,7 @@ static int tied(Room *m, int of, int64_t at, const Number *x, double e, double h
 }
 
 /* Slacks of all rows; those that may be zero are collected. */
-static void slacks(Proof *s, Room *m)
+static void slacks(Proof *s, Workspace *m)
 {
     double unit = s->units[0] * s->units[1];
     int64_t last = -1, next = 0;
@@ -116,7 +116,7 @@ static int held(const Proof *s, const char *rest, int64_t v)
 
 /* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
    that couples them to others. There H x = 0, and H is definite. */
-static void at_rest(const Proof *s, const Room *m, char *rest)
+static void at_rest(const Proof *s, const Workspace *m, char *rest)
 {
     int64_t n = s->n_v, k = s->working;
     for (int64_t v = 0; v < n; v++) {
@@ -133,7 +133,7 @@ static void at_rest(const Proof *s, const Room *m, char *rest)
 }
 
 /* The multipliers of the working set, rounded; zero where that is not surely wrong. */
-static void pressed(Proof *s, Room *m)
+static void pressed(Proof *s, Workspace *m)
 {
     int64_t n = s->n_v;
     double unit = s->units[1] / s->units[0];
@@ -166,7 +166,7 @@ static void left_by_rounding(const Number *x, double e, double unit, double out,
 }
 
 /* delta_q and A'lam, rounded. What is not surely other than zero is collected. */
-static void rounded(Proof *s, Room *m)
+static void rounded(Proof *s, Workspace *m)
 {
     int64_t n = s->n_v, k = s->working;
     double rho = s->units[1], h = *s->h;
@@ -206,7 +206,7 @@ static void rounded(Proof *s, Room *m)
 }
 
 /* Correct z until no residual is above 2^-bits. */
-void refined(const Proof *s, Room *m, int bits)
+void refined(const Proof *s, Workspace *m, int bits)
 {
     int64_t N = s->n_v + s->working;
     for (int round = 0; round < ROUNDS; round++) {
@@ -224,7 +224,7 @@ void refined(const Proof *s, Room *m, int bits)
 }
 
 /* The system of the working set, and its inverse in float64: DECIDED if there is one. */
-int regular(const Proof *s, Room *m)
+int regular(const Proof *s, Workspace *m)
 {
     int64_t N = s->n_v + s->working;
     system_of(s, m);
@@ -237,7 +237,7 @@ int regular(const Proof *s, Room *m)
     return DECIDED;
 }
 
-static int proved(Proof *s, Room *m)
+static int proved(Proof *s, Workspace *m)
 {
     int64_t n = s->n_v, N = n + s->working;
     lost = 0;
@@ -270,8 +270,8 @@ static int proved(Proof *s, Room *m)
     return lost ? LOST : code;
 }
 
-/* Room for one proof, to be freed; NULL if there is none. */
-void *room_of(const Proof *s, Room *m)
+/* The workspace of one proof, to be freed; NULL if there is no memory. */
+void *workspace_of(const Proof *s, Workspace *m)
 {
     size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
     size_t rows = (size_t)s->rows, numbers = 2 * n + k * n + k + 2 * N, doubles = 3 * N * N + 2 * N;
@@ -304,9 +304,9 @@ void *room_of(const Proof *s, Room *m)
 /* Whether the guess is proved to be a working set of the optimum: DECIDED, or why it is not. */
 int proof(Proof *s)
 {
-    Room m;
-    void *room = room_of(s, &m);
-    s->code = room ? proved(s, &m) : NO_MEMORY;
-    free(room);
+    Workspace m;
+    void *workspace = workspace_of(s, &m);
+    s->code = workspace ? proved(s, &m) : NO_MEMORY;
+    free(workspace);
     return (int)s->code;
 }

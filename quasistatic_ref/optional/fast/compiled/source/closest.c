@@ -37,8 +37,8 @@ static double reach_along(const Solid *solid, const double *n)
     return support_value(solid, n);
 }
 
-/* The room for rounding [m], relative to the sizes of cloud and solid and their distance. */
-static double room(const Cloud *c)
+/* What may be rounding [m], relative to the sizes of cloud and solid and their distance. */
+static double rounding(const Cloud *c)
 {
     double size = 0.0, of_cloud = 0.0, apart = 0.0;
     for (int i = 0; i < 6; i++) {
@@ -88,7 +88,7 @@ static int list(Cloud *c, const double *pose, int64_t count)
         carried(pose, c->box + 3 * i, c->corners + 3 * i);
     carried(pose, c->point + 3 * first, x);
     signed_distance(solid, x, c->n);
-    double phi_k = ranked(c->score, N, count - 1), touching = reach_along(solid, c->n), slack = room(c);
+    double phi_k = ranked(c->score, N, count - 1), touching = reach_along(solid, c->n), slack = rounding(c);
     for (int64_t p = 0; p < N; p++) {
         carried(pose, c->point + 3 * p, x);
         c->height[p] = dot(x, c->n) - touching;

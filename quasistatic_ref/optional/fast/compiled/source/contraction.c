@@ -47,7 +47,7 @@ int inverse(double *R, int64_t n, int64_t *pivot)
     return 1;
 }
 
-/* Upper bounds of |I - R K|, K being known to 2^-48 of the size of each entry; sizes has room for n. */
+/* Upper bounds of |I - R K|, K being known to 2^-48 of the size of each entry; sizes has n entries. */
 void defect(const double *R, const double *K, const double *size, int64_t n, double *G, double *sizes)
 {
     for (int64_t i = 0; i < n; i++) {

@@ -3,7 +3,7 @@
    A Number is the sum of d[j] 2^(56 (j - 16)) over its digits from `low` to below `high`; digits
    are from -2^55 to 2^55, those of a float64, of which there are two at most, inside of +-2^56.
    A Float is a float64 that is a factor: (low + high 2^56) 2^(56 (place - 16)).
-   Products are collected in a Sum. Its digits have room for 2^14 of them, and are zero below `low` and
+   Products are collected in a Sum. Its digits hold 2^14 of them, and are zero below `low` and
    from `high` on. */
 
 #ifndef FIXED_POINT_H

@@ -121,7 +121,7 @@ static void in_floats(const Force *g)
 void assembled(Force *g)
 {
     const Proof *s = g->s;
-    Room *m = &g->m;
+    Workspace *m = &g->m;
     int64_t n = s->n_v;
     for (int64_t v = 0; v < n; v++)
         m->rest[v] = value(m->g + v);
@@ -225,7 +225,7 @@ static void remaining(const Force *g, const Number *z, Number *r)
 /* Add x to z, and refine z until no residual is above 2^-bits; x is the next correction then. */
 static void refine(Force *g, int bits)
 {
-    Room *m = &g->m;
+    Workspace *m = &g->m;
     int64_t n = g->s->n_v;
     for (int round = 0; round < ROUNDS && !lost; round++) {
         double most = 0.0;
@@ -310,7 +310,7 @@ static int judged(Force *g, int finest)
 /* Whether what is open is what it may be, x being the solution without rounding. */
 static int settled_exactly(Force *g)
 {
-    Room *m = &g->m;
+    Workspace *m = &g->m;
     Proof s = *g->s;
     size_t n = (size_t)s.n_v, count = (size_t)g->opened;
     Number *K = calloc(n * n + n + count * (n + 1), sizeof(Number)), one = number(exact(1.0));
@@ -349,7 +349,7 @@ static int settled_exactly(Force *g)
 /* Whether the faces are right, with the forces. */
 static int forced(Force *g)
 {
-    Room *m = &g->m;
+    Workspace *m = &g->m;
     int64_t n = g->s->n_v;
     assembled(g);
     memcpy(m->R, m->K, (size_t)(n * n) * sizeof(double));
@@ -404,12 +404,12 @@ int forces(Forces *f)
     s.units = g.units;
     if (4 * n_c + n >= PRODUCTS)
         return LOST;
-    void *room = room_of(&s, &g.m);
+    void *workspace = workspace_of(&s, &g.m);
     g.sum = calloc(n, sizeof(Sum));
     g.open = calloc(n_c * (size_t)f->width + 1, sizeof(Open));
     g.B = calloc(4 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
     int code = NO_MEMORY;
-    if (room && g.sum && g.open && g.B) {
+    if (workspace && g.sum && g.open && g.B) {
         g.z = g.B + 4 * n_c * n;
         g.along = g.z + 4 * n_c;
         g.size = g.along + 4 * n_c;
@@ -430,6 +430,6 @@ int forces(Forces *f)
     free(g.B);
     free(g.open);
     free(g.sum);
-    free(room);
+    free(workspace);
     return code;
 }

@@ -34,7 +34,7 @@ typedef struct {
 typedef struct {
     const Forces *f;
     const Proof *s;
-    Room m; /* of x; K is h H + k sum B'P B */
+    Workspace m; /* of x; K is h H + k sum B'P B */
     double c, k, units[2];
     double *B, *size, *x, *way; /* size: of what K is the sum of */
     double *z, *along;          /* z at x, and how it changes along the way */

@@ -88,7 +88,7 @@ void row_of(const Proof *s, int64_t r, Number *a, Number *b)
 }
 
 /* K of the system in float64; A_W and b_W exactly. */
-void system_of(const Proof *s, Room *m)
+void system_of(const Proof *s, Workspace *m)
 {
     int64_t n = s->n_v, k = s->working, N = n + k;
     for (int64_t i = 0; i < n; i++)
@@ -105,7 +105,7 @@ void system_of(const Proof *s, Room *m)
 }
 
 /* A sum less one row of K times some factors, without the columns of y, or with these alone. */
-static void less_x(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+static void less_x(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum)
 {
     int64_t n = s->n_v;
     const Number *H = s->hessian, *row = i < n ? H + i * n : m->A + (i - n) * n;
@@ -115,7 +115,7 @@ static void less_x(const Proof *s, const Room *m, int64_t i, const Float *z, Sum
             add_product(sum, row + v, z[v], -1);
 }
 
-static void less_y(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+static void less_y(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum)
 {
     int64_t n = s->n_v, k = s->working;
     const double *values = m->K + i * (n + k) + n;
@@ -124,14 +124,14 @@ static void less_y(const Proof *s, const Room *m, int64_t i, const Float *z, Sum
             add_product(sum, m->A + w * n + i, z[n + w], 1);
 }
 
-void less(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum)
+void less(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum)
 {
     less_x(s, m, i, z, sum);
     less_y(s, m, i, z, sum);
 }
 
 /* One correction: z += R r, and what is left of the residuals r, exactly. */
-void corrected(const Proof *s, Room *m)
+void corrected(const Proof *s, Workspace *m)
 {
     int64_t n = s->n_v, N = n + s->working;
     Sum sum = EMPTY;

@@ -18,24 +18,24 @@ typedef struct {
     double distance, on_a[3], on_b[3], miss;
 } Feature;
 
-/* Room for a solid in another frame. */
+/* What a solid in another frame is written into. */
 typedef struct {
     double vertices[3 * CORNERS], normals[3 * TRIANGLES], offsets[TRIANGLES];
-} Room;
+} Workspace;
 
-static Solid moved(const Solid *b, const double *pose, Room *room)
+static Solid moved(const Solid *b, const double *pose, Workspace *workspace)
 {
     Solid there = *b;
     double t[3] = {pose[3], pose[7], pose[11]};
     for (int64_t i = 0; i < b->corners; i++)
-        carried(pose, b->vertices + 3 * i, room->vertices + 3 * i);
+        carried(pose, b->vertices + 3 * i, workspace->vertices + 3 * i);
     for (int64_t f = 0; f < b->faces; f++) {
-        turned(pose, b->normals + 3 * f, room->normals + 3 * f);
-        room->offsets[f] = b->offsets[f] + dot(room->normals + 3 * f, t);
+        turned(pose, b->normals + 3 * f, workspace->normals + 3 * f);
+        workspace->offsets[f] = b->offsets[f] + dot(workspace->normals + 3 * f, t);
     }
-    there.vertices = room->vertices;
-    there.normals = room->normals;
-    there.offsets = room->offsets;
+    there.vertices = workspace->vertices;
+    there.normals = workspace->normals;
+    there.offsets = workspace->offsets;
     return there;
 }
 
@@ -200,13 +200,13 @@ static int of_edges(const Solid *a, const Solid *b, double bound, double at_most
    many edges are as near. */
 static int nearest_feature(const Solid *a, const Solid *b, const double *pose, const double *way, double size, Feature *nearest)
 {
-    Room room;
+    Workspace workspace;
     Feature every[2 + LARGEST];
-    Solid there = moved(b, pose, &room);
+    Solid there = moved(b, pose, &workspace);
     corners_on_faces(a, b, &there, pose, every, every + 1);
     double least = smaller(every[0].distance, every[1].distance), apart[3], off[3];
-    double room_for_rounding = OUTSIDE_FACE * size;
-    int count = of_edges(a, &there, larger(least, 0.0), least + room_for_rounding, every + 2), best = 0, other = -1;
+    double rounding = OUTSIDE_FACE * size;
+    int count = of_edges(a, &there, larger(least, 0.0), least + rounding, every + 2), best = 0, other = -1;
     if (count < 0)
         return 0;
     count += 2;
@@ -218,9 +218,9 @@ static int nearest_feature(const Solid *a, const Solid *b, const double *pose, c
             best = i;
     }
     for (int i = count - 1; i >= 0; i--)
-        if (every[i].distance <= every[best].distance + room_for_rounding && every[i].miss <= room_for_rounding)
+        if (every[i].distance <= every[best].distance + rounding && every[i].miss <= rounding)
             other = i;
-    *nearest = every[every[best].miss <= room_for_rounding || other < 0 ? best : other];
+    *nearest = every[every[best].miss <= rounding || other < 0 ? best : other];
     return 1;
 }
 
@@ -247,8 +247,8 @@ static void with_margins(const Pair *pair, double gap, const double *on_a, const
 /* `_capsule_pair`; 0 where the axes meet. */
 static int capsules(const Pair *pair, const double *pose, Contact *nearest)
 {
-    Room room;
-    const Solid *a = pair->a, b = moved(pair->b, pose, &room);
+    Workspace workspace;
+    const Solid *a = pair->a, b = moved(pair->b, pose, &workspace);
     double u[3], v[3], s, r, on_a[3], on_b[3], n[3], across[3];
     const double *p = edge(a, 0, u), *q = edge(&b, 0, v);
     nearest_on_segments(p, u, q, v, &s, &r);
@@ -282,9 +282,9 @@ int polytopes(const Pair *pair, Contact *nearest)
     relative(pair->at_a, pair->at_b, pose);
     if (a->kind == CAPSULE && b->kind == CAPSULE)
         return capsules(pair, pose, nearest);
-    Room room;
+    Workspace workspace;
     Gaps gaps = {.count = 0};
-    Solid there = moved(b, pose, &room);
+    Solid there = moved(b, pose, &workspace);
     along_faces(a, &there, 1.0, &gaps);
     along_faces(&there, a, -1.0, &gaps);
     if (!crossing_edges(a, &there, &gaps))

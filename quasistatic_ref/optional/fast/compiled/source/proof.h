@@ -46,7 +46,7 @@ typedef struct {
     /* Of each row its contact and its number there; the rows that the answer presses; the guess. */
     const int64_t *contact, *row;
     int64_t *answer, *guess;
-    /* h H: kept while H is the same. Room for Numbers. */
+    /* h H: kept while H is the same. A workspace of Numbers. */
     void *hessian;
     double *hessian_values;
     /* The answer, in SI units; and what rounding took from delta_q, within a bound. */
@@ -81,7 +81,7 @@ typedef struct {
     int finest; /* whether z is refined as far as it will be */
     int64_t ties;
     Tie tie[TIES];
-} Room;
+} Workspace;
 
 /* x in other units, `by` being a power of two. */
 static inline Float scaled(double x, double by)
@@ -94,9 +94,9 @@ static inline Float scaled(double x, double by)
 
 void load(const Proof *s, Number *g);
 void row_of(const Proof *s, int64_t r, Number *a, Number *b);
-void system_of(const Proof *s, Room *m);
-void less(const Proof *s, const Room *m, int64_t i, const Float *z, Sum *sum);
-void corrected(const Proof *s, Room *m);
+void system_of(const Proof *s, Workspace *m);
+void less(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum);
+void corrected(const Proof *s, Workspace *m);
 int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, const double *size, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
@@ -105,13 +105,13 @@ int half_way(const Number *x, double e, double h, double unit, double *out, Numb
 int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight);
 void motion(const Proof *s, const Number *x, const double *off, int64_t c, int with_gap, Number *out,
             double *e);
-void *room_of(const Proof *s, Room *m);
-int regular(const Proof *s, Room *m);
+void *workspace_of(const Proof *s, Workspace *m);
+int regular(const Proof *s, Workspace *m);
 int64_t unspanned(const Proof *s, int64_t *table, int64_t *pivot, int64_t *others);
-int zeros(Proof *s, Room *m);
-int satisfied(const Proof *s, const Room *m, const Number *f, const Number *A, const Number *b,
+int zeros(Proof *s, Workspace *m);
+int satisfied(const Proof *s, const Workspace *m, const Number *f, const Number *A, const Number *b,
               int64_t count);
-void refined(const Proof *s, Room *m, int bits);
+void refined(const Proof *s, Workspace *m, int bits);
 int proof(Proof *s);
 int independent(Proof *s);
 int mended(Proof *s);

@@ -92,9 +92,9 @@ static void heading(const double *here, double angle, double C, double S, double
 static int nearest(long double found, double *out)
 {
     volatile long double one = 1.0L;
-    long double room = found * 0x1p-60L;
-    *out = (double)(found - room);
-    return one + 0x1p-62L != one && *out == (double)(found + room);
+    long double margin = found * 0x1p-60L;
+    *out = (double)(found - margin);
+    return one + 0x1p-62L != one && *out == (double)(found + margin);
 }
 
 /* Cosine and sine of half of a joint's angle; 0 if they are in doubt. */

@@ -27,7 +27,7 @@ typedef struct {
        corners were at these places in the solid's frame. */
     int64_t *index;
     double *bounds, *n, *corners;
-    double *phi, *height, *score; /* room, of as many as there are points */
+    double *phi, *height, *score; /* workspaces, of as many as there are points */
     double *nearest;              /* of as many as contacts, as the next */
     int64_t *rank;
 } Cloud;
@@ -44,7 +44,7 @@ typedef struct {
     const int64_t *link_a, *link_b;
     const double *on_a, *on_b;
     const int64_t *k, *start, *count, *corners;
-    /* Room for all candidates of a pair, and for their order. */
+    /* A workspace for all candidates of a pair, and for their order. */
     Contact *candidates;
     int64_t *order, *late;
     /* Written: whether the pair is decided, and its contacts. */

@@ -292,8 +292,8 @@ static int walked(Walk *w)
     return ended(w) < 0;
 }
 
-/* Room for walks; NULL if there is none. */
-static void *room_for(Walk *w)
+/* The workspace of walks, to be freed; NULL if there is no memory. */
+static void *workspace_of_walks(Walk *w)
 {
     size_t n = (size_t)w->n, rows = (size_t)w->s->rows;
     double *at = calloc((n + 1) * n + 7 * n + 2 * rows, sizeof(double));
@@ -314,14 +314,14 @@ static void *room_for(Walk *w)
 static int replaced(Proof *s, int (*made)(Walk *))
 {
     Walk w = {.s = s, .n = s->n_v};
-    void *room = room_for(&w);
-    int done = room && made(&w);
+    void *workspace = workspace_of_walks(&w);
+    int done = workspace && made(&w);
     if (done) {
         memcpy(s->guess, w.working, (size_t)w.k * sizeof(int64_t));
         qsort(s->guess, (size_t)w.k, sizeof(int64_t), ascending);
         s->working = w.k;
     }
-    free(room);
+    free(workspace);
     return done;
 }
 
@@ -335,9 +335,9 @@ int mended(Proof *s) { return replaced(s, walked); }
 int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weight)
 {
     Walk w = {.s = s, .n = s->n_v};
-    void *room = room_for(&w);
+    void *workspace = workspace_of_walks(&w);
     int64_t last = -1;
-    int regular = room && begun(&w);
+    int regular = workspace && begun(&w);
     w.fixed = w.k;
     for (int64_t r = 0; regular && r < s->rows; r++)
         w.slack[r] = INFINITY;
@@ -351,6 +351,6 @@ int64_t closed(const Proof *s, const int64_t *rows, int64_t count, double *weigh
             if (w.working[j] == rows[i] && (last < 0 || -w.falls[j] > rounded_off(&w)))
                 weight[i] = last < 0 ? w.lam[j] : -w.falls[j];
     }
-    free(room);
+    free(workspace);
     return last;
 }

@@ -16,7 +16,7 @@ typedef unsigned __int128 Wide;
 
 typedef struct {
     const Proof *s;
-    const Room *m;
+    const Workspace *m;
     int64_t N, others; /* unknowns; rows outside of the working set */
     uint64_t *LU, *d;  /* factors of K modulo p; one digit of each unknown, behind what is solved for */
     int64_t *order; /* of the rows of K in LU */
@@ -252,7 +252,7 @@ static int spanned(Lifting *l, const Number *a)
 }
 
 /* v and y within m->e; 0 if that is not shown. */
-static int found(const Lifting *l, Room *m, const Number *a)
+static int found(const Lifting *l, Workspace *m, const Number *a)
 {
     pressed_by(l, a, m->r);
     memset(m->z, 0, (size_t)l->N * sizeof(Number));
@@ -275,7 +275,7 @@ static void summed(const Number *rows, const double *weight, int64_t count, int6
 }
 
 /* Whether v, which is found, surely opens all of some rows. */
-static int opened(const Room *m, const Number *rows, int64_t count, int64_t n)
+static int opened(const Workspace *m, const Number *rows, int64_t count, int64_t n)
 {
     int all = 1;
     for (int64_t i = 0; i < count; i++) {
@@ -290,8 +290,8 @@ static int opened(const Room *m, const Number *rows, int64_t count, int64_t n)
     return all;
 }
 
-/* Room for the lifting of a system, with so many other rows, to be freed; NULL if there is none. */
-static void *lifting(Lifting *l, const Proof *s, const Room *m, int64_t others)
+/* The workspace of the lifting of a system, with so many other rows, to be freed; NULL without memory. */
+static void *lifting(Lifting *l, const Proof *s, const Workspace *m, int64_t others)
 {
     size_t n = (size_t)s->n_v, N = n + (size_t)s->working, count = (size_t)others;
     size_t numbers = N + 2 * count + count * n;
@@ -324,18 +324,18 @@ static void left_out(Rows *E, int64_t i, int64_t n)
     memmove(E->A + i * n, E->A + (i + 1) * n, (size_t)(after * n) * sizeof(Number));
 }
 
-static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum);
+static int settled(Proof *s, Workspace *m, Lifting *l, Rows *E, Number *sum);
 
 /* The same for W and the rows of E that have a weight, but one, the last: these with it, times
    positive numbers, come to a combination of W's rows. */
 static int joined(Proof *s, Rows *E, int64_t last, Number *sum)
 {
     Proof wider = *s;
-    Room m;
+    Workspace m;
     Lifting l;
     int64_t n = s->n_v, k = s->working, code = OPEN_CLAIM;
     int64_t *guess = malloc((size_t)(k + E->count) * sizeof(int64_t));
-    void *room = NULL, *digits = NULL;
+    void *workspace = NULL, *digits = NULL;
     wider.guess = guess;
     if (guess) {
         memcpy(guess, s->guess, (size_t)k * sizeof(int64_t));
@@ -347,9 +347,9 @@ static int joined(Proof *s, Rows *E, int64_t last, Number *sum)
                     guess[wider.working++] = E->row[i];
                 left_out(E, i, n);
             }
-        room = wider.working <= n ? room_of(&wider, &m) : NULL;
+        workspace = wider.working <= n ? workspace_of(&wider, &m) : NULL;
     }
-    if (room && regular(&wider, &m) == DECIDED)
+    if (workspace && regular(&wider, &m) == DECIDED)
         digits = lifting(&l, &wider, &m, 0);
     if (digits && factored(&l) && spanned(&l, sum) && found(&l, &m, sum)) {
         int positive = 1;
@@ -359,13 +359,13 @@ static int joined(Proof *s, Rows *E, int64_t last, Number *sum)
         code = positive ? settled(&wider, &m, &l, E, sum) : OPEN_CLAIM;
     }
     free(digits);
-    free(room);
+    free(workspace);
     free(guess);
     return (int)code;
 }
 
 /* What E means: docs/proofs.md. */
-static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum)
+static int settled(Proof *s, Workspace *m, Lifting *l, Rows *E, Number *sum)
 {
     int64_t n = s->n_v;
     for (int64_t i = 0; i < E->count; i++)
@@ -389,14 +389,14 @@ static int settled(Proof *s, Room *m, Lifting *l, Rows *E, Number *sum)
 }
 
 /* The row a x = b by which an entry of A'lam is zero: (hH)x = hg. */
-static void balance(const Proof *s, const Room *m, int64_t v, Number *a, Number *b)
+static void balance(const Proof *s, const Workspace *m, int64_t v, Number *a, Number *b)
 {
     memcpy(a, (const Number *)s->hessian + v * s->n_v, (size_t)s->n_v * sizeof(Number));
     *b = m->g[v];
 }
 
 /* The row a x = b by which a number is half-way between two others. */
-static void half(const Proof *s, const Room *m, const Tie *tie, Number *a, Number *b)
+static void half(const Proof *s, const Workspace *m, const Tie *tie, Number *a, Number *b)
 {
     Number zero = ZERO;
     if (tie->of == OF_SLACK)
@@ -412,7 +412,7 @@ static void half(const Proof *s, const Room *m, const Tie *tie, Number *a, Numbe
 
 /* Whether all that may be zero is, and half-way what may be; and what the others mean, which are rows
    that do not follow from how the rows of contacts are combined. */
-static int decided(Proof *s, Room *m, Lifting *l, int64_t count)
+static int decided(Proof *s, Workspace *m, Lifting *l, int64_t count)
 {
     int64_t n = s->n_v, N = l->N, ties = count + m->balances;
     for (int64_t i = 0; i < l->others; i++) {
@@ -440,7 +440,7 @@ static int decided(Proof *s, Room *m, Lifting *l, int64_t count)
 }
 
 /* Whether all that may be zero is: DECIDED, with the claims. */
-int zeros(Proof *s, Room *m)
+int zeros(Proof *s, Workspace *m)
 {
     Lifting l;
     s->claims[0] = s->counts[0] == 0;
@@ -448,25 +448,25 @@ int zeros(Proof *s, Room *m)
     int64_t count = unspanned(s, m->table, m->pivot, m->others);
     if (!count && !s->counts[1] && !m->balances && !m->ties)
         return DECIDED;
-    void *room = lifting(&l, s, m, count + m->balances + m->ties);
-    int code = room ? decided(s, m, &l, count) : NO_MEMORY;
-    free(room);
+    void *workspace = lifting(&l, s, m, count + m->balances + m->ties);
+    int code = workspace ? decided(s, m, &l, count) : NO_MEMORY;
+    free(workspace);
     return code;
 }
 
 /* Whether the solution x of K x = f, K being s->hessian, satisfies A x = b: `count` rows. */
-int satisfied(const Proof *s, const Room *m, const Number *f, const Number *A, const Number *b,
+int satisfied(const Proof *s, const Workspace *m, const Number *f, const Number *A, const Number *b,
               int64_t count)
 {
     Lifting l;
     size_t n = (size_t)s->n_v;
-    void *room = lifting(&l, s, m, count);
-    if (!room)
+    void *workspace = lifting(&l, s, m, count);
+    if (!workspace)
         return NO_MEMORY;
     memcpy(l.r, f, n * sizeof(Number));
     memcpy(l.r + n, b, (size_t)count * sizeof(Number));
     memcpy(l.A, A, (size_t)count * n * sizeof(Number));
     int code = factored(&l) && vanish(&l, NULL, 0) ? DECIDED : OPEN_NUMBER;
-    free(room);
+    free(workspace);
     return code;
 }
