@@ -10,7 +10,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
-from quasistatic_ref.lab.study.problems.dials import DIALS
+from quasistatic_ref.lab.study.problems.dials import DIALS, MADE
 from quasistatic_ref.lab.study.problems.names import UNITS
 from quasistatic_ref.tolerances import LARGE
 
@@ -86,7 +86,8 @@ TABLES = WholeTables({
     },
     COUNTS: {
         "scenarios": _family("steps of the scenarios"),
-        **{name: _family("of a set; dial: {name}, {first:g} to {most:g} {unit}".format(**own))
+        **{name: _family("{}; dial: {name}, {first:g} to {most:g} {unit}".format(
+            "made by the study" if name in MADE else "of a set", **own))
            for name, own in DIALS.items()},
     },
     COUNT: {

@@ -23,7 +23,7 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.dials import SCENARIOS
+from quasistatic_ref.lab.study.problems.dials import MADE, SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.names import UNITS
 
@@ -194,10 +194,11 @@ def _counts(table: TableReader, of_a_set: bool) -> tuple[dict[str, int], dict[st
     for name, own in TABLES.all_values(table, COUNTS).items():
         inner = TableReader({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
-        if count["count"] and not of_a_set and name != SCENARIOS:
+        needs_set = name not in MADE and not of_a_set
+        if count["count"] and needs_set and name != SCENARIOS:
             words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
             raise table.error_about(name, words)
-        if count["most"] is not None and not of_a_set:
+        if count["most"] is not None and needs_set:
             raise table.error_about(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"]:
             counts[name] = count["count"]

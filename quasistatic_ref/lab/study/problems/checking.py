@@ -3,12 +3,11 @@
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
+from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
-from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.float_bound import FloatBound
 from quasistatic_ref.optional.large.sizes import term_sizes
@@ -30,12 +29,13 @@ def refutation(one: Problem) -> str | None:
     if one.answer.kind == BOUNDED:
         return _not_bounded(one)
     warm = np.flatnonzero(one.answer.lam).tolist()
-    found = form_optimum(exact_form_of(*one.form), warm)
-    if not isinstance(found, ExactOptimum):
+    again = exact_answer(one.form, warm)
+    if again.farkas:
         return "it has no solution"
-    parts = {"x": found.delta_q, "net": found.net, "slack": found.slack}
     wrong = [
-        name for name, v in parts.items() if v.tobytes() != getattr(one.answer, name).tobytes()
+        name
+        for name in ("x", "net", "slack")
+        if getattr(again, name).tobytes() != getattr(one.answer, name).tobytes()
     ]
     return f"{' and '.join(wrong)} have other bits" if wrong else None
 

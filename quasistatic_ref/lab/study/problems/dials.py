@@ -28,7 +28,12 @@ def _dial(name: str, unit: str, first: float, most: float) -> Dial:
 
 SCENARIOS = "scenarios"
 """Steps of runs, which have no dial: the family that studies make problems of, too."""
-DIALS = {
+MADE = {
+    "apart": _dial("boxes", "-", 12, 40),
+    "heap": _dial("boxes", "-", 8, 80),
+}
+"""Families of no set, which a study makes itself."""
+DIALS = MADE | {
     "sequences": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "moving": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "time_step": _dial("h", "s", 0.1, 1e-4),

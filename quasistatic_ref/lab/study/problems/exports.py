@@ -68,9 +68,10 @@ def exported_files(name: str, problems: Sequence[Problem], to: str, folder: Path
 
 def has_place(one: Problem, to: str) -> bool:
     """Whether a format has a place for a problem: qpbenchmark's for dense rows with a solution."""
+    rows = one.facts["kind"] == QP
     if to == PARQUET:
-        return one.dense and one.feasible
-    return to != QPS or one.facts["kind"] == QP
+        return rows and one.feasible and not one.sparse
+    return rows or to != QPS
 
 
 def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:

@@ -1,4 +1,4 @@
-"""The problems of a study: taken from a set, or steps of scenarios, and kept in its folder."""
+"""The problems of a study: taken from a set, or made of steps, and kept in its folder."""
 
 import hashlib
 import json
@@ -10,7 +10,8 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.problems.dials import SCENARIOS
+from quasistatic_ref.lab.study.problems.boxes import problems_of_boxes
+from quasistatic_ref.lab.study.problems.dials import MADE, SCENARIOS
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read, set_written
 from quasistatic_ref.lab.study.problems.making import problems_of_runs
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
@@ -72,10 +73,14 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
             words = "holds another test set; choose another folder with --out, or remove this one"
             raise InputError(words, file=folder)
         return set_read(folder)
+    families = dict(test_set.families)
+    made = {name: families.pop(name) for name in MADE if name in families}
     if test_set.source:
-        problems = problems_taken(test_set.source, test_set.families, test_set.most)
+        problems = problems_taken(test_set.source, families, test_set.most)
     else:
-        problems = problems_of_runs(test_set.scenarios, test_set.families[SCENARIOS], progress)
+        problems = problems_of_runs(test_set.scenarios, families.get(SCENARIOS, 0), progress)
+    for name, count in made.items():
+        problems += problems_of_boxes(name, count, test_set.most.get(name))
     set_written(folder, FOLDER, problems, made_of=made_of)
     return problems
 

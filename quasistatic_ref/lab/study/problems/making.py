@@ -11,7 +11,7 @@ from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.difficulty import measures, tags
-from quasistatic_ref.lab.study.problems.problem import QP, Problem
+from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
@@ -19,6 +19,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
 
 def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
@@ -66,8 +67,12 @@ def _run(scenario: Scenario) -> Trajectory:
         raise
 
 
-def problem_of(step: StepData, name: str, k: int = 0, warm: Sequence[int] = ()) -> Problem:
+def problem_of(
+    step: StepData, name: str, k: int = 0, warm: Sequence[int] = (), dial: float | None = None
+) -> Problem:
     """A problem from a step: what it is, how hard it is, its exact answer.
+
+    Its matrices are sparse from where PIQP gets sparse ones in a simulation.
 
     Parameters
     ----------
@@ -79,6 +84,8 @@ def problem_of(step: StepData, name: str, k: int = 0, warm: Sequence[int] = ()) 
     warm : sequence of int
         Rows that the exact method starts from, such as those that bear load in the exact step: in
         its float64 numbers, of which the problem is, they are nearly the same.
+    dial : float, optional
+        Of its family [the dial's unit].
     """
     form = standard_form(step)
     H, g, A, b = form
@@ -93,7 +100,7 @@ def problem_of(step: StepData, name: str, k: int = 0, warm: Sequence[int] = ()) 
         "h": step.h,
         "k": k,
         "mass_ratio": mass_ratio(step),
-        "dial": None,
+        "dial": dial,
         "sequence": None,
         "status": answer.status,
         "answer": {
@@ -108,7 +115,8 @@ def problem_of(step: StepData, name: str, k: int = 0, warm: Sequence[int] = ()) 
     units = units_of(form, hessian_in_both_units(form.H))
     problem = Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
     found = measures(problem)
-    facts |= {"tags": tags(problem, found), "measures": found}
+    sparse = [SPARSE] * (step.contacts.J.size >= SPARSE_FROM_PIQP)
+    facts |= {"tags": [*tags(problem, found), *sparse], "measures": found}
     return problem
 
 

@@ -96,11 +96,6 @@ class Problem:
         return not self.answer.farkas
 
     @property
-    def dense(self) -> bool:
-        """Whether it has rows, and so few that solvers of dense matrices take it."""
-        return self.facts["kind"] == QP and not self.sparse
-
-    @property
     def sparse(self) -> bool:
         """Whether its matrices are left without zeros."""
         return SPARSE in self.facts["tags"]

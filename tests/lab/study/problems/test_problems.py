@@ -7,8 +7,10 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, problems_record, study_problems
+from quasistatic_ref.step.groups import groups
 from tests.closeness import assert_relative
 from tests.oracles.rational_kkt import refutation
 
@@ -44,3 +46,20 @@ def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmeti
 def test_scenarios_of_one_name_are_refused(study):
     with pytest.raises(InputError, match=r"problems\.scenarios: must have different names"):
         study(PROBLEMS.format(own="folder/block_incline.toml"))
+
+
+def test_boxes_that_a_study_makes_are_apart_or_one_heap(study, tmp_path):
+    """Twelve boxes on four points each, and 2 x 2 x 2: 4 pairs with the floor, 12 of boxes."""
+    text = "[problems]\nfamilies = { apart = { count = 1, most = 12 }, heap = 1 }\n"
+    apart, heap = study_problems(study(text).problems, tmp_path, progress=False)
+    assert [(one.id, one.facts["dial"]) for one in (apart, heap)] == [
+        ("apart/12/0", 12), ("heap/8/0", 8)]  # fmt: skip
+    for one, contacts, parts in ((apart, 12 * 4, 12), (heap, (4 + 12) * 4, 1)):
+        assert (one.A.shape[0], one.facts["contacts"]) == (6 * contacts, contacts)
+        assert one.sparse
+        assert len(groups(program_step(one.H.toarray(), one.g, one.A.toarray(), one.b))) == parts
+        answer = one.answer
+        numbers = answer.x, answer.net, answer.slack, answer.lam
+        assert refutation(one.H.toarray(), one.g, one.A.toarray(), one.b, *numbers) is None
+    bearing = np.add.reduceat(apart.answer.lam, np.arange(0, 12 * 24, 24))
+    assert (bearing > 0).all()
