@@ -50,7 +50,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "clock_agrees": chance.random() < 0.99,
         "memory": int(1e8 * chance.random()),
         "iterations": chance.choice([None, 7, 12]),
-        "repeats": False if name == "bee" and solved else None,  # bee was called on copies
+        "repeats": False if solved else None,
     }  # fmt: skip
 
 

@@ -1,11 +1,10 @@
 """The options of solvers: one file a solver, ``lab/study/options/NAME.toml``.
 
-Each names the page of the solver's documentation. An author of a solver can add a note, `author`,
-which reports print. `accuracy` are the options that a setting sets to its accuracy: those of the
-residuals, of the duality gap, and of what proves that there is no solution; `others` go with them.
-`defaults` are the solver's own tolerances of residuals and gap, and `promise` says what it promises
-by them (``promises.py``). `sparse` are the interfaces that take sparse matrices. A table of an
-interface has what differs there, and what the interface refuses.
+Each names the page of the solver's documentation. `accuracy` are the options that a setting sets to
+its accuracy: those of the residuals, of the duality gap, and of what proves that there is no
+solution; `others` go with them. `defaults` are the solver's own tolerances of residuals and gap,
+and `promise` says what it promises by them (``promises.py``). `sparse` are the interfaces that take
+sparse matrices. A table of an interface has what differs there, and what the interface refuses.
 """
 
 import tomllib

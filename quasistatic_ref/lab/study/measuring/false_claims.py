@@ -25,8 +25,8 @@ from quasistatic_ref.step.standard_form import StandardForm
 FACTOR = 10.0
 """By how much a residual may exceed its promise, the same for all solvers. They test residuals of
 variables that they have scaled, before the interface converts the answer, and terms at their own
-answer. In the study `default`, 32 answers exceed a promise by less than that and 10 by more, those
-of HiGHS left out."""
+answer. In the study `default`, 28 answers exceed a promise by less than that and 10 by more, those
+of HiGHS and ProxQP left out."""
 SPREAD = 1e3
 """Multipliers are not unique, and an interior point that ends among many may be far out: Clarabel's
 on narrow/5.29681e-11/203 are 860 times the exact ones. ``|lam|`` counts that much larger."""

@@ -104,8 +104,8 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
         ``called``, whether the call was made; ``half``, of the problems, and ``first``, the time
         of the first call [s]; ``digits``: those of delta_q that were delivered,
         0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
-        of the first call on a copy of the problem, if there was one, else of the repeated call; the
-        time limit where the solver does not say so; ``call``: of any call.
+        of the first call on a copy of the problem, in sequences of the repeated call; the time
+        limit where the solver does not say so; ``call``: of any call.
     """
     return Rows([row | _derived_fields(row, limit) for row in rows])
 
@@ -114,8 +114,7 @@ def _derived_fields(row: Row, limit: float) -> Row:
     machine = row.get("machine", "")
     seconds = row["seconds"]
     solved = row["outcome"] == SOLVED
-    copied = not row["mode"] and row["repeats"] is not None
-    ranked = "first" if copied and seconds["first"] is not None else "call"
+    ranked = "call" if row["mode"] else "first"
     who = f"{row['solver']}@{machine}" if machine else row["solver"]
     return {
         "machine": machine,

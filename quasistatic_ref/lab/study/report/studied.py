@@ -53,15 +53,14 @@ def place_tables(study: Mapping[str, Any]) -> list[Table]:
 
 
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
-    """Every solver's options at every setting, what they promise, and its author's note."""
+    """Every solver's options at every setting, and what they promise."""
     rows = tuple(
         (s["name"], s["interface"], setting, f"`{options_words(options)}`",
-         option_file(str(s["target"])).get("source", "-"),
-         option_file(str(s["target"])).get("author") or "-", promise_words(s["promise"][setting]),
+         option_file(str(s["target"])).get("source", "-"), promise_words(s["promise"][setting]),
          "as they are" if takes_sparse(str(s["target"]), s["interface"]) else "as arrays")
         for s in solvers
         for setting, options in s["options"].items()
     )  # fmt: skip
-    names = ("solver", "interface", "setting", "its own options", "documented at",
-             "its author's note", "promised", "sparse matrices")  # fmt: skip
-    return Table("Options.", "the store, options", names, rows, left=8)
+    names = ("solver", "interface", "setting", "its own options", "documented at", "promised",
+             "sparse matrices")  # fmt: skip
+    return Table("Options.", "the store, options", names, rows, left=7)

@@ -144,7 +144,6 @@ SCREEN: dict[str, Cell] = {
     "digits of A'lam, median": _percentile("net", 50, tenths),
     "time, median [ms]": _percentile("seconds", 50, milliseconds),
     "time, 95 % [ms]": _percentile("seconds", 95, milliseconds),
-    "first call, median [ms]": _percentile("first", 50, milliseconds),
     "repeated call, median [ms]": _percentile("call", 50, milliseconds),
 }
 """What the first table has of the half on which a solver is judged."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
-from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.measuring.false_claims import FACTOR, certificate_holds
 from quasistatic_ref.lab.study.measuring.grade import grades, problem_forms
 from quasistatic_ref.lab.study.measuring.judged_again import judged_again
@@ -90,6 +90,20 @@ def test_right_x_and_zero_multipliers_is_a_false_claim_and_is_a_negative_multipl
     H, g, A, _ = own.form  # A'lam is off by 1e-3 A_i', which moves by H^-1 A_i'
     off = 1e-3 * np.sqrt(A[idle] @ np.linalg.solve(H, A[idle]) / (g @ np.linalg.solve(H, g)))
     assert less["digits"]["multipliers"] == pytest.approx(-np.log10(off), abs=1e-6)
+
+
+def test_proxqp_whose_documentation_states_no_limit_of_signs_is_held_to_a_thousandth(problem):
+    """A row with b = 0, which leaves the gap as it is; both break OSQP's promise."""
+    own = problem.natural
+    idle = np.flatnonzero((own.form.b == 0) & (own.answer.lam == 0))[0]
+    high = next(one for one in SETTINGS if one.name == "high")
+    for negative, false in ((1e-5, False), (1.0, True)):
+        lam = own.answer.lam.copy()
+        lam[idle] = -negative
+        for name, wrong in (("proxqp", false), ("osqp", True)):
+            solver = Solver(name, "native", name)
+            row = row_of(problem, own.answer.x, lam, solver=solver, setting=high)
+            assert (row["wrong"], row["wrong_multipliers"]) == (wrong, wrong)
 
 
 def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
