@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from scipy.sparse import csc_matrix
 
+    from quasistatic_ref.certify.rational import Integers
     from quasistatic_ref.contact.distance import ClosestPoints
     from quasistatic_ref.contact.pairs import ContactLayout
     from quasistatic_ref.contact.shape_in_world import ShapeInWorld
@@ -30,12 +31,14 @@ STRAY: Slot[Callable[[Array], Mask]] = Slot("scans.cloud")
 """Which points (N, 3) [m] no gap of a few spacings joins to the others."""
 COULOMB_COUNT: Slot[Callable[[StepData, int], str]] = Slot("coulomb.modes")
 """How many solutions a step has under Coulomb's law, after at most so many systems."""
-RIVALS: Slot[Callable[[ShapeInWorld, ShapeInWorld, Array, float, float], list[Array]]] = Slot(
-    "curved.settle"
+OTHER_WAYS_OUT: Slot[Callable[[ShapeInWorld, ShapeInWorld, float], list[Array]]] = Slot(
+    "curved.by_coal"
 )
-"""Other ways of two curved solids out of each other."""
+"""Normals of two curved solids whose gap the search found to be as wide, but for so much [m]."""
 SIDES: Slot[Callable[[StepData], list[Indices]]] = Slot("forces.of_group")
-FACE: Slot[Callable[[str, int, tuple[int, ...]], tuple[Array, int] | None]] = Slot("forces.faces")
+FACE: Slot[Callable[[str, int, tuple[int, ...]], tuple[Integers, int] | None]] = Slot(
+    "forces.faces"
+)
 """A face of a contact's forces: whole numbers and their denominator; None of dependent rows."""
 
 

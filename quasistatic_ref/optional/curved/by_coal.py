@@ -20,6 +20,7 @@ from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import COAL_WITNESS
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.between import OTHER_WAYS_OUT
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -71,15 +72,7 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     ContactError
         If coal has no answer that proves itself.
     """
-    size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
-    scale = 2.0 ** -np.round(np.log2(size))
-    here = ShapeInWorld(_resized(a.shape, scale), a.R, np.zeros(3))
-    there = ShapeInWorld(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
-    best = _best(here, there, _by_coal(here, there))
-    # Where they just touch, what is proved is right: no gap is wider than that of a contact.
-    touching = best.phi >= -ENOUGH and best.defect <= WITNESS
-    if not (best.phi > 0 or touching):
-        best = _shallowest(here, there, best)
+    best, _, scale = _answers(a, b)
     if best.defect > WITNESS:
         raise ContactError(
             "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
@@ -90,6 +83,34 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     alpha = best.alpha / scale + a.t
     phi = float(best.phi / scale)
     return Witness(phi, alpha, alpha + phi * best.n, best.n)
+
+
+def other_ways_out(a: ShapeInWorld, b: ShapeInWorld, within: float) -> list[Array]:
+    """Normals, (3,) [-], along which the search for closest points found the same gap or less.
+
+    Parameters
+    ----------
+    a, b : ShapeInWorld
+    within : float
+        Largest difference of gaps that are equal [m].
+    """
+    best, every, scale = _answers(a, b)
+    proved = [way for way in every if way.defect <= WITNESS]
+    return [way.n for way in proved if way.phi >= best.phi - scale * within]
+
+
+def _answers(a: ShapeInWorld, b: ShapeInWorld) -> tuple[Judged, list[Judged], float]:
+    """The best answer, all ways out that were followed, and the factor of their lengths."""
+    size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
+    scale = float(2.0 ** -np.round(np.log2(size)))
+    here = ShapeInWorld(_resized(a.shape, scale), a.R, np.zeros(3))
+    there = ShapeInWorld(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
+    best = _best(here, there, _by_coal(here, there))
+    # Where they just touch, what is proved is right: no gap is wider than that of a contact.
+    touching = best.phi >= -ENOUGH and best.defect <= WITNESS
+    if best.phi > 0 or touching:
+        return best, [], scale
+    return *_shallowest(here, there, best), scale
 
 
 @lru_cache(maxsize=256)
@@ -172,26 +193,26 @@ def _gap(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> float:
     return float(n @ (b.farthest(-n) - a.farthest(n)))
 
 
-def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> Judged:
-    """The least depth: coal's way out made exact, and every other that may be shorter."""
+def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> tuple[Judged, list[Judged]]:
+    """The least depth: coal's way out made exact, and every other that may be shorter; and all."""
     n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
     n = n / np.sqrt(n @ n)
     size = float(sum(solid.reach(np.stack([n, -n])).sum() for solid in (a, b)))
     known = _refined(a, b, n, size)
     best = max((first, known), key=lambda answer: (answer.defect <= WITNESS, answer.phi))
     rivals = rival_directions(a, b, best.n if best.defect <= WITNESS else n, best.phi, size)
-    found = [_refined(a, b, way, size) for way in rivals]
-    for answer in found:
+    found = [known, *(_refined(a, b, way, size) for way in rivals)]
+    for answer in found[1:]:
         if answer.defect <= WITNESS and answer.phi > best.phi:
             best = answer
     # No gap exceeds the signed distance: where one does, the way out was not found.
     if rivals and gaps(a, b, np.array(rivals)).max() > best.phi + WITNESS:
-        return best._replace(defect=np.inf)
+        return best._replace(defect=np.inf), found
     # A way out that was not followed to its end, but may be the shorter one, decides nothing.
-    open_ends = [way for way in found if way.phi + way.defect > best.phi + WITNESS]
+    open_ends = [way for way in found[1:] if way.phi + way.defect > best.phi + WITNESS]
     if any(way.n @ best.n < SAME for way in open_ends):
-        return best._replace(defect=np.inf)
-    return best
+        return best._replace(defect=np.inf), found
+    return best, found
 
 
 def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
@@ -223,3 +244,4 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
 
 
 COAL_WITNESS.fill(coal_witness)
+OTHER_WAYS_OUT.fill(other_ways_out)

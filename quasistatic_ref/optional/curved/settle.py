@@ -13,9 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.optional.between import RIVALS
 from quasistatic_ref.optional.curved.faces import Face, curvature, face, placed_kinks
-from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.step.data import Array
 
 NEAR = 1e-3
@@ -165,23 +163,3 @@ def _crossing(on_a: Face, on_b: Face, x: Array) -> Array:
 
 def _unit(vector: Array) -> Array:
     return np.asarray(vector / np.sqrt(vector @ vector))
-
-
-def rivals(a: ShapeInWorld, b: ShapeInWorld, n: Array, phi: float, size: float) -> list[Array]:
-    """Other ways of two solids out of each other than n, (3,), as far as they are known.
-
-    Parameters
-    ----------
-    a, b : ShapeInWorld
-    n : ndarray, shape (3,)
-        The known way [-], world frame.
-    phi : float
-        The gap along it [m].
-    size : float
-        By how much a gap can change per radian [m].
-    """
-    ways = rival_directions(a, b, n, phi, size)
-    return ways + [w.n for way in ways for w in settled(a, b, Witness(0.0, a.t, b.t, way))]
-
-
-RIVALS.fill(rivals)

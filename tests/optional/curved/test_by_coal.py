@@ -198,7 +198,7 @@ def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(monkeypatch, shor
     answers = [Judged(-0.1, a.t, b.t, X, 0.0), Judged(-0.2, a.t, b.t, other, short)]
     monkeypatch.setattr(by_coal, "_refined", lambda *_: answers.pop(0))
     monkeypatch.setattr(by_coal, "rival_directions", lambda *_: [other])
-    found = by_coal._shallowest(a, b, answers[0])
+    found, _ = by_coal._shallowest(a, b, answers[0])
     assert (found.defect == np.inf) == refused
 
 

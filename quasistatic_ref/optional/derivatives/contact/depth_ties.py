@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from quasistatic_ref.contact.separations import gaps, tied_normals
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.separations import tied_normals
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
-from quasistatic_ref.optional.between import RIVALS
+from quasistatic_ref.optional.between import OTHER_WAYS_OUT
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import (
     Capsule,
@@ -26,8 +25,7 @@ CURVED = "the derivative of a contact of curved solids"
 def depth_tie(couple: Couple) -> bool:
     """Whether the normal of a contact in penetration is one of several.
 
-    Of two curved solids that meet, other directions are tried as far as they are known: their gaps
-    bound the ways out from below.
+    Of two curved solids that meet, it is one of those that the search for closest points followed.
 
     Parameters
     ----------
@@ -47,26 +45,17 @@ def depth_tie(couple: Couple) -> bool:
         return False
     P = polytope(a.shape)
     Q = polytope(b.shape)
+    within = TIED * couple.of.size
     if P is None or Q is None:
-        return _rival(a, b, couple)
-    axes = isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule)
-    if couple.phi + P.margin + Q.margin >= 0 and not axes:
-        return False  # cores that are apart have one nearest direction; axes may cross
+        ways = OTHER_WAYS_OUT.needed(CURVED)(a, b, within)
+        if any(np.abs(way - couple.n).max() > np.sqrt(TIED) for way in ways):
+            return True
+    else:
+        axes = isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule)
+        if couple.phi + P.margin + Q.margin >= 0 and not axes:
+            return False  # cores that are apart have one nearest direction; axes may cross
     found, every = pair_and_gaps(couple.of.pair.name, a, b)
-    return len(tied_normals(a, b, found, TIED * couple.of.size, every)) > 1
-
-
-def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:
-    size = couple.of.size
-    every = RIVALS.needed(CURVED)(a, b, couple.n, couple.phi, size)
-    if not every:
-        return False
-    level = gaps(a, b, np.array(every)) >= couple.phi - TIED * size
-    return _differ(np.array(every)[level], couple.n)
-
-
-def _differ(normals: Array, n: Array) -> bool:
-    return bool((np.abs(normals - n).max(axis=1, initial=0.0) > np.sqrt(TIED)).any())
+    return len(tied_normals(a, b, found, within, every)) > 1
 
 
 def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -> bool:

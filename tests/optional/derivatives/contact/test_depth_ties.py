@@ -189,3 +189,12 @@ def test_a_rim_that_touches_an_edge_has_two_normals():
     found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
     assert depth_tie(found)
     assert depth_tie(found._replace(phi=0.0))
+
+
+def test_ellipsoids_that_leave_each_other_to_either_side_are_tied():
+    """Both ways are mirrored in the plane y = 0 and along no axis; off it one is shorter."""
+    narrow = Ellipsoid(np.array([0.25, 0.12, 0.4]))
+    wide = Ellipsoid(np.array([0.3, 0.1, 0.4]))
+    for off, tied in ((NEAR * wide.extent, True), (AWAY, False)):
+        there = np.eye(3), np.array([0.05, off, 0.0])
+        assert depth_tie_words(wide, narrow, STILL, there) == tied
