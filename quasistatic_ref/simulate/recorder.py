@@ -155,12 +155,13 @@ class Recorder(Shown):
             arrays = self._arrays(q_bar_a, results)
             for array in arrays.values():
                 read_only(array)
+            before = self.parts[-1] if self.parts else arrays
             self.parts.append(arrays)  # before an observer may raise
             self._latest = []
             for observer in self.observers:
                 notes = observer.after(self, results, dict(arrays))
                 for name, note in notes.items():
-                    arrays[name] = _checked_note(name, note, len(results))
+                    arrays[name] = _checked_note(name, note, len(results), before.get(name))
         return self.parts
 
     def _arrays(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> StepArrays:
@@ -324,8 +325,13 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     return arrays
 
 
-def _checked_note(name: str, note: ArrayLike, steps: int) -> Array:
-    """What an observer notes of some steps, shape (steps, ...) [any unit]; InputError otherwise."""
+def _checked_note(name: str, note: ArrayLike, steps: int, before: Array | None) -> Array:
+    """What an observer notes of some steps, shape (steps, ...) [any unit], as it did `before`.
+
+    Raises
+    ------
+    InputError
+    """
     if name in (*IN_ORDER, "q", "tau") or name.startswith(SECONDS):
         raise InputError("is a name of the record's own; take another", field=f"note {name}")
     try:
@@ -335,10 +341,13 @@ def _checked_note(name: str, note: ArrayLike, steps: int) -> Array:
     if array.shape[:1] != (steps,):
         problem = f"must be an array of {steps} rows of numbers, one for each of the results"
         raise InputError(problem, field=f"note {name}", value=note)
+    if before is not None and array.shape[1:] != before.shape[1:]:
+        problem = f"must have shape {before.shape[1:]} in each step, as in those before"
+        raise InputError(problem, field=f"note {name}", value=array.shape[1:])
     return read_only(array)
 
 
-def _of_all(objects: Sequence[Any], name: str) -> NDArray[Any]:
+def _of_all(objects: Sequence[object], name: str) -> NDArray[Any]:
     """One attribute of all objects as an array, which has them as its first axis."""
     return np.array([getattr(one, name) for one in objects])
 

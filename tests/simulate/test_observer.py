@@ -141,6 +141,8 @@ class Failing(Observer):
             return {"note": np.zeros(len(results))}
         if isinstance(self.note, Exception):
             raise self.note
+        if callable(self.note):
+            return {"note": self.note(len(results))}
         return self.note
 
 
@@ -152,6 +154,10 @@ FAILS = {
     ),
     "one row of seven": ({"note": [1.0]}, "note note: must be an array of . rows"),
     "words": ({"note": ["high"] * 7}, "note note: must be an array of . rows"),
+    "another shape": (
+        lambda n: np.zeros((n, 3)),
+        r"note note: must have shape \(\) in each step, as in those before \(got \(3,\)\)",
+    ),
     "a name of the record's": ({"lam": np.zeros(7)}, "note lam: is a name of the record's own"),
 }
 
