@@ -18,7 +18,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     write_data,
     zeros_for_step,
 )
-from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.library import library, why_not
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
@@ -110,6 +110,9 @@ class ForcesOfSteps:
         self._kept: Forces | None = None
         self._one_at_a_time = Lock()
 
+    def __reduce__(self) -> tuple[type["ForcesOfSteps"], tuple[()]]:
+        return ForcesOfSteps, ()  # that of a copy finds everything anew
+
     def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
         """As of :meth:`Forces.wrench`, which has `near`, too: shape (n_c, 4) [N, N m]."""
         with self._one_at_a_time:
@@ -146,20 +149,15 @@ class FastSolution(StepSolution):
     Parameters
     ----------
     in_c : ForcesOfSteps or None
-        Not compared or copied: a copy has the forces of the core.
+        Not compared.
     """
 
     in_c: ForcesOfSteps | None = field(default=None, compare=False)
 
-    @classmethod
-    def kept(cls) -> tuple[str, ...]:
-        """As of any solution."""
-        return StepSolution.kept()
-
     @cached_property
     def forces(self) -> Array:
         """As of the base, shape (n_c, 4) [N, N m]."""
-        if self.in_c is None:
+        if self.in_c is None or why_not() is not None:  # where a copy is read, C may be missing
             return super().forces
         return self.in_c.wrench(self.step, (self.delta_q, self.wrench))
 

@@ -1,5 +1,6 @@
 """Forces of single contacts from C against those of the core: equal bits."""
 
+import copy
 import pickle
 from fractions import Fraction
 from threading import Event, Lock, Thread
@@ -107,10 +108,19 @@ def test_forces_of_two_solutions_may_be_read_in_two_threads(monkeypatch):
     assert sorted(each.tobytes() for each in found) == sorted(each.tobytes() for each in right)
 
 
-def test_a_copy_of_a_solution_has_the_forces_of_the_core():
-    scenario = load_scenario("stack", fast=True)
+def test_a_copy_of_a_solution_has_its_forces_from_c_where_there_is_c(monkeypatch):
+    scenario = load_scenario("block_incline", fast=True)
     result = scenario.simulator().step(scenario.system.q_start, np.zeros(0))
-    copy = pickle.loads(pickle.dumps(result.solution))
-    assert copy == result.solution
-    assert "in_c" not in vars(copy)
-    assert copy.forces.tobytes() == result.forces.tobytes()
+    copied = [pickle.loads(pickle.dumps(result.solution)), copy.deepcopy(result.solution)]
+    asked = []
+    write_data = forces.write_data
+    monkeypatch.setattr(forces, "write_data", lambda *given: asked.append(write_data(*given)))
+    for k, one in enumerate(copied, start=1):
+        assert one == result.solution
+        assert one.forces.tobytes() == result.forces.tobytes()
+        assert len(asked) >= k
+    monkeypatch.setattr(forces, "why_not", lambda: "there is no compiler")
+    elsewhere = pickle.loads(pickle.dumps(result.solution))
+    asked.clear()
+    assert elsewhere.forces.tobytes() == result.forces.tobytes()
+    assert not asked
