@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -86,7 +85,7 @@ class World(Plain):
     notes: tuple[str, ...]
 
     @cached_property
-    def models(self) -> tuple[Any, list[Any], list[list[int]]]:
+    def models(self) -> tuple[pin.Model, list[pin.Model], list[list[int]]]:
         """All bodies in one pinocchio model; in groups, and the frames of the links of these.
 
         The groups have cosine and sine in place of angles, as
@@ -169,7 +168,7 @@ def world_of(bodies: Sequence[Body]) -> World:
     )
 
 
-def _joined(bodies: Sequence[Body], models: Sequence[Any]) -> Any:
+def _joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
     """All bodies in one model, by halves: to append a body takes time in proportion to the rest."""
     if len(bodies) > 1:
         half = len(bodies) // 2
@@ -182,7 +181,7 @@ def _joined(bodies: Sequence[Body], models: Sequence[Any]) -> Any:
     return model
 
 
-def _groups(models: Sequence[Any]) -> list[slice]:
+def _groups(models: Sequence[pin.Model]) -> list[slice]:
     """Models that follow one another, with PART coordinates at most, or one that has more."""
     starts = [0]
     size = 0
@@ -194,7 +193,7 @@ def _groups(models: Sequence[Any]) -> list[slice]:
     return [slice(a, b) for a, b in pairwise([*starts, len(models)])]
 
 
-def _prefixed(model: Any, name: str) -> Any:
+def _prefixed(model: pin.Model, name: str) -> pin.Model:
     for number in range(1, model.njoints):
         model.names[number] = joint_key(f"{name}/{model.names[number]}")
     for number in range(1, model.nframes):  # frame 0 is the universe
@@ -204,7 +203,7 @@ def _prefixed(model: Any, name: str) -> Any:
     return model
 
 
-def _anchor(body: Body) -> Any:
+def _anchor(body: Body) -> pin.SE3:
     """Placement of a body's model in the world, as far as q does not hold it."""
     xyz = np.array(body.xyz)
     if body.base == FIXED:
@@ -215,10 +214,10 @@ def _anchor(body: Body) -> Any:
 
 
 def _check_joint_names(body: Body, urdf: Urdf) -> None:
-    kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != "fixed"}
+    kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != FIXED}
     own = {name for name, joint in kinds.items() if joint.mimic is None}
     scalar = {name for name in own if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
-    moves = urdf.base != "fixed"
+    moves = urdf.base != FIXED
     known = own | {BASE} if moves else own
     actuated = () if body.actuated == "all" else body.actuated
     for key, names, allowed in (
@@ -243,7 +242,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)
 
 
-def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
+def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array]]:
     """Joints with coordinates of one body, each with its start."""
     joints: list[tuple[Joint, Array]] = []
     if body.base != FIXED:
@@ -269,7 +268,7 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
     return joints
 
 
-def _entries(body: Body, name: str, model: Any) -> tuple[str, bool, slice, slice]:
+def _entries(body: Body, name: str, model: pin.Model) -> tuple[str, bool, slice, slice]:
     """Name of a joint, whether it is actuated, and its entries of pinocchio's q and delta_q."""
     joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
     q = slice(joint.idx_q, joint.idx_q + joint.nq)

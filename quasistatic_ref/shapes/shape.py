@@ -1,9 +1,9 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
 from functools import cached_property
-from typing import Any
 
 import numpy as np
+from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
@@ -23,12 +23,12 @@ class Shape(Plain):
         return super().__hash__()
 
     @property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry; ContactError if there is none."""
         raise self.lacks("has no coal object")
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Signed distance and outward normal of points.
+        """Signed distance and outward normal of points. In C: solid.h.
 
         Parameters
         ----------

@@ -3,6 +3,9 @@
 import ast
 from pathlib import Path
 
+from quasistatic_ref.model.body import FIXED
+from quasistatic_ref.model.joints import BASES, JOINTS
+
 # The core, in this order: a folder imports only from folders before it, and from itself.
 CORE = (
     ("formats", "errors", "tolerances", "parts"),
@@ -122,6 +125,12 @@ CLOSED = dict.fromkeys(
     ),
 ) | {"lab/examples": ("lab/claims",)}
 
+# Kinds answer for themselves: who may ask for the class of a cone, and name a kind of joint.
+CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
+OF_CONES = ("step/cones.py", "optional/ellipsoid/cone.py")
+OF_JOINTS = {FIXED, *BASES, *JOINTS}
+READERS = ("model/joints", "model/body.py", "model/urdf", "scenario", "optional/mjcf", "cli", "lab")
+
 DYNAMIC = ("import_module", "__import__")
 
 
@@ -204,6 +213,19 @@ def typed_parts(tree):
             yield node.lineno
 
 
+def kinds_asked_for(tree, name):
+    """Lines on which a file asks which cone or which joint something is."""
+    for node in ast.walk(tree):
+        asks = isinstance(node, ast.Compare) or (
+            isinstance(node, ast.Call) and ast.unparse(node.func) in {"isinstance", "issubclass"}
+        )
+        names = {n.id for n in ast.walk(node) if isinstance(n, ast.Name)} if asks else set()
+        of_cone = names & CONES and not within(name, OF_CONES)
+        is_word = isinstance(node, ast.Constant) and node.value in OF_JOINTS
+        if of_cone or (is_word and not within(name, READERS)):
+            yield node.lineno
+
+
 def within(inside, places):
     """Whether a file is one of some places, or below one of them."""
     return any(inside == place or inside.startswith(place + "/") for place in places)
@@ -230,6 +252,7 @@ def violations(root: Path):
             found += [f"{name}:{line}: names the lab" for line in names_of("lab", tree)]
         if parts[0] not in {"lab", "optional"} and name != PARTS_DOOR:
             found += [f"{name}:{line}: names a part" for line in names_of("optional", tree)]
+        found += [f"{name}:{line}: asks for a kind" for line in kinds_asked_for(tree, name)]
         if own is not None and rank(own) < len(CORE):
             found += [f"{name}:{line}: types by a part" for line in typed_parts(tree)]
         for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):

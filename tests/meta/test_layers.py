@@ -47,6 +47,8 @@ PLANTED = {
         "if TYPE_CHECKING:\n    from quasistatic_ref.optional.show import words",
         "types by a part",
     ),
+    "the class of a cone": ("solve/a.py", "isinstance(cone, CurvedCone)", "asks for a kind"),
+    "the word of a joint": ("simulate/a.py", "joint.kind == 'planar'", "asks for a kind"),
     "from an unknown folder": ("step/a.py", "import quasistatic_ref.attic", "no folder"),
     "cvxpy in the judge": ("certify/a.py", "import cvxpy as cp", "imports cvxpy"),
     "a claim in an example": (

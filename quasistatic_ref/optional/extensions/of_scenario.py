@@ -7,6 +7,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.model.joints import BASES
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
@@ -111,7 +113,7 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
 
 def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:
     """mu_v [-] and mu_omega [m] of a planar base on its floor."""
-    if entry.body.base != "planar":
+    if BASES.get(entry.body.base) is not Planar:
         raise entry.table.error_about("support", 'is for a body with base = "planar"')
     check_names(rubs, SUPPORT)
     return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")

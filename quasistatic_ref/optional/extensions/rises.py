@@ -8,6 +8,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.joints import BASES
+from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.between import WITH_RISES
@@ -119,7 +121,7 @@ def _support(system: System, name: str, mu_v: float, mu_omega: float) -> Contact
     bases = {body.name: body.base for body in system.bodies}
     if name not in bases:
         raise InputError(f"is not a body{suggestion(name, bases)}", field="support", value=name)
-    if bases[name] != "planar":
+    if BASES.get(bases[name]) is not Planar:
         problem = 'is for a body with base = "planar"'
         raise InputError(problem, field="support", value=name)
     root = system.link(name)

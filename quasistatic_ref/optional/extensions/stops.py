@@ -7,12 +7,13 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.step.arrays import freeze_copies
 from quasistatic_ref.step.data import Array, Extra, Indices
 
-LIMITED = ("revolute", "prismatic")
+LIMITED = [word for word, kind in JOINTS.items() if kind.unit is None]
 """Types of joints whose ``<limit>`` bounds a position, in URDF."""
 
 

@@ -15,6 +15,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.table_reader import TableReader
+from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.scenario import Scenario
@@ -54,7 +55,7 @@ class Goal:
 
     name: str
     t: float
-    pose: Any
+    pose: pin.SE3
     turned: bool = True
 
 
@@ -176,7 +177,7 @@ class _Arm:
         name, _, short = system.links[system.link(link)].partition("/")
         number = [body.name for body in system.bodies].index(name)
         body = system.bodies[number]
-        if body.base != "fixed":
+        if body.base != FIXED:
             problem = f"is of {name}, whose base is {body.base}; a link of a fixed base is meant"
             raise ScenarioError(problem, field="link", value=link)
         model = pin.buildModelFromXML(system.texts[number])
@@ -209,8 +210,8 @@ class _Arm:
         self.task = pink.tasks.FrameTask(short, position_cost=1.0, orientation_cost=1.0)
         self.limits = [pink.limits.ConfigurationLimit(reduced)]
 
-    def pose(self) -> Any:
-        """Pose of the link in the world, a pinocchio.SE3 [m]."""
+    def pose(self) -> pin.SE3:
+        """Pose of the link in the world [m]."""
         return self.root * self.configuration.get_transform_frame_to_world(self.frame)
 
     def waypoint(self, goal: Goal) -> dict[str, float]:

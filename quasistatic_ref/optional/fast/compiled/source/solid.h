@@ -1,4 +1,5 @@
-/* A solid, vectors and poses; how far points are from the solid, in its own frame.
+/* shapes/shape.Shape.signed_distance, with test_fast_pairs.py: a solid, vectors and poses; how far points
+   are from the solid, in its own frame.
 
    Each function does what a Python function of the same task does, in the same order of operations,
    so that the bits are the same; the comments name it. Sums of products are those of step/ordered:
