@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from threading import RLock
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -37,7 +36,7 @@ from quasistatic_ref.model.mass import (
     mass_matrix,
     rigid_masses,
 )
-from quasistatic_ref.model.named import Named
+from quasistatic_ref.model.named import Named, Values
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.step.arrays import (
@@ -349,7 +348,7 @@ class System(Shown):
         """
         return _taken(delta_q, self.named.change(name), {self.n_v}, name)
 
-    def placed(self, values: Mapping[str, Any], q: ArrayLike | None = None) -> Array:
+    def placed(self, values: Values, q: ArrayLike | None = None) -> Array:
         """Configuration with named positions and poses, shape (n_q,).
 
         Parameters
@@ -402,6 +401,9 @@ class System(Shown):
         force = checked_array(force, "force", (3,), ModelError)
         torque = checked_array(torque, "torque", (3,), ModelError)
         link = self.link(name)
+        if not self.column_map.moves[link].any():
+            problem = "has a fixed base, so a load has no effect on it"
+            raise ModelError(problem, field="name", value=name)
         centre = self._centre(name, link)
         kinematics = self.kinematics(q)
         if at is None:
@@ -412,14 +414,12 @@ class System(Shown):
         return product(kinematics.J[link].T, np.concatenate([force, moment]))
 
     def _centre(self, name: str, link: int) -> Array:
-        """Where a load acts by default, (3,) [m], in the link; ModelError if it cannot move."""
-        joint = self._model.frames[self._frames[link - 1]].parentJoint if link else 0
-        if joint == 0:
-            problem = "has a fixed base, so a load has no effect on it"
-            raise ModelError(problem, field="name", value=name)
+        """Where a load acts by default, (3,) [m], in the frame of a link that moves."""
+        if name not in self._roots:
+            return np.asarray(self.centres[link])
         # The root link's frame is that of the base's joint.
-        own = self._model.inertias[joint].lever if name in self._roots else self.centres[link]
-        return np.asarray(own)
+        joint = self._model.frames[self._frames[link - 1]].parentJoint
+        return np.asarray(self._model.inertias[joint].lever)
 
     def pose(self, q: Array, link: str) -> tuple[Array, Array]:
         """Rotation, shape (3, 3), and origin [m], (3,), of a link at q, in the world frame."""

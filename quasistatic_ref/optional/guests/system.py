@@ -7,7 +7,7 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import replace
 from threading import RLock
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,7 +45,13 @@ from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import FILLED, FULL_RANK
+
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
+
+    Given = tuple[MjModel, MjData, float, dict[str, float], float]
 
 KINDS: dict[str, tuple[type[Joint], list[int]]] = {
     "FREE": (Floating, [0, 1, 2, 4, 5, 6, 3]),
@@ -102,7 +108,7 @@ class MujocoSystem(System):
     """
 
     def __init__(
-        self, model: Any, data: Any, h: float, springs: Mapping[str, float], margin: float
+        self, model: MjModel, data: MjData, h: float, springs: Mapping[str, float], margin: float
     ) -> None:
         self._made_of((copy.copy(model), copy.copy(data), h, dict(springs), margin))
 
@@ -118,7 +124,7 @@ class MujocoSystem(System):
     def __hash__(self) -> int:
         return hash(self.texts)
 
-    def _made_of(self, given: tuple[Any, Any, float, dict[str, float], float]) -> None:
+    def _made_of(self, given: Given) -> None:
         model, data, h, springs, margin = self._given = given
         self.model = model
         self.lock = RLock()
@@ -414,5 +420,12 @@ class MujocoSystem(System):
         return np.asarray(self.model.qpos0[self._entries])
 
     def _centre(self, name: str, link: int) -> Array:
-        """Where a load acts by default: the centre of mass of MuJoCo's body."""
-        return np.asarray(self.centres[link])
+        """Where a load acts by default, (3,) [m], in the frame of a body of MuJoCo that moves."""
+        if name not in self._roots:
+            return np.asarray(self.centres[link])
+        weld = self.model.body_weldid
+        at = self.kinematics(self.q_start)
+        own = weld == weld[link]
+        places = rotated(at.R[own], self.centres[own]) + at.t[own]
+        centre = np.average(places, axis=0, weights=self.masses[own])
+        return np.asarray(at.R[link].T @ (centre - at.t[link]))

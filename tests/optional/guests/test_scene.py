@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed
+from quasistatic_ref.errors import InputError, ModelError, QuasistaticError, RunFailed
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import MujocoScenario, mujoco_scenario
 from quasistatic_ref.optional.guests.system import MujocoSystem
@@ -17,6 +17,8 @@ from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import FILLED
+from tests.closeness import assert_close
+from tests.tolerances import ROUNDING
 
 G, KP, RANGE, RUB, MASS = 9.81, 2000.0, 6.0, 0.1, 0.1
 HAND = 0.3
@@ -263,3 +265,22 @@ def test_the_command_runs_a_scene(tmp_path, capsys):
     assert run.q_bar_a[1, 0] == pytest.approx(0.0, abs=1e-12)
     assert run.q_bar_a[3, 0] == pytest.approx(0.05, abs=1e-12)
     assert main(["run", "bunny_grasp", "--targets", "x.csv"]) == 2
+
+
+def test_a_load_on_welded_bodies_acts_at_their_common_centre():
+    """Two equal balls on a stick along x: from the first to the middle it is half the way L."""
+    L = 0.2
+    scene = mujoco_scenario(
+        model(f"""<mujoco><worldbody>
+        <geom type="plane" size="1 1 .1"/><body name="post"><geom size=".01"/></body>
+        <body name="stick" pos="0 0 1"><freejoint/><geom size=".01" mass="1"/>
+        <body name="end" pos="{L} 0 0"><geom size=".01" mass="1"/></body></body>
+        </worldbody></mujoco>""")
+    )
+    system = scene.system
+    of_both = system.load(system.q_start, "stick", force=(0, 0, 1))
+    of_end = system.load(system.q_start, "stick/end", force=(0, 0, 1))
+    assert_close(of_both, [0, 0, 1, 0, -L / 2, 0], ROUNDING)
+    assert_close(of_end, [0, 0, 1, 0, -L, 0], ROUNDING)
+    with pytest.raises(ModelError, match="name: has a fixed base"):
+        system.load(system.q_start, "post", force=(0, 0, 1))
