@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
@@ -18,6 +18,7 @@ from quasistatic_ref.formats.quoting import clipped, one_line, short_words, show
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.residuals import Residuals
+    from quasistatic_ref.simulate.trajectory import Trajectory
     from quasistatic_ref.step.data import Array, StepData
 
 
@@ -44,7 +45,7 @@ class QuasistaticError(Exception):
     def __hash__(self) -> int:
         return hash((type(self), self.args))
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         # Exceptions are rebuilt from `args`, which here hold the message only.
         return _rebuilt, (type(self), self.args, self.__dict__)
 
@@ -77,7 +78,7 @@ class InputError(QuasistaticError):
         problem: str,
         *,
         field: str | None = None,
-        value: Any = None,
+        value: object = None,
         file: str | Path | None = None,
     ) -> None:
         self.problem = problem
@@ -374,7 +375,7 @@ class NotDifferentiable(QuasistaticError):
     the step has no derivative here: row +d1 of floor bears no load
     """
 
-    def __init__(self, reasons: tuple[Any, ...]) -> None:
+    def __init__(self, reasons: tuple[object, ...]) -> None:
         self.reasons = reasons
         more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
         super().__init__(f"the step has no derivative here: {reasons[0]}{more}")
@@ -409,7 +410,7 @@ class RunFailed(QuasistaticError):
     def __init__(
         self,
         reason: str,
-        trajectory: Any,
+        trajectory: Trajectory,
         step: StepData | None = None,
         file: Path | None = None,
     ) -> None:
@@ -440,7 +441,7 @@ def about_field(field: str) -> Iterator[None]:
 
 
 def _rebuilt(
-    kind: type[QuasistaticError], args: tuple[Any, ...], state: dict[str, Any]
+    kind: type[QuasistaticError], args: tuple[object, ...], state: dict[str, object]
 ) -> QuasistaticError:
     error = kind.__new__(kind, *args)
     error.args = args

@@ -7,7 +7,8 @@ module fills the slot, and a type checker compares the two.
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from typing import Any, Generic, TypeVar
+from types import ModuleType
+from typing import Generic, TypeVar
 
 from quasistatic_ref.errors import InputError
 
@@ -94,7 +95,7 @@ def needing(word: str) -> Iterator[None]:
         raise InputError(_needs(word, name)) from None
 
 
-def needed_package(package: str, extra: str, what: str) -> Any:
+def needed_package(package: str, extra: str, what: str) -> ModuleType:
     """A package that an extra of the installation brings.
 
     Parameters

@@ -145,13 +145,14 @@ def grasp():
     scenario, run = run_of("with torsion")
     _, without = run_of("without torsion")
     standing = np.flatnonzero(without["wrench"][:, without["rows"] == 4, 2].sum(axis=1))
+    turned = link_motion(scenario.system, run, "bunny")
     return {
         "lift": 1e3 * float(claims()["grasp"]["lift, m"]["measured"]),
         "pressed": forces()[:, 2].sum() / 2,
         "speed": 1e3 * SPEED,
         "carried": 1e3 * H * SPEED,
         "foot": without["t"][standing[-1]],
-        "since the start": np.degrees(link_motion(scenario.system, run, "bunny").largest_rotation),
+        "since the start": np.degrees(turned.rotation_since(0.0).max()),
     }
 
 

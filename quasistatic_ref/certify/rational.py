@@ -19,7 +19,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq, fmpz, fmpz_mat
@@ -27,10 +26,11 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Array, Contacts, Mask, StepData
 from quasistatic_ref.step.friction import row_constants
 
 Integers = NDArray[np.object_]
+Index = int | slice | Mask | tuple[int | slice | None, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Dyadic:
     def __neg__(self) -> Dyadic:
         return Dyadic(-self.m, self.e)
 
-    def __getitem__(self, index: Any) -> Dyadic:
+    def __getitem__(self, index: Index) -> Dyadic:
         return Dyadic(self.m[index], self.e)
 
     def shifted(self, e: int) -> Integers:
@@ -107,11 +107,6 @@ def concatenated(parts: Sequence[Dyadic], axis: int = 0) -> Dyadic:
     e = min((p.e for p in parts if p.m.any()), default=0)
     aligned = [p.shifted(e) if p.m.any() else p.m for p in parts]
     return Dyadic(np.concatenate(aligned, axis=axis), e)
-
-
-Which: TypeAlias = "slice | NDArray[np.int64]"
-ALL = slice(None)
-"""Of the contacts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,18 +209,18 @@ def h_times_hessian(step: StepData) -> Dyadic:
     return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
 
-def contact_motion(contacts: Contacts, which: Which = ALL) -> Dyadic:
+def contact_motion(contacts: Contacts) -> Dyadic:
     """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v)."""
-    J = dyadic(contacts.J[which])
-    axes = dyadic(np.stack([contacts.n[which], contacts.d1[which], contacts.d2[which]], axis=1))
+    J = dyadic(contacts.J)
+    axes = dyadic(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
     return concatenated([axes @ J[:, :3], J[:, 3:]], axis=1)
 
 
-def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
+def exact_friction_rows(contacts: Contacts, name: str) -> Dyadic:
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
-    motion = contact_motion(contacts, which)
+    motion = contact_motion(contacts)
     friction_cone = cone(name)
-    mu = dyadic(friction_cone.row_coefficients(contacts.mu[which]))
+    mu = dyadic(friction_cone.row_coefficients(contacts.mu))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -47,7 +46,7 @@ def wrong_bits(name: str, given: Array, right: Array) -> str:
     return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
 
 
-def wrong_claim(name: str, claimed: Any, right: Any) -> str:
+def wrong_claim(name: str, claimed: object, right: object) -> str:
     """What is wrong with a claim that must be right to the last bit; empty if nothing.
 
     Parameters

@@ -10,6 +10,7 @@ import re
 import sys
 from collections.abc import Container, Mapping, Sequence
 from importlib import import_module
+from types import ModuleType
 from typing import Any, NoReturn
 
 from quasistatic_ref import __version__
@@ -198,7 +199,7 @@ def _actions(command: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
     return actions or [command]
 
 
-def _module(command: str) -> Any:
+def _module(command: str) -> ModuleType:
     """Import the module of a command: the lab's are imported nowhere else in the core."""
     return import_module(f"{LAB if command in LABS else CORE}.{command}")
 

@@ -147,7 +147,7 @@ def step_given(options: argparse.Namespace) -> StepData:
     return step if options.cone is None else step.replace(cone=options.cone)
 
 
-def print_json(value: Any) -> None:
+def print_json(value: object) -> None:
     """Print one JSON object on standard output."""
     print(json_text(value))
 

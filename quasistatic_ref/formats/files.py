@@ -253,7 +253,7 @@ def json_read(path: str | Path) -> Any:
     return value
 
 
-def _check_characters(text: str, value: Any) -> None:
+def _check_characters(text: str, value: object) -> None:
     r"""Refuse half of a surrogate pair, ``"\ud800"``, which no file in UTF-8 can hold."""
     if "\\ud" in text.lower():
         try:
@@ -329,6 +329,6 @@ def plain(value: Any) -> Any:
     return value
 
 
-def json_text(value: Any) -> str:
+def json_text(value: object) -> str:
     """One line of JSON; floats in shortest round-trip decimal. NaN and infinity are refused."""
     return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)

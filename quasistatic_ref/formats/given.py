@@ -1,22 +1,23 @@
 """What a caller in Python gives: the keywords of a call, and the kinds of its objects."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from inspect import signature
-from typing import Any, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 
-Called = TypeVar("Called", bound=Callable[..., Any])
+P = ParamSpec("P")
+T = TypeVar("T")
 Made = TypeVar("Made", bound=type[Any])
 
 
-def arguments_checked(function: Called) -> Called:
+def arguments_checked(function: Callable[P, T]) -> Callable[P, T]:
     """The same function; an InputError in place of Python's TypeError about its arguments."""
 
     @wraps(function)
-    def checked(*arguments: Any, **named: Any) -> Any:
+    def checked(*arguments: P.args, **named: P.kwargs) -> T:
         try:
             return function(*arguments, **named)
         except TypeError:
@@ -25,7 +26,7 @@ def arguments_checked(function: Called) -> Called:
                 raise
         raise misfit
 
-    return cast("Called", checked)
+    return checked
 
 
 def made_by_arguments(made: Made) -> Made:
@@ -35,7 +36,7 @@ def made_by_arguments(made: Made) -> Made:
 
 
 def _misfit(
-    function: Callable[..., Any], arguments: Iterable[Any], named: dict[str, Any]
+    function: Callable[..., object], arguments: Iterable[object], named: Mapping[str, object]
 ) -> InputError | None:
     known = [name for name in signature(function).parameters if name not in ("self", "cls")]
     for name, value in named.items():
@@ -50,13 +51,13 @@ def _misfit(
     return None
 
 
-def check_kind(value: Any, kind: type[Any], field: str, remedy: str = "") -> None:
+def check_kind(value: object, kind: type, field: str, remedy: str = "") -> None:
     """Refuse an object of another class: InputError, with a remedy after its problem."""
     if not isinstance(value, kind):
         raise InputError(f"must be a {kind.__name__}{remedy}", field=field, value=value)
 
 
-def checked_items(values: Any, kind: type[Any], field: str) -> tuple[Any, ...]:
+def checked_items(values: object, kind: type[T], field: str) -> tuple[T, ...]:
     """A tuple of objects of one class; InputError of anything else, such as a single one."""
     if isinstance(values, str | kind) or not isinstance(values, Iterable):
         problem = f"must be a list of objects of class {kind.__name__}"

@@ -6,7 +6,6 @@ And tables in lines of text.
 import difflib
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
 
 LONGEST = 200
 """Most characters of anything given that a sentence repeats."""
@@ -95,7 +94,7 @@ def short_words(text: str) -> str:
     return re.sub(rf"\S{{{LONGEST + 1},}}", lambda word: clipped(word[0]), text)
 
 
-def shown_value(value: Any) -> str:
+def shown_value(value: object) -> str:
     """What `repr` says of a value, on one line and of at most 80 characters."""
     try:
         text = " ".join(repr(value).split())

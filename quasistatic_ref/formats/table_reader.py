@@ -33,7 +33,9 @@ class TableReader:
         The table as it was parsed.
     """
 
-    def __init__(self, table: Any, where: str = "", error: type[InputError] = InputError) -> None:
+    def __init__(
+        self, table: object, where: str = "", error: type[InputError] = InputError
+    ) -> None:
         self.where = where
         self.error = error
         if not isinstance(table, dict):
@@ -46,7 +48,7 @@ class TableReader:
         """Return the full dotted name of a field."""
         return f"{self.where}.{field}" if self.where else field
 
-    def error_about(self, field: str, problem: str, value: Any = None) -> InputError:
+    def error_about(self, field: str, problem: str, value: object = None) -> InputError:
         """Return the error about one field, for the caller to raise."""
         return self.error(problem, field=self.name(field), value=value)
 

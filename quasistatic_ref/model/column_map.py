@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.step.arrays import Array
@@ -29,7 +29,7 @@ class ColumnMap:
         The coordinate of each column, in the paper's order.
     """
 
-    def __init__(self, model: Any, frames: Sequence[int], order: Order) -> None:
+    def __init__(self, model: pin.Model, frames: Sequence[int], order: Order) -> None:
         columns = [
             slice(start, start + size)
             for start, size in zip(model.idx_vExtendeds, model.nvExtendeds, strict=True)

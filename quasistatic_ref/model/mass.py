@@ -5,9 +5,9 @@ it adds to what its last call left behind, and misses products of the mimic's br
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.column_map import ColumnMap
@@ -91,7 +91,7 @@ class MassMatrix:
 
 
 def mass_matrix(
-    model: Any,
+    model: pin.Model,
     unactuated: Sequence[Joint],
     kinematics: Kinematics,
     n_a: int,
@@ -129,13 +129,13 @@ def mass_matrix(
     return MassMatrix(column_map, n_a, *inertias, known, constant)
 
 
-def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
+def rigid_masses(model: pin.Model, joints: Sequence[Joint]) -> Array:
     """Mass matrices (k, 6, 6) of the floating bases of k lone rigid bodies, in their frames."""
     masses = [model.inertias[model.getJointId(joint_key(joint.name))].matrix() for joint in joints]
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
 
-def constant_mass(model: Any, unactuated: Sequence[Joint]) -> bool:
+def constant_mass(model: pin.Model, unactuated: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
@@ -144,7 +144,7 @@ def constant_mass(model: Any, unactuated: Sequence[Joint]) -> bool:
     return all(joint.free and moves_alone(model, joint) for joint in unactuated)
 
 
-def moves_alone(model: Any, joint: Joint) -> bool:
+def moves_alone(model: pin.Model, joint: Joint) -> bool:
     """Whether no other joint is below a joint."""
     return model.getJointId(joint_key(joint.name)) not in list(model.parents)
 

@@ -1,9 +1,9 @@
 """Entries of q and of delta_q by the names of bodies, joints and coordinates."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
@@ -11,6 +11,9 @@ from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.joints.joint import COSINE_SINE, QUATERNION, Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.step.arrays import Array, Indices, checked_array, checked_numbers
+
+Values = Mapping[str, ArrayLike | Mapping[str, ArrayLike]]
+"""Positions of joints and poses of bases by name, as :meth:`Named.placed` takes them."""
 
 
 class Named:
@@ -50,7 +53,7 @@ class Named:
         """Indices of entries of delta_q, and of forces; ModelError if there is no such name."""
         return _indices(self._change, name)
 
-    def placed(self, q: Array, values: Mapping[str, Any]) -> Array:
+    def placed(self, q: Array, values: Values) -> Array:
         """Copy of q, shape (n_q,), with named values.
 
         Parameters
@@ -91,7 +94,7 @@ def _indices(known: Mapping[str, list[int]], name: str) -> Indices:
     return np.array(known[name], dtype=np.int64)
 
 
-def _pose(joint: Joint, name: str, given: Mapping[str, Any], before: Array) -> Array:
+def _pose(joint: Joint, name: str, given: Mapping[str, ArrayLike], before: Array) -> Array:
     """Entries of q of a joint with a quaternion; what the table leaves out stays."""
     after = before + 0.0
     known = ("xyz", "rpy") if joint.lengths else ("rpy",)

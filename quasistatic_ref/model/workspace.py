@@ -6,7 +6,7 @@ not their angles: its own sines are those of the C library.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -35,8 +35,8 @@ class WorkspacePart(NamedTuple):
         Where in the part's own q the cosines of revolute joints are; their sines follow.
     """
 
-    model: Any
-    data: Any
+    model: pin.Model
+    data: pin.Data
     R: list[Array]
     t: list[Array]
     entries: slice | Indices
@@ -64,7 +64,9 @@ class Workspace:
         Of the links of each group.
     """
 
-    def __init__(self, all_bodies: Any, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
+    def __init__(
+        self, all_bodies: pin.Model, models: Sequence[pin.Model], frames: Sequence[list[int]]
+    ) -> None:
         self.parts: list[WorkspacePart] = []
         before = 0
         for model, links in zip(models, frames, strict=True):
@@ -132,7 +134,9 @@ class Workspace:
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
-def _entries(all_bodies: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
+def _entries(
+    all_bodies: pin.Model, model: pin.Model, before: int
+) -> tuple[slice | Indices, list[int]]:
     """Fields `entries` and `turns` of a part, whose joints come after `before` others."""
     entries = np.zeros(model.nq, dtype=np.int64)
     turns = []

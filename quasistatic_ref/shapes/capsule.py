@@ -1,10 +1,10 @@
 """The capsule."""
 
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.rounded import Rounded
@@ -24,7 +24,7 @@ class Capsule(Revolved, Rounded):
     """
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         return coal.Capsule(self.radius, 2 * self.half_length)
 

@@ -1,10 +1,10 @@
 """The cone."""
 
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 
 from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
@@ -25,7 +25,7 @@ class Cone(Revolved):
     """
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         return coal.Cone(self.radius, 2 * self.half_length)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
@@ -62,7 +62,7 @@ class ConvexMesh(Shape):
         return self.excess <= CONVEX_EXCESS
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         points = coal.StdVec_Vec3s()
         polygons = coal.StdVec_Triangle()

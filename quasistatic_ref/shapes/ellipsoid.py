@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.formats.given import made_by_arguments
@@ -43,7 +43,7 @@ class Ellipsoid(Shape):
         freeze_lengths(self, "half_axes")
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         return coal.Ellipsoid(self.half_axes)
 

@@ -20,7 +20,7 @@ def finite(value: Any, key: str) -> float:
     return number
 
 
-def halved(owner: Any, key: str, half: Any, name: str, whole: Any) -> None:
+def halved(owner: object, key: str, half: object, name: str, whole: object) -> None:
     """Set a field to half of a length that is given by either name; ModelError unless by one."""
     if (half is None) == (whole is None):
         problem = f"must be given, or {name}, twice as long, and not both"
@@ -29,12 +29,12 @@ def halved(owner: Any, key: str, half: Any, name: str, whole: Any) -> None:
     object.__setattr__(owner, key, size)
 
 
-def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
+def freeze_array(owner: object, key: str, shape: tuple[int, ...]) -> None:
     """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
     check_and_freeze(owner, {key: shape}, error=ModelError)
 
 
-def freeze_size(owner: Any, key: str) -> None:
+def freeze_size(owner: object, key: str) -> None:
     """Replace a field by a float; ModelError unless it is positive."""
     value = getattr(owner, key)
     number = finite(value, key)
@@ -42,14 +42,14 @@ def freeze_size(owner: Any, key: str) -> None:
     object.__setattr__(owner, key, number)
 
 
-def freeze_lengths(owner: Any, key: str) -> None:
+def freeze_lengths(owner: object, key: str) -> None:
     """Replace a field by three positive lengths, read-only; ModelError if they are not."""
     freeze_array(owner, key, (3,))
     lengths = getattr(owner, key).tolist()
     _check_lengths(lengths, key, "three positive lengths", lengths)
 
 
-def _check_lengths(lengths: list[float], key: str, what: str, value: Any) -> None:
+def _check_lengths(lengths: list[float], key: str, what: str, value: object) -> None:
     # Twice the size is what coal is given. Of Python's floats: NumPy's warn where it overflows.
     if not all(length > 0 and np.isfinite(2 * length) for length in lengths):
         raise ModelError(f"must be {what}", field=key, value=value)

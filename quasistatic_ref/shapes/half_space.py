@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.given import made_by_arguments
@@ -52,7 +52,7 @@ class HalfSpace(Shape):
         object.__setattr__(self, "offset", offset / size)
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         return coal.Halfspace(self.normal, self.offset)
 

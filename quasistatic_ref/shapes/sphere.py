@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import coal
 import numpy as np
+from coal import CollisionGeometry
 
 from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import freeze_size
@@ -31,7 +31,7 @@ class Sphere(Rounded):
         freeze_size(self, "radius")
 
     @cached_property
-    def coal(self) -> Any:
+    def coal(self) -> CollisionGeometry:
         """The same shape as a coal geometry."""
         return coal.Sphere(self.radius)
 

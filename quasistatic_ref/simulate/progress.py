@@ -2,20 +2,19 @@
 
 import shutil
 from collections.abc import Iterable
-from typing import Any
 
 from tqdm import tqdm
 
 
 def progress_bar(
-    items: Iterable[Any] | None = None,
+    items: Iterable[object] | None = None,
     *,
     unit: str,
     total: int | None = None,
     done: int = 0,
     words: str | None = None,
     shown: bool = True,
-) -> Any:
+) -> tqdm:
     """A bar with an estimate of the time left; it leaves no line behind.
 
     Parameters

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -158,9 +158,7 @@ def rollout(
     # Of a run that takes long, it prints that `fast` would shorten it.
     if progress and (pace := PACE.found()) is not None:
         recorder.observers.append(pace(simulator.fast, len(remaining)))
-    bar: Any = progress_bar(
-        remaining, unit="step", total=steps, done=remaining.start, shown=progress
-    )
+    bar = progress_bar(remaining, unit="step", total=steps, done=remaining.start, shown=progress)
     last: StepResult | None = None
     with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt:
         for k in bar:

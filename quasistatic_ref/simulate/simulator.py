@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
 from functools import wraps
-from typing import Any, TypeVar, cast
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,10 +53,12 @@ SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor
 EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
     EXTENDED_STEP.module
 )
-Step = TypeVar("Step", bound=Callable[..., Any])
+P = ParamSpec("P")
+R = TypeVar("R")
+S = TypeVar("S", bound="Simulator")
 
 
-def by_one_thread(step: Step) -> Step:
+def by_one_thread(step: Callable[Concatenate[S, P], R]) -> Callable[Concatenate[S, P], R]:
     """The same method of a simulator, refused while another thread takes a step of its system.
 
     Raises
@@ -65,7 +67,7 @@ def by_one_thread(step: Step) -> Step:
     """
 
     @wraps(step)
-    def alone(simulator: Any, *arguments: Any, **named: Any) -> Any:
+    def alone(simulator: S, /, *arguments: P.args, **named: P.kwargs) -> R:
         lock = simulator.system.lock
         if not lock.acquire(blocking=False):
             problem = "another thread is using the same system; "
@@ -76,7 +78,7 @@ def by_one_thread(step: Step) -> Step:
         finally:
             lock.release()
 
-    return cast("Step", alone)
+    return alone
 
 
 class Stopwatch:
@@ -236,7 +238,7 @@ class Simulator(Settings, Shown):
                 self.__class__ = kind
         self.prepare()
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         try:
             super().__setattr__(name, value)
         except FrozenInstanceError:
@@ -250,7 +252,7 @@ class Simulator(Settings, Shown):
         hessian(self.h, self.K_q, system.M_u(system.q_start))
         self.geometry = ContactGeometry(self.layout, system.column_map)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         given = {"backend": self.named_backend, "extension": self.extension}
         return _remade, (type(self), self.settings() | given)
 

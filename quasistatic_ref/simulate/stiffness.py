@@ -1,9 +1,9 @@
 """K_q in each form that a user may give it: a matrix, a diagonal, a number, or by name."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.model.system import System
@@ -11,7 +11,7 @@ from quasistatic_ref.step.arrays import Array, checked_array, checked_numbers
 from quasistatic_ref.step.pivots import positive_definite
 
 
-def stiffness_matrix(system: System, K_q: Any) -> Array:
+def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -> Array:
     """The matrix K_q, shape (n_a, n_a) [N/m, N m/rad], symmetric and positive definite.
 
     Parameters
@@ -41,7 +41,7 @@ def stiffness_matrix(system: System, K_q: Any) -> Array:
     return positive_definite("K_q", matrix)
 
 
-def _block(given: Any, name: str, n: int) -> Array:
+def _block(given: ArrayLike, name: str, n: int) -> Array:
     """A matrix of shape (n, n) from a number, a diagonal or itself."""
     values = checked_numbers(given, name)
     if values.ndim == 0:

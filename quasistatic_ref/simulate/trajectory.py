@@ -22,6 +22,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate import wrenches
+from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
@@ -35,7 +36,7 @@ FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
 WHAT = "a trajectory written by this program"
 TIME_FINDINGS: Slot[Callable[[Trajectory], list[Finding]]] = Slot("doctor.table")
-ACCOUNT: Slot[Callable[[Trajectory, bool], Any]] = Slot("account.account")
+ACCOUNT: Slot[Callable[[Trajectory, bool], Account]] = Slot("account.account")
 STEPS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 COORDINATES_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 CONTACTS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
@@ -304,8 +305,8 @@ class Trajectory(Plain, Shown):
         unnamed = [f"contact/{i}/0" for i in range(len(self.arrays["rows"]))]
         return [slot.rpartition("/")[0] for slot in self.header.get("slots", unnamed)]
 
-    def account(self, forces: bool = True) -> Any:
-        """What happened, as an :class:`~quasistatic_ref.optional.account.account.Account`.
+    def account(self, forces: bool = True) -> Account:
+        """What happened.
 
         Parameters
         ----------

@@ -6,13 +6,14 @@ They are functions of the time, of where the step starts, and of the result of t
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from inspect import Parameter, signature
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import known_names
+from quasistatic_ref.model.named import Values
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.step.arrays import checked_numbers, read_only
@@ -21,12 +22,13 @@ from quasistatic_ref.step.data import Array
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
 
-OfTime = Callable[[float], ArrayLike]
-OfTimeAndQ = Callable[[float, Array], ArrayLike]
-OfTimeQAndLast = Callable[[float, Array, "StepResult | None"], ArrayLike]
+Value = ArrayLike | Values
+OfTime = Callable[[float], Value]
+OfTimeAndQ = Callable[[float, Array], Value]
+OfTimeQAndLast = Callable[[float, Array, "StepResult | None"], Value]
 Checked = Callable[[float, Array, "StepResult | None"], Array]
 """A function of (t, q, last) whose results have the right shape."""
-Target = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike | Mapping[str, ArrayLike]
+Target = OfTime | OfTimeAndQ | OfTimeQAndLast | Value
 Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
@@ -60,7 +62,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     def checked(q_a: Array) -> Array:
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
-    def unnamed(given: Any) -> Any:
+    def unnamed(given: Value) -> object:
         return named_target(system, given) if isinstance(given, Mapping) else given
 
     if type(target) is Targets:  # a subclass may ask for q
@@ -99,7 +101,7 @@ def _by_blocks(
     return at
 
 
-def named_target(system: System, values: Mapping[str, ArrayLike]) -> Array:
+def named_target(system: System, values: Values) -> Array:
     """q_bar_a, shape (n_q_a,), of named joints; InputError if one of them is not actuated."""
     for name, value in values.items():
         if (system.named.q(name) >= system.n_q_a).any():
@@ -123,7 +125,7 @@ def force_function(system: System, force: Force | None) -> Checked:
     return lambda t, q, last: constant
 
 
-def checked_force(system: System, force: Any) -> Array:
+def checked_force(system: System, force: ArrayLike) -> Array:
     """A generalised force, shape (n_v,) or () [N, N m].
 
     Raises
@@ -140,7 +142,7 @@ def checked_force(system: System, force: Any) -> Array:
     return tau
 
 
-def with_all_arguments(function: Callable[..., Any], name: str) -> OfTimeQAndLast:
+def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndLast:
     """The same function with the arguments (t, q, last), of which it may take fewer.
 
     The arguments without defaults decide which of these it is; the others keep their defaults.
@@ -164,7 +166,7 @@ def with_all_arguments(function: Callable[..., Any], name: str) -> OfTimeQAndLas
     return lambda t, q, last: function(t)
 
 
-def needed_arguments(function: Callable[..., Any], name: str) -> int:
+def needed_arguments(function: Callable[..., Value], name: str) -> int:
     """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError if it takes others."""
     try:
         parameters = list(signature(function).parameters.values())
@@ -180,7 +182,7 @@ def needed_arguments(function: Callable[..., Any], name: str) -> int:
 
 
 def _returning(
-    function: OfTimeQAndLast, unnamed: Callable[[Any], Any], shape: tuple[int, ...], name: str
+    function: OfTimeQAndLast, unnamed: Callable[[Value], object], shape: tuple[int, ...], name: str
 ) -> Checked:
     """The same function, its results as arrays of one shape."""
 

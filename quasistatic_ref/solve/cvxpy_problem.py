@@ -1,12 +1,19 @@
 """The program (13) of any step: the page of ``step/problem.py``, with any cone and own rows."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
 import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.extension import Own, none
+from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
+
+Own = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
+"""Constraints, or scalar costs, of a user's own."""
 
 
 class CvxpyProblem(StepProblem):

@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
-from quasistatic_ref.certify.exact import check_length
+from quasistatic_ref.certify.exact import ExactOptimum, check_length
 from quasistatic_ref.certify.norm import relative_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
@@ -20,7 +20,7 @@ from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import Enclosed, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import group_steps
@@ -173,16 +173,14 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     digits = statistics.digits
     if answer is not None:
         si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
-    certificate_of: Callable[..., Certificate]
+    optimum: Enclosed | ExactOptimum | None
     if curved is not None:
         optimum = curved.optimum(step, si_answer)
         if optimum is None:
             return _not_enclosed(both, solver, answer, statistics)
         check_length(step, optimum.delta_q, group_steps(step))
-        certificate_of = curved.certificate
     else:
         optimum = solver.prover.optimum(both, answer)
-        certificate_of = exact_certificate
     delta_q = optimum.delta_q
     lam = optimum.lam
     if si_answer is not None:
@@ -192,7 +190,10 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         digits = relative_digits(distance, free_length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
-    certificate = certificate_of(step, optimum, residuals)
+    if isinstance(optimum, ExactOptimum):
+        certificate = exact_certificate(step, optimum, residuals)
+    else:
+        certificate = optimum.certificate(step, residuals)
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
 
 

@@ -1,7 +1,7 @@
 """Arrays of a step, checked: real numbers of the right shape, read-only."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextvars import copy_context
 from typing import Any, TypeVar
 
@@ -20,7 +20,7 @@ _QUIET = copy_context()
 _QUIET.run(np.seterr, all="ignore")
 
 
-def without_warnings(function: Callable[..., Result], *arguments: Any) -> Result:
+def without_warnings(function: Callable[..., Result], *arguments: object) -> Result:
     """What a function returns, called where NumPy does not warn.
 
     An overflow shows in the result, and the flags of the processor, on which NumPy's warnings
@@ -36,7 +36,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def checked_numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> Array:
+def checked_numbers(value: object, name: str, error: type[InputError] = StepDataError) -> Array:
     """Real numbers as a float64 array of the same shape; a float64 array is returned itself.
 
     Raises
@@ -60,7 +60,7 @@ def finite(x: Array) -> bool:
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
-def column_count(value: Any, name: str, ndim: int) -> int:
+def column_count(value: object, name: str, ndim: int) -> int:
     """Number of columns of a matrix or a stack of matrices; StepDataError of anything else."""
     shape = checked_numbers(value, name).shape
     if len(shape) != ndim:
@@ -68,15 +68,17 @@ def column_count(value: Any, name: str, ndim: int) -> int:
     return int(shape[-1])
 
 
-def checked_names(value: Any, name: str) -> tuple[str, ...]:
+def checked_names(value: object, name: str) -> tuple[str, ...]:
     """A tuple of strings; StepDataError of anything else, such as a single string."""
-    if isinstance(value, str) or not all(isinstance(one, str) for one in value):
-        raise StepDataError("must be a sequence of strings", field=name, value=value)
-    return tuple(value)
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        names = tuple(value)
+        if all(isinstance(one, str) for one in names):
+            return names
+    raise StepDataError("must be a sequence of strings", field=name, value=value)
 
 
 def checked_array(
-    value: Any, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
+    value: object, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
 ) -> Array:
     """A read-only float64 copy of numbers of any unit [-], -0.0 becoming 0.0.
 
@@ -107,7 +109,7 @@ def checked_array(
 
 
 def check_and_freeze(
-    owner: Any,
+    owner: object,
     shapes: Mapping[str, tuple[int, ...]],
     prefix: str = "",
     error: type[InputError] = StepDataError,
@@ -118,7 +120,7 @@ def check_and_freeze(
         object.__setattr__(owner, key, array)
 
 
-def freeze_copies(owner: Any, *fields: str) -> None:
+def freeze_copies(owner: object, *fields: str) -> None:
     """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
     for field in fields:
         object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))

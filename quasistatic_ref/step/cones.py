@@ -25,7 +25,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -35,6 +35,8 @@ from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
+    import cvxpy as cp
+
     from quasistatic_ref.certify.certificate import Certificate
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.step.data import StepData
@@ -118,14 +120,14 @@ class FrictionCone(ABC):
         """What slips and spin are multiplied by in A, (n_c, 3) [-, -, m]; `mu` as of contacts."""
 
     @abstractmethod
-    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
         """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,).
 
         `mask`, shape (n_c, R), says which contact has which row.
         """
 
     @abstractmethod
-    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
         """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
 
     @abstractmethod
@@ -146,12 +148,12 @@ class PolyhedralCone(FrictionCone):
         """The coefficients of friction `mu`, (n_c, 3) [-, -, m], themselves."""
         return mu
 
-    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
         """One for each row of the cone [m], of the contacts that have it; none where none has."""
         sides = self.function(*motion)
         return [side[has] >= 0 for side, has in zip(sides, mask.T, strict=True) if has.any()]
 
-    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
         """Lam of solved :meth:`constraints`, shape (m,) [N s]; `mu` is not used."""
         lam = np.zeros(mask.shape)
         for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
@@ -161,6 +163,25 @@ class PolyhedralCone(FrictionCone):
     def judge(self, step: StepData) -> Judge:
         """See :func:`row_violations`."""
         return row_violations
+
+
+class Enclosed(Protocol):
+    """The proved optimum of a step in a curved cone."""
+
+    @property
+    def delta_q(self) -> Array:
+        """Shape (n_v,) [m, rad]."""
+
+    @property
+    def lam(self) -> Array:
+        """Shape (m,) [N s]."""
+
+    @property
+    def net(self) -> Array:
+        """A'lam, shape (n_v,) [N s, N m s]."""
+
+    def certificate(self, step: StepData, residuals: Mapping[str, float]) -> Certificate:
+        """Its certificate, with its residuals in natural units [-]."""
 
 
 class CurvedCone(FrictionCone):
@@ -176,8 +197,8 @@ class CurvedCone(FrictionCone):
         return self
 
     @abstractmethod
-    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Any | None:
-        """The proved optimum of a step, with attributes ``delta_q`` and ``lam``; None if none is.
+    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
+        """The proved optimum of a step; None if none is.
 
         Parameters
         ----------
@@ -185,12 +206,6 @@ class CurvedCone(FrictionCone):
         start : (ndarray, ndarray), optional
             A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
         """
-
-    @abstractmethod
-    def certificate(
-        self, step: StepData, optimum: Any, residuals: Mapping[str, float]
-    ) -> Certificate:
-        """The certificate of an :meth:`optimum`, with its residuals in natural units [-]."""
 
     @abstractmethod
     def in_words(self, certificate: Certificate) -> str:

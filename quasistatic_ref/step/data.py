@@ -274,7 +274,7 @@ class StepData(Plain, Shown):
         return StepData(**(field_values(self) | changes))
 
 
-KIND: dict[str, Callable[[StepData], Any]] = {
+KIND: dict[str, Callable[[StepData], ArrayLike]] = {
     "cone": lambda step: step.cone,
     "h": lambda step: step.h,
     "n_a": lambda step: step.n_a,
@@ -321,7 +321,7 @@ def hessian_blocks(h: float, K_q: Array, M_u: Array) -> tuple[Array, Array]:
     return blocks
 
 
-def seconds(h: Any) -> float:
+def seconds(h: object) -> float:
     """A time step h [s], checked; StepDataError unless it is a positive number."""
     value = checked_numbers(h, "h")
     if value.shape != () or not 0 < value < np.inf:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -21,11 +21,7 @@ if TYPE_CHECKING:
     import cvxpy as cp
 
 
-Own = Callable[[Any], Sequence[Any]]
-"""Constraints or scalar costs of a user's own, as a function of the symbols that they are about."""
-
-
-def none(symbols: Any) -> tuple[()]:
+def none(symbols: object) -> tuple[()]:
     """No constraints or costs of a user's own."""
     return ()
 

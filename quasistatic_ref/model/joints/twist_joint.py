@@ -1,7 +1,7 @@
 """Joints with several coordinates: entries of the twist of the link that they move."""
 
 from abc import abstractmethod
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from quasistatic_ref.model.joints.joint import Coordinate, Joint
 from quasistatic_ref.step.arrays import Array
@@ -25,7 +25,7 @@ class TwistJoint(Joint):
 
     twist: ClassVar[tuple[int, ...]]
     entries: ClassVar[tuple[str, ...]]
-    pinocchio: ClassVar[Any]
+    pinocchio: ClassVar[type]
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

@@ -55,8 +55,9 @@ def point_cloud(path: str | Path) -> PointCloud:
         with about_file(path):
             return PointCloud(_checked(_points(path, kind)))
     except InputError as error:  # NumPy's files raise others
-        given = {"field": error.field, "value": error.value, "file": error.file}
-        raise ModelError(error.problem, **given) from None
+        raise ModelError(
+            error.problem, field=error.field, value=error.value, file=error.file
+        ) from None
 
 
 def _checked(given: list[list[float]] | Array) -> Array:

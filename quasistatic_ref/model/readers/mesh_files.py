@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import coal
 import numpy as np
@@ -92,7 +91,7 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
         return hull_of_loaded(loaded_mesh(path, scale))
 
 
-def loaded_mesh(path: Path, scale: Array) -> Any:
+def loaded_mesh(path: Path, scale: Array) -> coal.BVHModelBase:
     """A mesh file as coal loads it, coordinates times `scale`, (3,) [-]; or ModelError."""
     try:
         return coal.MeshLoader().load(str(path), scale)
@@ -102,13 +101,13 @@ def loaded_mesh(path: Path, scale: Array) -> Any:
         raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
 
 
-def triangles_of(geometry: Any) -> Indices:
+def triangles_of(geometry: coal.BVHModelBase) -> Indices:
     """Numbers of the vertices of its triangles, shape (T, 3)."""
     corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
     return np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
 
 
-def hull_of_loaded(geometry: Any) -> ConvexMesh:
+def hull_of_loaded(geometry: coal.BVHModelBase) -> ConvexMesh:
     """Convex hull of a mesh as coal loaded it; ModelError if it is too small."""
     if geometry.num_vertices < 4 or geometry.num_tris < 1:
         problem = "must be at least four, with at least one triangle"

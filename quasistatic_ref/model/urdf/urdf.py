@@ -8,7 +8,6 @@ is worked out twice, from the file alone and from what was loaded; a difference 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -59,7 +58,7 @@ class Urdf:
     file: UrdfFile
     text: str
     base: str
-    model: Any
+    model: pin.Model
     links: tuple[str, ...]
     shapes: tuple[PlacedShape, ...]
     notes: tuple[str, ...]
@@ -108,7 +107,7 @@ def loaded_urdf(
     return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls))
 
 
-def body_frame(model: Any, link: str) -> int:
+def body_frame(model: pin.Model, link: str) -> int:
     """Number of a link's frame; a joint's frame may have the same name."""
     return int(model.getFrameId(link, pin.FrameType.BODY))
 
@@ -124,7 +123,7 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
     return [*moving, BASE]
 
 
-def urdf_model(text: str, base: str) -> Any:
+def urdf_model(text: str, base: str) -> pin.Model:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
     readable, names, own = _readable(text)
@@ -176,7 +175,7 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
     return ElementTree.tostring(robot, encoding="unicode"), names, own
 
 
-def _with_own_joints(model: Any, own: dict[str, type[TwistJoint]]) -> Any:
+def _with_own_joints(model: pin.Model, own: dict[str, type[TwistJoint]]) -> pin.Model:
     """The model with joints that URDF does not have, by their names, in the place of others."""
     if not own:
         return model
@@ -211,7 +210,7 @@ def with_turns(text: str) -> str:
     return ElementTree.tostring(robot, encoding="unicode")
 
 
-def _loaded(text: str, base: str) -> tuple[Any, Any]:
+def _loaded(text: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
     # From the text, not the path: what is loaded is what was read and checked.
     try:
         model = urdf_model(text, base)
@@ -228,7 +227,7 @@ def _loaded(text: str, base: str) -> tuple[Any, Any]:
     return model, geometry
 
 
-def _check_names(file: UrdfFile, model: Any, moving: Sequence[str]) -> None:
+def _check_names(file: UrdfFile, model: pin.Model, moving: Sequence[str]) -> None:
     frames = [frame.name for frame in model.frames if frame.type == pin.FrameType.BODY]
     joints = list(model.names)[1:]  # the first is the universe
     for what, written, loaded in (("links", file.links, frames), ("joints", moving, joints)):
@@ -237,7 +236,7 @@ def _check_names(file: UrdfFile, model: Any, moving: Sequence[str]) -> None:
             raise ModelError(problem, field=what, value=sorted(written))
 
 
-def _check_poses(file: UrdfFile, model: Any) -> None:
+def _check_poses(file: UrdfFile, model: pin.Model) -> None:
     """Compare every link's pose at position zero and at one without symmetries."""
     moving = [joint for joint in file.joints if joint.kind != "fixed" and joint.mimic is None]
     data = model.createData()
@@ -255,7 +254,7 @@ def _check_poses(file: UrdfFile, model: Any) -> None:
                 raise ModelError(problem, field=f"link[{link}]")
 
 
-def _check_inertias(file: UrdfFile, model: Any) -> None:
+def _check_inertias(file: UrdfFile, model: pin.Model) -> None:
     """Compare the spatial inertia of each rigid group, about the frame of its first link."""
     for first, written in group_inertias(file).items():
         joint = model.frames[body_frame(model, first)].parentJoint

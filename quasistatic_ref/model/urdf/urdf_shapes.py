@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 from xml.etree.ElementTree import tostring
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
@@ -16,7 +16,7 @@ from quasistatic_ref.model.urdf.urdf_file import (
     is_inline,
 )
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
-from quasistatic_ref.shapes.convex_mesh import hull_of_mesh
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
@@ -48,7 +48,11 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
 
 
 def checked_shapes(
-    file: UrdfFile, model: Any, geometry: Any, links: Sequence[str], frames: Sequence[int]
+    file: UrdfFile,
+    model: pin.Model,
+    geometry: pin.GeometryModel,
+    links: Sequence[str],
+    frames: Sequence[int],
 ) -> tuple[tuple[PlacedShape, ...], tuple[str, ...]]:
     """Every collision shape in the frame of its link, as loaded; and notes on its meshes.
 
@@ -80,7 +84,7 @@ def checked_shapes(
             at = (R, t)
             if isinstance(shape, InlineMesh):
                 with about_field(f"{where}[{count}].mesh.vertices"):
-                    solid: Any = hull_of_mesh(shape.vertices, shape.triangles)
+                    solid: Shape | None = hull_of_mesh(shape.vertices, shape.triangles)
             else:
                 given = next(following)
                 placement = model.frames[frame].placement.actInv(given.placement)
@@ -92,7 +96,7 @@ def checked_shapes(
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
             given_name = file.links[link].named[count]
             name = given_name if given_name and _usable(given_name, every) else f"{link}#{count}"
-            if isinstance(shape, FileMesh | InlineMesh):
+            if isinstance(solid, ConvexMesh):
                 notes.append(hull_note(name, solid))
             shapes.append(PlacedShape(name, number, *at, solid))
     return tuple(shapes), tuple(notes)
@@ -103,13 +107,13 @@ def _usable(name: str, every: Sequence[str | None]) -> bool:
     return every.count(name) == 1 and not any(c in "/#*?[" or c.isspace() for c in name)
 
 
-def same_pose(placement: Any, R: Array, t: Array) -> bool:
+def same_pose(placement: pin.SE3, R: Array, t: Array) -> bool:
     """Whether pinocchio's placement is that of a file, (3, 3) and (3,) [m], but for rounding."""
     off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
     return not (off or np.abs(placement.rotation - R).max() > LOADED)
 
 
-def _solid(shape: Shape | FileMesh, given: Any, where: str) -> Any:
+def _solid(shape: Shape | FileMesh, given: pin.GeometryObject, where: str) -> Shape | None:
     """The shape, or None where another one was loaded."""
     if not isinstance(shape, FileMesh):
         same = (given.meshScale == 1).all() and given.geometry == shape.coal

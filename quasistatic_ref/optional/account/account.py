@@ -1,207 +1,29 @@
 """The account of a run, from its file alone: what each pair, body and joint did, and when."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any, NamedTuple
+from dataclasses import replace
 
 import numpy as np
 
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.account.spans import Span, spans
+from quasistatic_ref.optional.account.spans import spans
+from quasistatic_ref.simulate.account import (
+    Account,
+    Drive,
+    Loads,
+    Motion,
+    PairAccount,
+    Span,
+    Stop,
+)
 from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, TOUCHES
-
-
-class Loads(NamedTuple):
-    """Sums over the contacts of a pair.
-
-    Parameters
-    ----------
-    normal : ndarray, shape (steps,)
-        Of f_n [N].
-    friction : ndarray, shape (steps,)
-        Of the lengths of (f_d1, f_d2) [N].
-    torque : ndarray, shape (steps,)
-        Of the sizes of tau_n [N m].
-    share : ndarray, shape (steps,)
-        Friction over mu_v times the normal force [-]; 0 where that is 0.
-    lift : ndarray, shape (steps,)
-        Of the parts of the forces on beta that are opposite to gravity [N].
-    """
-
-    normal: Array
-    friction: Array
-    torque: Array
-    share: Array
-    lift: Array
-
-
-@dataclass(frozen=True, eq=False)
-class PairAccount(Plain):
-    """What two shapes did.
-
-    Parameters
-    ----------
-    name, alpha, beta : str
-        Its name, and what touches.
-    phi : ndarray, shape (steps,)
-        Least distance where a step starts [m].
-    touches : ndarray of bool, shape (steps,)
-        Whether a contact has a row without slack: phi + n'J delta_q is then the least that its slip
-        allows, which is unique. Without J, only what has a positive multiplier is known to touch.
-    slip : ndarray, shape (steps,), or None
-        Mean slip of the contacts that touch [m]; None where the record has no J.
-    loads : Loads or None
-        None where the forces are not known.
-    """
-
-    name: str
-    alpha: str
-    beta: str
-    phi: Array
-    touches: Mask
-    slip: Array | None
-    loads: Loads | None
-    h: float
-
-    @property
-    def table(self) -> str:
-        """The table of contacts that it is of."""
-        return self.name.partition("(")[0]
-
-    @cached_property
-    def near(self) -> list[Span]:
-        """When its shapes were near."""
-        return spans(self.phi <= NEAR)
-
-    @cached_property
-    def contact(self) -> list[Span]:
-        """When it touched."""
-        return spans(self.touches)
-
-    @cached_property
-    def sliding(self) -> list[Span]:
-        """When it slid."""
-        return [] if self.slip is None else spans(self.slip > SLIDES * self.h)
-
-    def slid(self, span: Span) -> float:
-        """How far it slid in a span [m]; 0 where slips are not known."""
-        return 0.0 if self.slip is None else float(self.slip[span.first : span.last + 1].sum())
-
-
-@dataclass(frozen=True, eq=False)
-class Motion(Plain):
-    """How a body that nothing drives moved, or a joint of it.
-
-    Parameters
-    ----------
-    of : Joint
-    moved : ndarray, shape (steps + 1, 3)
-        From the start, along the world's axes [m]; of a prismatic joint its position, along x.
-    turned : ndarray, shape (steps + 1,)
-        From the start [rad].
-    touched, carried : mapping of str to list of Span
-        By what it touched, while it did; by what lifted it, while that was at least a `CARRIES` of
-        all that lifted it. Nothing where the forces are not known, or without gravity.
-    """
-
-    of: Joint
-    moved: Array
-    turned: Array
-    touched: Mapping[str, list[Span]]
-    carried: Mapping[str, list[Span]]
-
-    @property
-    def body(self) -> str:
-        """Name of its body."""
-        return self.of.name.partition("/")[0]
-
-
-@dataclass(frozen=True, eq=False)
-class Drive(Plain):
-    """What an actuated joint or base did.
-
-    Parameters
-    ----------
-    of : Joint
-    error : ndarray, shape (steps,)
-        Distance from its target at the end of each step [m], of a joint that turns [rad].
-    spring : ndarray, shape (steps,), or None
-        Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
-        K_q is not diagonal.
-    waypoints : tuple of float
-        Times [s].
-    """
-
-    of: Joint
-    error: Array
-    spring: Array | None
-    waypoints: tuple[float, ...]
-
-    @property
-    def unit(self) -> str:
-        """Of its error."""
-        return "m" if self.of.lengths else "rad"
-
-
-@dataclass(frozen=True, eq=False)
-class Stop(Plain):
-    """A joint at one of its limits, with ``joint_limits = "urdf"``.
-
-    Parameters
-    ----------
-    name : str
-        Such as ``door/hinge at its upper limit``.
-    unit : str
-        Of its force, ``"N"`` or ``"N m"``.
-    force : ndarray, shape (steps,)
-        lam / h of its row [N, N m].
-    """
-
-    name: str
-    unit: str
-    force: Array
-
-    @cached_property
-    def bears(self) -> list[Span]:
-        """When it bore load."""
-        return spans(self.force > BEARS * self.force.max())
-
-
-@dataclass(frozen=True, eq=False)
-class Account(Plain):
-    """What happened in a run.
-
-    Parameters
-    ----------
-    t : ndarray, shape (steps,)
-        End of each step [s].
-    h : float
-    pairs : tuple of PairAccount
-    motions : tuple of Motion
-    drives : tuple of Drive
-    stops : tuple of Stop
-    missing : tuple of str
-        What the record does not hold, in sentences.
-    findings : tuple of str
-    """
-
-    t: Array
-    h: float
-    pairs: tuple[PairAccount, ...]
-    motions: tuple[Motion, ...]
-    drives: tuple[Drive, ...]
-    stops: tuple[Stop, ...]
-    missing: tuple[str, ...]
-    findings: tuple[str, ...]
 
 
 def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
@@ -262,7 +84,7 @@ def pair_accounts(
     return tuple(_pairs(trajectory, scene.sequence("pairs"), gravity, forces, missing))
 
 
-def _scene(header: Mapping[str, Any]) -> TableReader:
+def _scene(header: Mapping[str, object]) -> TableReader:
     if "scene" not in header or "positions" not in header:
         problem = "has no scene: it is from before there were accounts; run it again"
         raise InputError(problem, field="scene")
@@ -315,7 +137,11 @@ def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
 
 
 def _pairs(
-    run: Trajectory, named: list[Any], gravity: Array, forces: bool, missing: list[str]
+    run: Trajectory,
+    named: list[tuple[str, str, str]],
+    gravity: Array,
+    forces: bool,
+    missing: list[str],
 ) -> Iterator[PairAccount]:
     up = -gravity / (np.linalg.norm(gravity) or 1.0)
     slots = np.array(run.pair_names)
@@ -324,7 +150,7 @@ def _pairs(
     if motion is None:
         missing.append(f"a {run.header['record']} record has no slips, and what touches without a "
                        "positive multiplier is not known")  # fmt: skip
-    touches = _touches(run, motion)
+    touch = _touches(run, motion)
     slip = None
     if motion is not None:
         across = [np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
@@ -333,7 +159,7 @@ def _pairs(
         own = slots == name
         if not own.any():
             continue
-        on = touches[:, own]
+        on = touch[:, own]
         count = np.maximum(on.sum(axis=1), 1)
         loads = None
         if wrench is not None:
@@ -346,15 +172,21 @@ def _pairs(
             loads = Loads(
                 normal, friction, torque, share, np.vecdot(wrench[:, own, :3], ways).sum(axis=1)
             )
+        phi = run["phi"][:, own].min(axis=1)
+        touches = np.asarray(on.any(axis=1))
+        slid = None if slip is None else np.where(on, slip[:, own], 0.0).sum(axis=1) / count
         yield PairAccount(
             name=name,
             alpha=alpha,
             beta=beta,
-            phi=run["phi"][:, own].min(axis=1),
-            touches=np.asarray(on.any(axis=1)),
-            slip=None if slip is None else np.where(on, slip[:, own], 0.0).sum(axis=1) / count,
+            table=name.partition("(")[0],
+            phi=phi,
+            touches=touches,
+            slip=slid,
             loads=loads,
-            h=float(run.header["h"]),
+            near=spans(phi <= NEAR),
+            contact=spans(touches),
+            sliding=[] if slid is None else spans(slid > SLIDES * float(run.header["h"])),
         )
 
 
@@ -429,7 +261,8 @@ def _stops(run: Trajectory, joints: Mapping[str, Joint]) -> Iterator[Stop]:
         if at and end.endswith(" limit") and joint in joints:
             force = run["lam_extra"][:, i] / float(run.header["h"])
             if (force > 0).any():
-                yield Stop(name, "N" if joints[joint].lengths else "N m", force)
+                unit = "N" if joints[joint].lengths else "N m"
+                yield Stop(name, unit, force, spans(force > BEARS * force.max()))
 
 
 def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]) -> Drive:
@@ -439,7 +272,7 @@ def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[flo
     error = away if joint.lengths else _angle(joint, q, target)
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
-    return Drive(joint, error, spring, waypoints)
+    return Drive(joint, "m" if joint.lengths else "rad", error, spring, waypoints)
 
 
 ACCOUNT.fill(account_of)

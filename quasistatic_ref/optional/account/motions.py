@@ -35,11 +35,6 @@ class LinkMotion:
         """Index of the instant nearest to `time` [s]."""
         return int(np.abs(self.times - time).argmin())
 
-    @property
-    def largest_rotation(self) -> float:
-        """Largest angle [rad] from the orientation at the start."""
-        return float(self.rotation_since(0.0).max())
-
 
 def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion:
     """Poses of a link (or of a body's root link) along a trajectory."""

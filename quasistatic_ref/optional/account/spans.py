@@ -1,23 +1,10 @@
 """From when to when something held, in steps."""
 
-from typing import NamedTuple
-
 import numpy as np
 
+from quasistatic_ref.simulate.account import Span
 from quasistatic_ref.step.data import Mask
 from quasistatic_ref.tolerances import BRIEF
-
-
-class Span(NamedTuple):
-    """Steps in a row.
-
-    Parameters
-    ----------
-    first, last : int
-    """
-
-    first: int
-    last: int
 
 
 def spans(holds: Mask) -> list[Span]:

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.axis_joint import Prismatic
-from quasistatic_ref.optional.account.account import Account, Drive, Motion, PairAccount
-from quasistatic_ref.optional.account.spans import Span
+from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Span
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BRIEF, SLID
 
 PRINTED = 4
@@ -47,8 +47,8 @@ def events(account: Account) -> list[Event]:
     found = [*_of_pairs(account, _touch, last), *_of_pairs(account, _leave, last)]
     for pair in account.pairs:
         for span in pair.sliding:
-            if pair.slid(span) >= SLID:
-                way = f"slides {length(pair.slid(span))} along {pair.alpha}"
+            if slid(pair, span) >= SLID:
+                way = f"slides {length(slid(pair, span))} along {pair.alpha}"
                 found.append((span.first, f"{pair.beta} {way} {_until(span, t)}"))
     found += [(span.first, stop.name) for stop in account.stops for span in stop.bears]
     said = [Event(float(t[k]), words) for k, words in found]
@@ -164,7 +164,12 @@ def moved(motion: Motion) -> str:
     )
 
 
-def driven(drive: Drive, t: Any) -> str:
+def slid(pair: PairAccount, span: Span) -> float:
+    """How far a pair slid in a span [m]; 0 where slips are not known."""
+    return 0.0 if pair.slip is None else float(pair.slip[span.first : span.last + 1].sum())
+
+
+def driven(drive: Drive, t: Array) -> str:
     """How an actuated joint ended, and what its spring bore."""
     largest = ""
     if drive.spring is not None:
@@ -175,7 +180,7 @@ def driven(drive: Drive, t: Any) -> str:
     return f"{drive.of.name}: ends {off} from its target{largest}"
 
 
-def _pair(pair: PairAccount, t: Any) -> Iterator[str]:
+def _pair(pair: PairAccount, t: Array) -> Iterator[str]:
     """Near, touching, sliding; normal force, friction, torque and share."""
     k = int(pair.phi.argmin())
     yield f"{pair.name}: least distance {signed(pair.phi[k])} at {t[k]:.2f} s"
@@ -183,7 +188,7 @@ def _pair(pair: PairAccount, t: Any) -> Iterator[str]:
         if held:
             yield f"  {word} {times(held, t)}"
     if pair.sliding:
-        yield f"  slides by {length(sum(pair.slid(span) for span in pair.sliding))} in all"
+        yield f"  slides by {length(sum(slid(pair, span) for span in pair.sliding))} in all"
     if pair.loads is None or not pair.contact:
         return
     normal = pair.loads.normal
@@ -295,12 +300,12 @@ def html(name: str, account: Account, png: bytes) -> str:
     )
 
 
-def times(held: Iterable[Span], t: Any) -> str:
+def times(held: Iterable[Span], t: Array) -> str:
     """Spans in seconds, such as ``0.31 to 0.42 s and 1.00 to 2.50 s``."""
     return listed([f"{t[span.first]:.2f} to {t[span.last]:.2f} s" for span in held])
 
 
-def _until(span: Span, t: Any) -> str:
+def _until(span: Span, t: Array) -> str:
     return "to the end" if span.last == len(t) - 1 else f"until {t[span.last]:.2f} s"
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -142,7 +143,7 @@ def smoothed_jax(simulator: Simulator) -> Callable[..., Any]:
     return lambda q, q_bar_a, kappa, force=0.0: step(q, q_bar_a, force, kappa)
 
 
-def jax_package() -> Any:
+def jax_package() -> ModuleType:
     """The package JAX.
 
     Raises

@@ -5,9 +5,9 @@ They are measured of several steps of a simulator at once, along the first axis.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.doctor.start import free_bases
@@ -83,7 +83,7 @@ def largest_share(shares: Iterable[Array], steps: int) -> Array:
     return np.asarray(np.fmax.reduce([np.full(steps, np.nan), *shares]))
 
 
-def _quotient(over: Any, under: Any) -> Array:
+def _quotient(over: ArrayLike, under: ArrayLike) -> Array:
     """Quotients of numbers >= 0; NaN where they are beyond the range of float64, or 0/0.
 
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient

@@ -5,8 +5,8 @@ What is claimed of an answer in it is verified here, without any solver.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from flint import ctx, fmpq
@@ -36,6 +36,9 @@ from quasistatic_ref.step.cones import CURVED_CONE, ELLIPSOID, CurvedCone, Judge
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
+if TYPE_CHECKING:
+    import cvxpy as cp
+
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)
 UNSTATED = Certificate("exact", error_bound=0.0)
@@ -62,14 +65,14 @@ class EllipsoidCone(CurvedCone):
         """1, (n_c, 3): the rows of a contact are J_n, J_1, J_2 and J_w [-]; `mu` is the cone's."""
         return np.ones_like(mu)
 
-    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+    def constraints(self, motion: Rows, mask: Mask) -> list[cp.Constraint]:
         """All contacts in one second-order cone constraint; arguments as of the base [m]."""
         import cvxpy as cp  # it takes its time
 
         gap, *slips = motion
         return [cp.SOC(gap, cp.vstack(slips))] if len(mask) else []
 
-    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+    def multipliers(self, constraints: Sequence[cp.Constraint], mask: Mask, mu: Array) -> Array:
         """Impulses (n, d1, d2, spin) of each contact, shape (4 n_c,) [N s, N m s]."""
         if not constraints:
             return np.zeros(0)
@@ -93,28 +96,6 @@ class EllipsoidCone(CurvedCone):
             A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
         """
         return enclosure(step, start)
-
-    def certificate(
-        self, step: StepData, optimum: Enclosure, residuals: Mapping[str, float]
-    ) -> Certificate:
-        """``"exact"`` where every loaded contact is at its apex, ``"enclosure"`` otherwise.
-
-        Parameters
-        ----------
-        step, optimum
-            As of the base.
-        residuals : mapping of str to float
-            In natural units [-].
-        """
-        exact = optimum.working_set is not None
-        return Certificate(
-            kind="exact" if exact else "enclosure",
-            residuals=dict(residuals),
-            active=contact_rows(step, optimum.working_set or ()),
-            error_bound=optimum.error,
-            gap=optimum.gap,
-            step=step,
-        )
 
     def in_words(self, certificate: Certificate) -> str:
         """What ``"exact"`` means here."""

@@ -9,17 +9,19 @@ The pair comes from Newton's method if a backend's answer is a good start, and o
 interior point in 640 bits. Membership and gap are then proved in balls.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.minimiser import inner, rational_solution, square_root
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in, rounded_solution
+from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import raised
@@ -77,6 +79,25 @@ class Enclosure:
     working_set: tuple[int, ...] | None
     error: float
     gap: float
+
+    def certificate(self, step: StepData, residuals: Mapping[str, float]) -> Certificate:
+        """``"exact"`` where every loaded contact is at its apex, ``"enclosure"`` otherwise.
+
+        Parameters
+        ----------
+        step : StepData
+        residuals : mapping of str to float
+            In natural units [-].
+        """
+        exact = self.working_set is not None
+        return Certificate(
+            kind="exact" if exact else "enclosure",
+            residuals=dict(residuals),
+            active=contact_rows(step, self.working_set or ()),
+            error_bound=self.error,
+            gap=self.gap,
+            step=step,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,12 @@ point is linear in z: -z projected on what the rows of that face span.
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.rational import Dyadic, dyadic, fraction, in_integers
+from quasistatic_ref.certify.rational import Dyadic, Integers, dyadic, fraction, in_integers
 from quasistatic_ref.optional.between import FACE
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
@@ -34,7 +33,7 @@ class Face:
     denominator : int
     """
 
-    integers: Any
+    integers: Integers
     denominator: int
 
 
@@ -64,7 +63,7 @@ def face(name: str, count: int, rows: Rows) -> Face:
     C = fmpq_mat(count, 4, [fraction(x) for x in rows_of(name, count).ravel().tolist()])
     table = C.tolist()
     C_w = fmpq_mat(len(rows), 4, [x for i in rows for x in table[i]])
-    multipliers: Any = fmpq_mat(0, 4)
+    multipliers = fmpq_mat(0, 4)
     if rows:
         multipliers = (C_w * C_w.transpose()).solve(-C_w)
     s = C_w.transpose() * multipliers
@@ -102,7 +101,7 @@ def nearest_face(name: str, count: int, z: Dyadic) -> Rows:
     return tuple(sorted(end.minimiser.working))
 
 
-def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Array, int] | None:
+def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Integers, int] | None:
     """What a :class:`Face` holds; None of rows that are dependent.
 
     Returns

@@ -30,7 +30,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces
-from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import (
@@ -49,7 +49,7 @@ from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.step.arrays import without_warnings
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import Enclosed, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import group_steps
@@ -135,6 +135,7 @@ def _one_of(given: Array) -> float:
 
 def _without_compliance(step: StepData) -> tuple[Array, Array]:
     """delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step itself."""
+    optimum: Enclosed | ExactOptimum | None
     curved = cone(step.cone).curved
     if curved is not None:
         optimum = curved.optimum(step, None)

@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from types import ModuleType
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,18 @@ from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import DEEP
+
+if TYPE_CHECKING:
+    from pydrake.all import (
+        Context,
+        ForceElement,
+        GeometryId,
+        Joint,
+        MultibodyPlant,
+        QueryObject,
+        RigidBody,
+        SignedDistancePair,
+    )
 
 FATES = {
     "used": """
@@ -54,8 +67,8 @@ its documentation observes errors of 3e-6 to 5e-5 m, from 2 mm apart."""
 
 
 def drake_step(
-    plant: Any,
-    context: Any,
+    plant: MultibodyPlant,
+    context: Context,
     h: float,
     stiffness: Mapping[str, float],
     targets: Mapping[str, float] | None = None,
@@ -146,7 +159,7 @@ def drake_step(
     return step, Coordinates(names, dofs, T, left_out, number)
 
 
-def at_rest(plant: Any, context: Any) -> Any:
+def at_rest(plant: MultibodyPlant, context: Context) -> Context:
     """A context of the plant's alone, without velocity."""
     own = plant.CreateDefaultContext()
     own.SetTimeStateAndParametersFrom(context)
@@ -154,18 +167,18 @@ def at_rest(plant: Any, context: Any) -> Any:
     return own
 
 
-def scoped(plant: Any, joint: Any) -> str:
+def scoped(plant: MultibodyPlant, joint: Joint) -> str:
     """The name of a joint behind that of its model instance, ``arm::elbow``."""
     return f"{plant.GetModelInstanceName(joint.model_instance())}::{joint.name()}"
 
 
-def named(joints: Mapping[str, Any]) -> dict[str, Any]:
+def named(joints: Mapping[str, Joint]) -> dict[str, Joint]:
     """Joints by their scoped names, and by their own where these are unique."""
     own = [joint.name() for joint in joints.values()]
     return {**joints, **{j.name(): j for j in joints.values() if own.count(j.name()) == 1}}
 
 
-def check(plant: Any) -> None:
+def check(plant: MultibodyPlant) -> None:
     """Refuse what no step can say: ModelError."""
     if plant.num_constraints():
         raise ModelError("are not supported; remove them", field="plant constraints")
@@ -176,8 +189,8 @@ def check(plant: Any) -> None:
 
 
 def springs(
-    drake: Any, plant: Any, own: Any, joints: Mapping[str, Any], stiffness: Mapping[str, float],
-    targets: Mapping[str, float],
+    drake: ModuleType, plant: MultibodyPlant, own: Context, joints: Mapping[str, Joint],
+    stiffness: Mapping[str, float], targets: Mapping[str, float],
 ) -> tuple[Array, Array]:  # fmt: skip
     """Stiffness and force of the springs of each velocity, (nv,) each [N/m, N m/rad; N, N m].
 
@@ -209,7 +222,9 @@ def springs(
     return K, force
 
 
-def elements(drake: Any, plant: Any, kinds: tuple[str, ...]) -> Iterator[Any]:
+def elements(
+    drake: ModuleType, plant: MultibodyPlant, kinds: tuple[str, ...]
+) -> Iterator[ForceElement]:
     """Force elements of some kinds; ModelError, naming it, at one that no step has."""
     for i in range(plant.num_force_elements()):
         element = plant.get_force_element(drake.ForceElementIndex(i))
@@ -220,14 +235,14 @@ def elements(drake: Any, plant: Any, kinds: tuple[str, ...]) -> Iterator[Any]:
             yield element
 
 
-def passive_force(spring: Any, own: Any) -> float:
+def passive_force(spring: ForceElement, own: Context) -> float:
     """The force of a spring of a joint [N, N m]."""
     kind = "angle" if type(spring).__name__ == SPRINGS[0] else "position"
     nominal = float(getattr(spring, f"nominal_{kind}")())
     return float(spring.stiffness()) * (nominal - float(spring.joint().GetOnePosition(own)))
 
 
-def passive(drake: Any, plant: Any, own: Any) -> Array:
+def passive(drake: ModuleType, plant: MultibodyPlant, own: Context) -> Array:
     """Forces of the springs that are force elements, (nv,) [N, N m]."""
     force = np.zeros(plant.num_velocities())
     for element in elements(drake, plant, SPRINGS):
@@ -235,7 +250,7 @@ def passive(drake: Any, plant: Any, own: Any) -> Array:
     return force
 
 
-def loads(drake: Any, plant: Any, context: Any, own: Any) -> Array:
+def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context) -> Array:
     """All forces of elements and inputs at rest, (nv,) [N, N m]; ModelError for spatial ones."""
     forces = drake.MultibodyForces(plant)
     plant.CalcForceElementsContribution(own, forces)
@@ -276,8 +291,8 @@ class Pair(NamedTuple):
     """
 
     name: str
-    geometries: tuple[Any, Any]
-    bodies: tuple[Any, Any]
+    geometries: tuple[GeometryId, GeometryId]
+    bodies: tuple[RigidBody, RigidBody]
     phi: float
     n: Array
     J: Array
@@ -293,7 +308,9 @@ class Pair(NamedTuple):
         return speed / self.mu_v
 
 
-def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list[Pair]:
+def pairs(
+    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context, margin: float
+) -> list[Pair]:
     """One pair of closest points of each pair of geometries that is nearer than the margin [m].
 
     Parameters
@@ -353,7 +370,9 @@ def pairs(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> list
     ]
 
 
-def sphere_and_hull(query: Any, pair: Any) -> tuple[float, Array, dict[Any, Array]]:
+def sphere_and_hull(
+    query: QueryObject, pair: SignedDistancePair
+) -> tuple[float, Array, dict[GeometryId, Array]]:
     """Gap, normal and points of a sphere and a hull, which Drake iterates to some 1e-6 m.
 
     Parameters
@@ -404,7 +423,9 @@ def contacts(found: list[Pair], T: Array, closed: bool) -> Contacts:
     )
 
 
-def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array, closed: bool) -> Extra:
+def limits(
+    plant: MultibodyPlant, own: Context, joints: Mapping[str, Joint], dofs: Array, closed: bool
+) -> Extra:
     """Limits of joints as rows.
 
     Parameters
@@ -443,7 +464,7 @@ def limits(plant: Any, own: Any, joints: Mapping[str, Any], dofs: Array, closed:
     return Extra(tuple(names), np.array(A).reshape(-1, len(dofs)), np.array(b))
 
 
-def words(plant: Any, found: list[Pair]) -> Iterator[str]:
+def words(plant: MultibodyPlant, found: list[Pair]) -> Iterator[str]:
     """What a step leaves out, or has as Drake iterates it."""
     for pair in found:
         if pair.iterated:

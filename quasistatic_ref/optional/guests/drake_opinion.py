@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,13 +19,16 @@ from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import CREEP
 
+if TYPE_CHECKING:
+    from pydrake.all import Context, Diagram, MultibodyPlant, RigidBody
+
 CONTINUOUS = 1e-3
 """Time step of the exact answer where a plant has none [s]."""
 
 
 def drake_opinion(
-    diagram: Any,
-    context: Any,
+    diagram: Diagram,
+    context: Context,
     stiffness: Mapping[str, float] | None = None,
     targets: Mapping[str, float] | None = None,
     tolerance: float = CREEP,
@@ -110,7 +114,7 @@ def drake_opinion(
     return opinion_of(said, step_of, h, tolerance, words(drake, plant), weight, lambda step: {})
 
 
-def words(drake: Any, plant: Any) -> Words:
+def words(drake: ModuleType, plant: MultibodyPlant) -> Words:
     """What sentences call Drake's options."""
     sap = plant.time_step() and (
         plant.get_discrete_contact_approximation() == drake.DiscreteContactApproximation.kSap
@@ -127,7 +131,9 @@ def words(drake: Any, plant: Any) -> Words:
     )
 
 
-def velocities(drake: Any, diagram: Any, plant: Any, context: Any) -> tuple[Array, Array]:
+def velocities(
+    drake: ModuleType, diagram: Diagram, plant: MultibodyPlant, context: Context
+) -> tuple[Array, Array]:
     """Drake's mean velocity over a WINDOW, and over the one after it, (nv,) each.
 
     Raises
@@ -152,7 +158,9 @@ def velocities(drake: Any, diagram: Any, plant: Any, context: Any) -> tuple[Arra
     return means[0], means[1]
 
 
-def touches(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> Iterator[Touch]:
+def touches(
+    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context, margin: float
+) -> Iterator[Touch]:
     """Drake's contacts: pairs that are closed, or that it presses.
 
     Parameters
@@ -190,7 +198,7 @@ def touches(drake: Any, plant: Any, context: Any, own: Any, margin: float) -> It
         )  # fmt: skip
 
 
-def called(plant: Any, body: Any) -> str:
+def called(plant: MultibodyPlant, body: RigidBody) -> str:
     """The name of what a body is welded to; ``"world"`` for what cannot move."""
     first = min(plant.GetBodiesWeldedTo(body), key=lambda one: int(one.index()))
     if first.index() == plant.world_body().index():
@@ -199,7 +207,9 @@ def called(plant: Any, body: Any) -> str:
     return str(first.name() if alone else first.scoped_name())
 
 
-def movers(drake: Any, plant: Any, context: Any, own: Any) -> Iterator[Mover]:
+def movers(
+    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context
+) -> Iterator[Mover]:
     """The bodies that can move, each with all that is welded to it."""
     inspector = plant.get_geometry_query_input_port().Eval(context).inspector()
     world = plant.world_frame()

@@ -7,8 +7,6 @@ kind an element is, or a part of the state (``mjtState``), from which MuJoCo com
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
@@ -118,7 +116,7 @@ def check(state: Still) -> None:
     ModelError
         Naming element and field.
     """
-    model: Any = state.model
+    model = state.model
     if model.nflex:
         raise ModelError("is not supported: bodies are rigid", field=state.words("flex", 0))
     for field, reason in REFUSED.items():

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import FULL_RANK, LIGHT
+
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
 
 DEPTHS = ("closed", "as is")
 ELIMINATED = {PYRAMID: ("JOINT",), ELLIPSOID: ("JOINT", "TENDON", "CONNECT", "WELD")}
@@ -92,7 +95,7 @@ def step_from(
 
 
 def mujoco_step(
-    model: Any, data: Any, h: float, depth: str = "closed"
+    model: MjModel, data: MjData, h: float, depth: str = "closed"
 ) -> tuple[StepData, Coordinates]:
     """The step that begins in a state of MuJoCo, at rest.
 
@@ -268,7 +271,7 @@ def velocity_words(v: Array) -> Iterator[str]:
         yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
 
 
-def quasi_dynamic_number(model: Any, data: Any, state: Still, h: float) -> float:
+def quasi_dynamic_number(model: MjModel, data: MjData, state: Still, h: float) -> float:
     """Largest v / (mu_v g h) of the contacts, v the speed at which one slides [-]."""
     g = float(np.linalg.norm(model.opt.gravity))
     largest = 0.0

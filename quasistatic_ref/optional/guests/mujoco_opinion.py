@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,8 +19,11 @@ from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CREEP
 
+if TYPE_CHECKING:
+    from mujoco import MjContact, MjData, MjModel
 
-def second_opinion(model: Any, data: Any, tolerance: float = CREEP) -> Opinion:
+
+def second_opinion(model: MjModel, data: MjData, tolerance: float = CREEP) -> Opinion:
     """What MuJoCo says of the contacts of a state, and what rigid bodies with that friction do.
 
     Parameters
@@ -81,7 +84,7 @@ def second_opinion(model: Any, data: Any, tolerance: float = CREEP) -> Opinion:
     )
 
 
-def _words(model: Any) -> Words:
+def _words(model: MjModel) -> Words:
     return Words(
         engine="MuJoCo",
         yields="MuJoCo documents that its friction yields to any force",
@@ -94,7 +97,7 @@ def _words(model: Any) -> Words:
     )
 
 
-def _touch(state: Still, data: Any, name: str, touch: Any) -> Touch:
+def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
     """A contact of MuJoCo's, with the force that it has in the state itself."""
     return Touch(
         name=name,

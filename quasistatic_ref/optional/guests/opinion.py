@@ -95,7 +95,7 @@ class Opinion(Plain):
 def _table(
     first: str,
     names: Sequence[str],
-    sides: Sequence[tuple[Any, Any]],
+    sides: Sequence[tuple[object, object]],
     columns: Mapping[str, tuple[str, float]],
 ) -> list[tuple[str, ...]]:
     """Rows with three columns for each number: the engine's, the exact one, how they differ."""

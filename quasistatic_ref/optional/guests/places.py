@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,6 +26,9 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import FILLED
+
+if TYPE_CHECKING:
+    from mujoco import MjContact, MjModel
 
 ALL = 1e6
 """Gap at which MuJoCo's filters alone decide what may touch [m]."""
@@ -81,7 +84,7 @@ class Places:
         for gaps, share in _gaps(state.own):
             gaps += share * margin
 
-    def _pair(self, state: Still, touch: Any, a: int, b: int) -> ContactPair:
+    def _pair(self, state: Still, touch: MjContact, a: int, b: int) -> ContactPair:
         sides = [self.shapes.setdefault(g, _placed(state, g)) for g in (a, b)]
         mu = touch.friction
         name = f"{_tree(state, a)}-{_tree(state, b)}({sides[0].name}, {sides[1].name})"
@@ -154,7 +157,7 @@ class Places:
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
-def _filtered(state: Still) -> list[Any]:
+def _filtered(state: Still) -> list[MjContact]:
     """One contact of each pair that may touch, by MuJoCo's own filters.
 
     All geoms but planes are balls there, which touch whatever they are near to.
@@ -172,7 +175,7 @@ def _filtered(state: Still) -> list[Any]:
     return [found[geoms] for geoms in sorted(found)]
 
 
-def _gaps(model: Any) -> tuple[tuple[Array, float], ...]:
+def _gaps(model: MjModel) -> tuple[tuple[Array, float], ...]:
     """What decides from which gap on MuJoCo has a contact; those of two geoms or bodies add up."""
     return (model.geom_gap, 0.5), (model.pair_gap, 1.0), (model.body_margin, 0.5)
 

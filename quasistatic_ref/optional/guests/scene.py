@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from io import StringIO
 from pathlib import Path
-from typing import Any, cast
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -37,6 +38,9 @@ from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.extension import ExtensionOfQ
 from quasistatic_ref.tolerances import FILLED
+
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
 
 MARGIN = 0.05
 """Gap up to which MuJoCo looks for contacts, by default [m]."""
@@ -132,8 +136,8 @@ class Crossing(Observer):
 
 
 def mujoco_scenario(
-    model: Any,
-    data: Any = None,
+    model: MjModel,
+    data: MjData | None = None,
     targets: Driven = None,
     settings: Changes = (),
     path: str | Path = "scene.xml",
@@ -263,8 +267,13 @@ class Drawn(Targets):
 
 
 def controls_of(
-    mujoco: Any, model: Any, data: Any, T: float, targets: Driven, system: MujocoSystem
-) -> Callable[[float], tuple[Array, dict[str, float]]]:
+    mujoco: ModuleType,
+    model: MjModel,
+    data: MjData,
+    T: float,
+    targets: Driven,
+    system: MujocoSystem,
+) -> Callable[[float], tuple[Array, dict[str, float]]]:  # fmt: skip
     """Controls, shape (nu,), and positions at a time, from targets over T [s] in any form.
 
     Raises

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,16 +14,19 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
+
 UNSTABLE = ("mjWARN_BADQPOS", "mjWARN_BADQVEL", "mjWARN_BADQACC")
 """Warnings after which MuJoCo begins anew, from the model's first state."""
 
 
 def settled(
-    model: Any,
+    model: MjModel,
     seconds: float,
     keyframe: str | int | None = None,
     control: Mapping[str, float] | None = None,
-) -> Any:
+) -> MjData:
     """MuJoCo's state after a while.
 
     Parameters
@@ -59,7 +63,7 @@ def settled(
     return data
 
 
-def velocities(model: Any, data: Any, seconds: float) -> tuple[Array, Array]:
+def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Array]:
     """MuJoCo's mean velocity over the next seconds [s], and over as many after them, (nv,) each.
 
     The controls stay those of `data`.
@@ -80,7 +84,7 @@ def velocities(model: Any, data: Any, seconds: float) -> tuple[Array, Array]:
     return means[0], means[1]
 
 
-def run(model: Any, data: Any, seconds: float) -> None:
+def run(model: MjModel, data: MjData, seconds: float) -> None:
     """Let MuJoCo's state run for some seconds [s], in whole time steps.
 
     Raises
@@ -97,12 +101,12 @@ def run(model: Any, data: Any, seconds: float) -> None:
         raise ModelError(problem, field="option.timestep", value=model.opt.timestep)
 
 
-def _resets(mujoco: Any, data: Any) -> int:
+def _resets(mujoco: ModuleType, data: MjData) -> int:
     """How often MuJoCo began anew."""
     return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)
 
 
-def numbered(mujoco: Any, model: Any, kind: str, name: str | int) -> int:
+def numbered(mujoco: ModuleType, model: MjModel, kind: str, name: str | int) -> int:
     """The number of a keyframe or actuator, by its name or number; InputError if there is none."""
     count = {"KEY": model.nkey, "ACTUATOR": model.nu}[kind]
     of = getattr(mujoco.mjtObj, f"mjOBJ_{kind}")

@@ -5,13 +5,17 @@ from __future__ import annotations
 import copy
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array, Indices
+
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
 
 STAGES = ("mj_fwdPosition", "mj_fwdVelocity", "mj_fwdActuation", "mj_fwdAcceleration")
 """The stages of ``mj_forward`` before its solver."""
@@ -35,10 +39,10 @@ class Still:
         The copy.
     """
 
-    mujoco: Any
-    model: Any
-    own: Any
-    data: Any
+    mujoco: ModuleType
+    model: MjModel
+    own: MjModel
+    data: MjData
 
     @property
     def M(self) -> Array:
@@ -134,7 +138,7 @@ class Still:
         return dense
 
 
-def still(model: Any, data: Any) -> Still:
+def still(model: MjModel, data: MjData) -> Still:
     """Copies of a model and of its state at zero velocity, before ``run``."""
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
     own = copy.copy(model)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import DEEP, FULL_RANK
 
+if TYPE_CHECKING:
+    from mujoco import MjContact, MjData
+
 USED_OR_IN_GAP = (0, 1)
 """Values of ``exclude`` of contacts that a step has."""
 SOON = 1.0
@@ -23,7 +26,7 @@ SOON = 1.0
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
-def found(state: Still) -> list[tuple[str, Any]]:
+def found(state: Still) -> list[tuple[str, MjContact]]:
     """MuJoCo's contacts with their names, without those between bodies that do not move.
 
     A name has MuJoCo's number of the contact, and its geoms, or the bodies of geoms without names.
@@ -39,12 +42,12 @@ def rubs(state: Still) -> bool:
     return any(touch.dim > 1 for _, touch in found(state))
 
 
-def gap(touch: Any) -> float:
+def gap(touch: MjContact) -> float:
     """The signed distance at which MuJoCo lets a contact push [m]."""
     return float(touch.dist - touch.includemargin)
 
 
-def geoms(state: Still, touch: Any) -> str:
+def geoms(state: Still, touch: MjContact) -> str:
     """The geoms of a contact, or the bodies of those without names."""
     bodies = state.model.geom_bodyid
     named = (state.name("geom", g) or state.words("body", bodies[g]) for g in touch.geom)
@@ -109,7 +112,7 @@ def contacts(
     return at_rest, tuple(left_out)
 
 
-def jacobian(state: Still, touch: Any) -> Array:
+def jacobian(state: Still, touch: MjContact) -> Array:
     """J of Eq. :eq:`eq-3` along MuJoCo's velocities, shape (4, nv), world frame.
 
     MuJoCo has one point, midway between the surfaces; the material points are one on either.
@@ -135,7 +138,7 @@ def words(state: Still) -> Iterator[str]:
             yield f"contact[{called}]: rolling friction, for which there is no row"
 
 
-def forces(state: Still, data: Any) -> Array:
+def forces(state: Still, data: MjData) -> Array:
     """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of all its contacts in a state, (ncon, 4) [N, N m].
 
     They include what balances adhesion, which MuJoCo takes off them.

@@ -14,7 +14,6 @@ below is rounded outwards.
 import math
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix
@@ -25,6 +24,7 @@ from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.outward import above, below, down, total, total_of_products, up
 from quasistatic_ref.optional.large.sizes import (
+    Matrix,
     TermSizes,
     in_range,
     rounding,
@@ -57,7 +57,7 @@ class FloatBound:
         The v of the last bound that needed one.
     """
 
-    def __init__(self, H: Any) -> None:
+    def __init__(self, H: Matrix) -> None:
         self.H = H
         self.direction: Array | None = None
 
@@ -72,7 +72,7 @@ class FloatBound:
         return bool((self.least > 0).all())
 
     @cached_property
-    def sizes(self) -> Any:
+    def sizes(self) -> Matrix:
         """The absolute values of H."""
         return abs(self.H)
 
@@ -153,7 +153,7 @@ class FloatBound:
         return up(length / free)
 
     def moved(
-        self, A: Any, sizes: TermSizes, s: Array, low: Array, y: Array
+        self, A: Matrix, sizes: TermSizes, s: Array, low: Array, y: Array
     ) -> tuple[float, float]:
         """Bounds of t ||v||_H and t y'A v [-] for some v; infinite if none is found.
 
@@ -175,7 +175,7 @@ class FloatBound:
                 return way, up(t * max(total_of_products(y, above(opens + e)), 0.0))
         return math.inf, math.inf
 
-    def directions(self, A: Any, s: Array) -> Iterator[tuple[Array, float]]:
+    def directions(self, A: Matrix, s: Array) -> Iterator[tuple[Array, float]]:
         """The v that is kept, then a new one, shape (n_v,); and by how much they have to open rows.
 
         Parameters

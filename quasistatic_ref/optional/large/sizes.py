@@ -8,14 +8,18 @@ a factor of :math:`1 - \gamma_D` at most. What underflows is off by TINY at most
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import csc_matrix
 
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import scaled_by
+
+Matrix: TypeAlias = "Array | csc_matrix"
 
 UNIT = 2.0**-53
 """Largest relative error of one operation."""
@@ -43,7 +47,7 @@ def rounding(terms: int, sizes: Array) -> Array:
     return MORE * part * sizes + TINY
 
 
-def in_range(*numbers: Any) -> bool:
+def in_range(*numbers: ArrayLike) -> bool:
     """Whether no number of some arrays, of any shapes and units, is beyond LARGEST, nor NaN."""
     flat = np.concatenate(numbers, axis=None)
     return float(np.abs(flat).max(initial=0.0)) <= LARGEST
@@ -65,7 +69,7 @@ class TermSizes:
         Whether no number is beyond LARGEST.
     """
 
-    A: Any
+    A: Matrix
     load: Array
     row_terms: int
     column_terms: int
@@ -80,7 +84,9 @@ class TermSizes:
         return np.asarray(self.A.T @ lam)
 
 
-def term_sizes(A: Any, load: Array, load_terms: int = 0, numbers: Iterable[Any] = ()) -> TermSizes:
+def term_sizes(
+    A: Matrix, load: Array, load_terms: int = 0, numbers: Iterable[ArrayLike] = ()
+) -> TermSizes:
     """The sizes of a program.
 
     Parameters
@@ -122,7 +128,7 @@ def row_sizes(step: StepData, J: Array) -> Array:
     return step.present(rows)
 
 
-def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
+def step_sizes(step: StepData, A: Matrix, units: Units) -> TermSizes:
     """The sizes of a step whose cone has rows.
 
     Parameters
@@ -138,5 +144,5 @@ def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a)  # Eq. (1)
     load = np.concatenate([spring + np.abs(step.tau_a), np.abs(step.tau_u)]) * step.h * of_load
     scales = [step.h, 1 / units.length, 1 / units.size]
-    numbers = [step.contacts.mu, S, S / units.length, of_load, scales]
+    numbers: list[ArrayLike] = [step.contacts.mu, S, S / units.length, of_load, scales]
     return term_sizes(A, load, step.n_a, numbers)

@@ -1,7 +1,10 @@
 """The shapes that were loaded of an MJCF model, compared with MuJoCo's geoms."""
 
+from __future__ import annotations
+
 from importlib import import_module
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pinocchio as pin
@@ -17,11 +20,14 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
+if TYPE_CHECKING:
+    from mujoco import MjData, MjModel
+
 DIRECTIONS = 128
 """Directions in which shapes are compared."""
 
 
-def check_shapes(text: str, base: str, model: Any, names: Names) -> None:
+def check_shapes(text: str, base: str, model: MjModel, names: Names) -> None:
     """Compare each shape with MuJoCo's geom: where it is, and how far it reaches.
 
     Both at the file's pose and at one without symmetries.
@@ -41,7 +47,7 @@ def check_shapes(text: str, base: str, model: Any, names: Names) -> None:
     ModelError
         Naming the geom that differs, or what a URDF cannot say.
     """
-    mujoco: Any = import_module("mujoco")
+    mujoco: ModuleType = import_module("mujoco")
     data = mujoco.MjData(model)
     try:
         system = System([Body("mjcf", text, base, "all")])
@@ -67,7 +73,12 @@ def check_shapes(text: str, base: str, model: Any, names: Names) -> None:
 
 
 def _difference(
-    placed: PlacedShape, kinematics: Kinematics, model: Any, data: Any, g: int, directions: Array
+    placed: PlacedShape,
+    kinematics: Kinematics,
+    model: MjModel,
+    data: MjData,
+    g: int,
+    directions: Array,
 ) -> float:
     """Largest difference of a shape from a geom, relative to 1 m or to where and how large it is.
 
@@ -86,7 +97,7 @@ def _difference(
 
 
 def _qpos(
-    system: System, model: Any, names: Names, delta_q: Array, kinematics: Kinematics
+    system: System, model: MjModel, names: Names, delta_q: Array, kinematics: Kinematics
 ) -> Array:
     """MuJoCo's position where the system is, delta_q from its start."""
     qpos = np.array(model.qpos0)

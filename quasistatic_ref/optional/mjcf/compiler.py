@@ -5,16 +5,20 @@ one line of JSON, and after it the model as MuJoCo's own binary file (MJB), in w
 the bits that were compiled; nothing that it prints is executed.
 """
 
+from __future__ import annotations
+
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +27,9 @@ from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS, MOST_SHAPES
 from quasistatic_ref.optional.mjcf.fence import Fence
 from quasistatic_ref.optional.mjcf.geoms import touching
 from quasistatic_ref.optional.mjcf.ignored import ignored_of_spec
+
+if TYPE_CHECKING:
+    from mujoco import MjModel
 
 MODULE = "quasistatic_ref.optional.mjcf.compiler"
 SECONDS = 8
@@ -39,7 +46,7 @@ LARGEST_MODEL = 256 * 2**20
 """Largest model as a binary file [bytes]."""
 
 
-def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
+def compiled(fence: Fence, simulated: bool = False) -> tuple[MjModel, list[str]]:
     """The model of a file as MuJoCo compiles it, and what of the file is ignored.
 
     Parameters
@@ -60,7 +67,7 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[Any, list[str]]:
     ModelError
         If MuJoCo refuses the file, or needs more time or memory than it is given.
     """
-    mujoco: Any = import_module("mujoco")
+    mujoco: ModuleType = import_module("mujoco")
     try:
         line, _, binary = printed(fence.path.resolve(), simulated).partition(b"\n")
     except subprocess.TimeoutExpired:
@@ -98,7 +105,7 @@ def answer(path: Path, *simulated: str) -> bytes:
 
     Or a line that says why there is none.
     """
-    mujoco: Any = import_module("mujoco")
+    mujoco: ModuleType = import_module("mujoco")
     # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
     mujoco.set_mju_user_warning(lambda text: None)
     try:
@@ -107,7 +114,7 @@ def answer(path: Path, *simulated: str) -> bytes:
         return _line({"refused": str(error)})
 
 
-def _compiled(mujoco: Any, path: Path, simulated: bool) -> bytes:
+def _compiled(mujoco: ModuleType, path: Path, simulated: bool) -> bytes:
     start = time.process_time()
     spec = mujoco.MjSpec.from_file(str(path))
     threads = spec.compiler.usethread
@@ -131,14 +138,14 @@ def _compiled(mujoco: Any, path: Path, simulated: bool) -> bytes:
     return _line(said) + binary.tobytes()
 
 
-def _line(said: dict[str, Any]) -> bytes:
+def _line(said: Mapping[str, object]) -> bytes:
     return json.dumps(said).encode() + b"\n"
 
 
 def _limit(seconds: int) -> None:
     """Limit this process, also where its parent has ended; macOS limits no memory."""
     with suppress(ImportError, OSError, ValueError):
-        resource: Any = import_module("resource")
+        resource: ModuleType = import_module("resource")
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))

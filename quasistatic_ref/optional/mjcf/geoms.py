@@ -1,10 +1,15 @@
 """MuJoCo's types of joints and geoms; which geoms touch, are drawn, and how far each reaches."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.step.arrays import Array, Mask
+
+if TYPE_CHECKING:
+    from mujoco import MjModel
 
 FREE, BALL, SLIDE, HINGE = range(4)
 """Types of joints, as MuJoCo numbers them."""
@@ -16,26 +21,26 @@ HIDDEN = 3
 """The first group of geoms that MuJoCo does not draw unless it is asked to."""
 
 
-def touching(model: Any) -> Mask:
+def touching(model: MjModel) -> Mask:
     """Whether each geom touches others and is not a plane or field of the world, shape (ngeom,)."""
     touches = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     endless = np.isin(model.geom_type, (0, 1)) & (model.geom_bodyid == 0)
     return np.asarray(touches & ~endless)
 
 
-def drawn(model: Any, g: int) -> bool:
+def drawn(model: MjModel, g: int) -> bool:
     """Whether MuJoCo draws a geom."""
     return bool(model.geom_group[g] < HIDDEN and rgba(model, g)[3])
 
 
-def rgba(model: Any, g: int) -> Array:
+def rgba(model: MjModel, g: int) -> Array:
     """A geom's colour as MuJoCo draws it, shape (4,): its own, where it has no material or one."""
     own = model.geom_rgba[g]
     material = model.geom_matid[g]
     return np.asarray(own if material < 0 or np.any(own != GREY) else model.mat_rgba[material])
 
 
-def geom_support(model: Any, g: int, directions: Array) -> Array:
+def geom_support(model: MjModel, g: int, directions: Array) -> Array:
     """How far a geom reaches along directions of its own frame, (N, 3) [-], shape (N,) [m].
 
     From MuJoCo's numbers alone, for the shapes that a URDF has a name for.

@@ -5,12 +5,17 @@ replicas and abbreviations, and with the attributes alone that are not as they a
 of that is not read here is ignored, and listed: an attribute that nobody thought of is listed, too.
 """
 
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
 
 from quasistatic_ref.optional.mjcf.names import Names
+
+if TYPE_CHECKING:
+    from mujoco import MjModel, MjSpec
 
 _PLACE = ("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler")
 _SECTIONS = (
@@ -45,7 +50,7 @@ _COMPILER = (
 """What MuJoCo's compiler is told of other things than bodies, joints, geoms and meshes."""
 
 
-def ignored_of_spec(spec: Any) -> list[str]:
+def ignored_of_spec(spec: MjSpec) -> list[str]:
     """What of a file is ignored: ``actuator.general[hip]``, ``joint[knee].armature``, ``option``.
 
     Parameters
@@ -82,7 +87,7 @@ def _unread(written: ElementTree.Element) -> list[str]:
     return found
 
 
-def ignored_of_free(model: Any, names: Names) -> list[str]:
+def ignored_of_free(model: MjModel, names: Names) -> list[str]:
     """What of the only body, which a free joint moves, the base of a scenario's body replaces."""
     found = []
     if np.any(model.body_pos[1]) or np.any(model.body_quat[1] != (1, 0, 0, 0)):

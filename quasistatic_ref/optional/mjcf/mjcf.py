@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
@@ -35,6 +35,9 @@ from quasistatic_ref.optional.mjcf.ignored import ignored_of_free
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.scenario.bodies import MJCF_URDF
 from quasistatic_ref.step.arrays import Array
+
+if TYPE_CHECKING:
+    from mujoco import MjModel
 
 
 def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path] = ()) -> str:
@@ -93,7 +96,7 @@ def mjcf_urdf(path: str | Path, base: str = "fixed", roots: Sequence[str | Path]
 
 def compiled_model(
     path: Path, roots: Sequence[str | Path], simulated: bool = False
-) -> tuple[Any, list[str]]:
+) -> tuple[MjModel, list[str]]:
     """What MuJoCo makes of a file, and what of it is ignored; the arguments of ``compiled``.
 
     Raises
@@ -108,7 +111,7 @@ def compiled_model(
         raise ModelError(problem) from None
 
 
-def _root(model: Any, names: Names, base: str) -> int:
+def _root(model: MjModel, names: Names, base: str) -> int:
     """The number of the body that is the root: 1 where it is free, else the world's, 0."""
     for i in range(model.neq):
         problem = "ties bodies or joints, which a URDF cannot"
@@ -132,7 +135,7 @@ def _root(model: Any, names: Names, base: str) -> int:
     return 1 if free else 0
 
 
-def _link(model: Any, names: Names, i: int, robot: Element, ignored: list[str]) -> None:
+def _link(model: MjModel, names: Names, i: int, robot: Element, ignored: list[str]) -> None:
     """Body i as a link: its inertia, the geoms that touch, and those that MuJoCo draws."""
     link = SubElement(robot, "link", name=names.bodies[i])
     if model.body_mass[i]:
@@ -149,7 +152,7 @@ def _link(model: Any, names: Names, i: int, robot: Element, ignored: list[str]) 
 
 
 def _geom(
-    model: Any, names: Names, g: int, touches: bool, link: Element, ignored: list[str]
+    model: MjModel, names: Names, g: int, touches: bool, link: Element, ignored: list[str]
 ) -> None:
     where = f"geom[{names.geoms[g]}]"
     shape = _shape(model, g)
@@ -170,7 +173,7 @@ def _geom(
         SubElement(material, "color", rgba=_text(rgba(model, g)))
 
 
-def _shape(model: Any, g: int) -> Element | None:
+def _shape(model: MjModel, g: int) -> Element | None:
     """A geom's shape in its own frame; None if a URDF has no name for it."""
     kind = GEOMS[model.geom_type[g]]
     size = model.geom_size[g]
@@ -196,7 +199,7 @@ def _placed(link: Element, tag: str, shape: Element, pose: pin.SE3) -> Element:
     return element
 
 
-def _joints(model: Any, names: Names, i: int, robot: Element, ignored: list[str]) -> None:
+def _joints(model: MjModel, names: Names, i: int, robot: Element, ignored: list[str]) -> None:
     """What moves body i in its parent: its joints one after the other, each at its anchor.
 
     A joint with an anchor p turns about it: T p R(q) p^-1. Between joints are links without mass.
@@ -236,7 +239,7 @@ def _joints(model: Any, names: Names, i: int, robot: Element, ignored: list[str]
         _origin(joint, pose * _shift(-at))
 
 
-def _measure(model: Any, j: int, joint: Element) -> None:
+def _measure(model: MjModel, j: int, joint: Element) -> None:
     """The axis of a hinge or slide, and its limits, counted from the file's pose."""
     SubElement(joint, "axis", xyz=_text(model.jnt_axis[j]))
     ref = model.qpos0[model.jnt_qposadr[j]]

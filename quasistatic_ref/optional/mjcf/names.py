@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mujoco import MjModel
 
 WORLD = "worldbody"
 """The link of what stands in the world."""
@@ -25,7 +28,7 @@ class Names:
     geoms: list[str]
 
     @classmethod
-    def of(cls, model: Any) -> Names:
+    def of(cls, model: MjModel) -> Names:
         """Those of a model of MuJoCo."""
         bodies = [model.body(i).name for i in range(1, model.nbody)]
         bodies.insert(0, _unlike(WORLD, bodies))

@@ -1,9 +1,9 @@
 """Through qpsolvers: the standard form handed over, without CVXPY."""
 
 import warnings
+from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 import qpsolvers
@@ -91,7 +91,9 @@ def _account(solution: qpsolvers.Solution) -> tuple[float | None, float | None]:
     """Seconds of solving and of setting up as the solver reports them, and not qpsolvers' clock."""
     extras = solution.extras or {}
     info = extras.get("info", extras)
-    field: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
+    field: Callable[[str], float | None] = (
+        info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
+    )
     package = type(info).__module__
     unit = 1e-3 if "setup_time" in extras else 1e-6 if "proxsuite" in package else 1.0  # SCS: ms
 
@@ -107,7 +109,7 @@ def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:
     extras = solution.extras or {}
     info = extras.get("info")
     status = extras.get("status", getattr(info, "status", None))
-    iterations: Any = extras.get("iter", getattr(info, "iter", None))
+    iterations = extras.get("iter", getattr(info, "iter", None))
     if "iterations" in extras:  # quadprog's: added, dropped
         iterations = np.ravel(extras["iterations"])[0]
     words = str(status) if status is not None else "found" if solution.found else "not found"

@@ -164,7 +164,7 @@ class SavedSteps(Observer):
         words = f"{problem}; it and later files, {len(files)} in all, are kept in {aside}"
         print(f"quasistatic-ref: {words}; their steps are taken again", file=sys.stderr)
 
-    def _check_settings(self, then: Any) -> None:
+    def _check_settings(self, then: object) -> None:
         if not isinstance(then, dict):
             raise InputError("must be a table", field="settings")
         for name in {**then, **self.settings}:
@@ -417,7 +417,7 @@ def steps_in(path: str | Path) -> int:
         raise InputError(f"{error.problem}; {remedy}", file=path) from None
 
 
-def fingerprint(value: Any) -> str:
+def fingerprint(value: object) -> str:
     """SHA-256 of what :func:`~quasistatic_ref.formats.plain.bits` compares, in hexadecimal.
 
     It is the same in every process: of arrays, texts and shapes, and not of mappings, whose order

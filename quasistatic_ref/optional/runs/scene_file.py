@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
@@ -319,7 +319,7 @@ def _check_same(simulator: Simulator, path: Path) -> None:
         raise InputError("would have another first step when it is loaded", file=path.name)
 
 
-def _first_step(simulator: Simulator) -> Any:
+def _first_step(simulator: Simulator) -> object:
     """The bits of the step from where the system starts, with the targets there, but for names."""
     system = simulator.system
     q = system.q_start
@@ -348,6 +348,6 @@ def _toml_value(value: Any) -> str:
     return repr(value) if isinstance(value, float) else json_text(value)
 
 
-def _numbers(values: Any) -> str:
+def _numbers(values: Iterable[float]) -> str:
     """Numbers in shortest decimal, spaces between them."""
     return " ".join(map(repr, values))

@@ -1,7 +1,6 @@
 """The page of each class of the core that shows itself."""
 
 from collections.abc import Callable
-from typing import Any
 
 from quasistatic_ref.formats.shown import HTML, TEXT
 from quasistatic_ref.optional.show.derivative_words import derivatives_page
@@ -25,7 +24,7 @@ from quasistatic_ref.optional.show.step_words import (
     step_page,
 )
 
-PAGES: dict[str, Callable[[Any], Page]] = {
+PAGES: dict[str, Callable[..., Page]] = {
     "Certificate": certificate_page,
     "Contacts": contacts_page,
     "Derivatives": derivatives_page,

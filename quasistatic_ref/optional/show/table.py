@@ -6,6 +6,7 @@ tidy ones for analysis: a row a step and coordinate, a row a step and contact.
 
 from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -93,7 +94,7 @@ def contact_frame(trajectory: "Trajectory") -> "DataFrame":
     """
     pandas = _pandas()
     pairs = [slot.rpartition("/")[0] for slot in _slots(trajectory)]
-    columns: dict[str, Any] = {
+    columns: dict[str, NDArray[Any]] = {
         "t [s]": np.repeat(trajectory["t"], len(pairs)),
         "pair": np.tile(pairs, trajectory.steps),
     }
@@ -196,7 +197,7 @@ def _slots(trajectory: "Trajectory") -> list[str]:
     return list(trajectory.header.get("slots", [f"contact/{i}" for i in range(count)]))
 
 
-def _pandas() -> Any:
+def _pandas() -> ModuleType:
     return needed_package("pandas", "pandas", "a table")
 
 

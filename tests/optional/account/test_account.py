@@ -8,8 +8,9 @@ import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.optional.account.spans import Span, spans
-from quasistatic_ref.optional.account.words import events, lines, tables
+from quasistatic_ref.optional.account.spans import spans
+from quasistatic_ref.optional.account.words import events, lines, slid, tables
+from quasistatic_ref.simulate.account import Span
 from quasistatic_ref.tolerances import BRIEF, CARRIES, NEAR, SLID, SLIDES, TOUCHES
 from tests.closeness import assert_relative
 from tests.tolerances import ROUNDING
@@ -148,7 +149,7 @@ def test_events_are_the_changes_of_the_pairs(run):
             if span.last < run.steps - 1:
                 assert any(e.t <= run["t"][span.last + 1] and " go of " in e.words for e in said)
         slides = [e for e in said if f"{pair.beta} slides" in e.words and pair.alpha in e.words]
-        assert len(slides) == sum(pair.slid(span) >= SLID for span in pair.sliding)
+        assert len(slides) == sum(slid(pair, span) >= SLID for span in pair.sliding)
 
 
 def test_a_full_record_gives_the_account_of_a_record_of_forces(run, request):

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Literal, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -46,6 +46,32 @@ RIGHT = "right"
 """The guess that is the working set of the stored optimum."""
 
 
+Field = Literal["delta_q", "net", "slack", "lam"]
+
+
+class Stored(TypedDict):
+    """The optimum of a step.
+
+    Parameters
+    ----------
+    delta_q, net, slack, lam : list of float
+        Of its ExactOptimum [as there].
+    working_set : list of int
+    rest : list of float
+        What rounding took from delta_q, rounded [m, rad].
+    degeneracy : list of list of bool
+        Of each group: whether its multipliers are unique and its displacement differentiable.
+    """
+
+    delta_q: list[float]
+    rest: list[float]
+    net: list[float]
+    slack: list[float]
+    lam: list[float]
+    working_set: list[int]
+    degeneracy: list[list[bool]]
+
+
 class Known(NamedTuple):
     """A step, and what is known of it.
 
@@ -53,9 +79,7 @@ class Known(NamedTuple):
     ----------
     step : StepData
     optimum : dict or None
-        Fields of its ExactOptimum; what rounding took from delta_q, rounded; and the degeneracy of
-        each group: whether its multipliers are unique and its displacement differentiable. None of
-        a step without solution.
+        None of a step without solution.
     outcomes : str
         What proofs on each of the :func:`guesses` come to, a letter for each group, as the library
         that made the file had it: ``o`` for an optimum, ``r`` for a guess that is refuted, ``-``
@@ -69,7 +93,7 @@ class Known(NamedTuple):
     """
 
     step: StepData
-    optimum: dict[str, Any] | None
+    optimum: Stored | None
     outcomes: str
     digits: list[int]
     left: list[int] | None
@@ -90,7 +114,7 @@ def known_steps() -> list[Known]:
     ]
 
 
-def guesses(step: StepData, optimum: dict[str, Any] | None) -> dict[str, Array]:
+def guesses(step: StepData, optimum: Stored | None) -> dict[str, Array]:
     """Multipliers of answers that guess some rows, each of shape (m,): only the first is right.
 
     A working set has no row to spare: without one of its rows, its minimiser is another. Nor is the
@@ -233,15 +257,17 @@ def wrong(known: Known) -> str | None:
             return f"a guess {one.guess} takes {one.digits} digits in place of {known.digits[i]}"
         if one.code == REFUTED and not one.changed:
             return "the right guess is refuted"
-        if one.whole is not None and not same(one.whole, known.optimum, one.guess == RIGHT):
-            return f"the optimum that a guess {one.guess} leads to is wrong"
-        if one.whole is not None and not enclosed(one.rest, known.optimum or {}):
-            return "what rounding took from a displacement is wrong"
+        optimum = known.optimum
+        if one.whole is not None:
+            if optimum is None or not same(one.whole, optimum, one.guess == RIGHT):
+                return f"the optimum that a guess {one.guess} leads to is wrong"
+            if not enclosed(one.rest, optimum):
+                return "what rounding took from a displacement is wrong"
         if one.found is None:
             continue
-        if one.changed:
+        if one.changed or optimum is None:
             return f"a guess {one.guess} is proved"
-        unlike = different(one, known.optimum or {})
+        unlike = different(one, optimum)
         if unlike:
             return f"{unlike} of an optimum is wrong"
     return wrong_forces(known, Forces(known.step)) if knows_forces(known) else None
@@ -267,15 +293,16 @@ def wrong_forces(known: Known, forces: Forces) -> str | None:
     return None if left or wrench.tolist() == known.forces else "a force is wrong"
 
 
-def different(one: Tried, optimum: dict[str, Any]) -> str | None:
+def different(one: Tried, optimum: Stored) -> str | None:
     """The first field of an optimum, proved on the right guess, that is not the stored one's."""
     found = one.found
     assert found is not None
     rows = one.group.rows
     coordinates = one.group.coordinates
-    for name, at in (
-        ("delta_q", coordinates), ("net", coordinates), ("lam", rows), ("slack", rows),
-    ):  # fmt: skip
+    places: dict[Field, Indices] = {
+        "delta_q": coordinates, "net": coordinates, "lam": rows, "slack": rows,
+    }  # fmt: skip
+    for name, at in places.items():
         right = np.array(optimum[name], dtype=np.float64)[at]
         if getattr(found, name).tobytes() != right.tobytes():
             return name
@@ -289,16 +316,16 @@ def different(one: Tried, optimum: dict[str, Any]) -> str | None:
     return None if degeneracy == optimum["degeneracy"][one.number] else "degeneracy"
 
 
-def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) -> bool:
+def same(found: ExactOptimum, optimum: Stored, on_right: bool) -> bool:
     """Whether the optimum of a step is the stored one: of multipliers only on the right guess."""
-    if optimum is None:
-        return False
-    degeneracy: list[list[bool]] = optimum["degeneracy"]
+    degeneracy = optimum["degeneracy"]
     slack = found.slack[found.slack > 0].tolist()
     least = min(slack, default=None) if found.differentiable else 0.0
     claims = [found.multipliers_unique, found.differentiable, found.smallest_inactive_slack]
     lam = found.lam[found.lam > 0].tolist()
-    names = ("delta_q", "net", "slack", "lam") if on_right else ("delta_q", "net", "slack")
+    names: list[Field] = ["delta_q", "net", "slack"]
+    if on_right:
+        names.append("lam")
     return (
         all(
             getattr(found, name).tobytes() == np.array(optimum[name], dtype=np.float64).tobytes()
@@ -309,7 +336,7 @@ def same(found: ExactOptimum, optimum: dict[str, Any] | None, on_right: bool) ->
     )
 
 
-def enclosed(rest: Array, optimum: dict[str, Any]) -> bool:
+def enclosed(rest: Array, optimum: Stored) -> bool:
     """Whether the stored rest of delta_q lies in the bounds of another, which are narrow.
 
     Parameters
@@ -317,7 +344,6 @@ def enclosed(rest: Array, optimum: dict[str, Any]) -> bool:
     rest : ndarray, shape (2, n_v)
         What rounding took from delta_q, and a bound of more [m, rad].
     optimum : dict
-        Fields of Known.
     """
     right = np.array(optimum["rest"], dtype=np.float64)
     found, bound = rest
@@ -341,11 +367,14 @@ def stale(known: Known) -> str | None:
     in_both_units = [(group, DenseStepInBothUnits(own)) for group, own in group_steps(step)]
     divided = [(group, own.si_step, own.hessian) for group, own in in_both_units]
     both = DenseStepInBothUnits(step)
-    lam = guesses(step, known.optimum).get(RIGHT)
-    contacts = step.contacts
-    if lam is None or Prover(both, divided).optimum(both, lam, np.zeros(step.m)) is None:
+    optimum = known.optimum
+    if optimum is None:
         return None
-    unique = all(each for each, _ in (known.optimum or {})["degeneracy"])
+    lam = guesses(step, optimum)[RIGHT]
+    contacts = step.contacts
+    if Prover(both, divided).optimum(both, lam, np.zeros(step.m)) is None:
+        return None
+    unique = all(each for each, _ in optimum["degeneracy"])
     prover = Prover(both, divided)
     pushed = np.linspace(1.0, 2.0, step.n_v)
     others = {
@@ -370,7 +399,7 @@ def stale(known: Known) -> str | None:
         one, two = (each.optimum(in_units, lam, np.zeros(step.m)) for each in provers)
         found = prover.optimum(both, lam, np.zeros(step.m))
         as_new = two is None or (one is not None and numbers(one) == numbers(two))
-        if not as_new or found is None or not same(found, known.optimum, unique):
+        if not as_new or found is None or not same(found, optimum, unique):
             return f"{words} of another step is taken for its own"
     if not knows_forces(known):
         return None

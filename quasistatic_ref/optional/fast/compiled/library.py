@@ -183,9 +183,9 @@ def key(command: list[str]) -> str:
     return hashlib.sha256(text + made_by.encode()).hexdigest()
 
 
-def compiling(command: Sequence[str], out: Path, source: Path = SOURCE) -> list[str]:
-    """The command that makes a library of the C files of a folder."""
-    files = [str(file) for file in sorted(source.glob("*.c"))]
+def compiling(command: Sequence[str], out: Path) -> list[str]:
+    """The command that makes a library of the C files."""
+    files = [str(file) for file in sorted(SOURCE.glob("*.c"))]
     return [*command, *FLAGS, "-o", str(out), *files, "-lm"]
 
 

@@ -1,13 +1,15 @@
 """The figure of an account: what touches and slides, loads, slips, and motions, over time."""
 
 from io import BytesIO
-from typing import Any, Final
+from typing import Final
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.optional.show.figures.style import PAGE, figure_style, panels
+from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.step.data import Array
 
 MILLI: Final = 1e3
@@ -22,7 +24,7 @@ HEIGHTS: Final = (("near", 0.2), ("contact", 0.5), ("sliding", 0.8))
 WORDS: Final = {"near": "near", "contact": "touches", "sliding": "slides"}
 
 
-def page(account: Any) -> bytes:
+def page(account: Account) -> bytes:
     """The figure as PNG, as wide as a page of text.
 
     Parameters
@@ -37,7 +39,7 @@ def page(account: Any) -> bytes:
     return file.getvalue()
 
 
-def figure(account: Any) -> Figure:
+def figure(account: Account) -> Figure:
     """Bars of contacts; normal forces and slips of pairs; motions of bodies; errors of joints.
 
     Parameters
@@ -76,7 +78,7 @@ def figure(account: Any) -> Figure:
     return drawn
 
 
-def _contacts(axes: Any, account: Any) -> None:
+def _contacts(axes: Axes, account: Account) -> None:
     """A row a pair: a thin bar while it is near, a thicker one while it touches or slides."""
     t = account.t
     for row, pair in enumerate(account.pairs):

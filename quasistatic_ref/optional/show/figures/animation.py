@@ -75,7 +75,7 @@ def animate(
         "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
         "metres_per_newton": force_scale(moments, view, half),
     } | options  # fmt: skip
-    writer: Any = WRITERS[path.suffix](fps=speed * shown)
+    writer = WRITERS[path.suffix](fps=speed * shown)
     pace = "" if speed == 1 else f", speed {speed:g}"
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
         figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")

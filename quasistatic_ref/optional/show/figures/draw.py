@@ -1,9 +1,11 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
 from collections.abc import Collection, Sequence
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -40,7 +42,7 @@ FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
 
 
 def draw_scene(
-    axes: Any,
+    axes: Axes,
     of: Moment,
     *,
     view: str | Camera = "xz",
@@ -156,9 +158,9 @@ def round_scale(scale: float) -> float:
     return float(power * max(m for m in (1, 2, 5) if m <= scale / power + 1e-9))
 
 
-def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None:
+def _legend(axes: Axes, of: Moment, parts: Collection[str], scale: float) -> None:
     """What is what, above the axes, in as few lines as there is room for."""
-    handles: list[Any] = []
+    handles: list[Artist] = []
     if "forces" in parts and scale > 0:
         label = f"1 N is {MILLI * scale:g} mm"
         handles.append(Line2D([], [], color=FORCE, marker=">", markersize=scaled(4), label=label))
@@ -171,7 +173,7 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
     legend_above(axes, handles)
 
 
-def legend_above(axes: Any, handles: Sequence[Any], title: str = "") -> None:
+def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None:
     """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
 
     Parameters

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.optional.show.figures.style import figure_style, panels
@@ -45,7 +46,7 @@ def opinion_figure(opinion: Any) -> Figure:
 
 
 def _bars(
-    axes: Any, names: Sequence[str] | None, theirs: Sequence[float], exact: Sequence[float],
+    axes: Axes, names: Sequence[str] | None, theirs: Sequence[float], exact: Sequence[float],
     engine: str,
 ) -> None:  # fmt: skip
     """Two bars for each name, the first at the top."""

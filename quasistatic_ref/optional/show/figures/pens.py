@@ -4,6 +4,7 @@ from contextlib import suppress
 from typing import Any, Final
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
@@ -42,7 +43,7 @@ class Pen:
     camera : Camera
     """
 
-    def __init__(self, axes: Any, camera: Camera) -> None:
+    def __init__(self, axes: Axes, camera: Camera) -> None:
         self.axes = axes
         self.camera = camera
 
@@ -60,8 +61,10 @@ class Pen:
 
     def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
         """A line through points [m]."""
-        style = {"color": colour, "linestyle": dashes, "linewidth": scaled(width)}
-        self.axes.plot(*self.seen(points).T, **style, zorder=7, gid=DRAWING)
+        self.axes.plot(
+            *self.seen(points).T, color=colour, linestyle=dashes, linewidth=scaled(width),
+            zorder=7, gid=DRAWING,
+        )  # fmt: skip
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
         """From the farthest to the nearest, half-spaces first.
@@ -102,16 +105,19 @@ class Pen:
             self._fill(outline, "none", "black", linewidth=0.7, zorder=zorder)
             return
         x, y, depth = seen[seen[:, 2].argsort()].T
-        style = {"c": by_depth(colour, depth), "linewidths": 0, "zorder": zorder}
-        self.axes.scatter(MILLI * x, MILLI * y, s=DOT * scaled(1) ** 2, **style)
+        self.axes.scatter(
+            MILLI * x, MILLI * y, s=DOT * scaled(1) ** 2, c=by_depth(colour, depth), linewidths=0,
+            zorder=zorder,
+        )  # fmt: skip
 
     def _floor(self, corners: Array) -> None:
         outline = self.seen(corners)
         flat = np.linalg.svd(outline - outline.mean(axis=0))[1][-1] < 1e-6 * np.ptp(outline)
         if flat:  # seen from its side
             ends = outline[[np.lexsort(outline.T)[0], np.lexsort(outline.T)[-1]]]
-            style = {"color": "0.5", "linewidth": 1.4, "linestyle": "-"}
-            self.axes.plot(*ends.T, **style, zorder=0.5, gid=DRAWING)
+            self.axes.plot(
+                *ends.T, color="0.5", linewidth=1.4, linestyle="-", zorder=0.5, gid=DRAWING
+            )
         else:
             self._fill(outline, FLOOR, "0.6", zorder=0)
 

@@ -10,12 +10,13 @@ from typing import Any, Final
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.quoting import suggestion
 
+Place = Axes | SubFigure | Figure
 PAGE: Final = 6.3
 """Width of the text on a page [in]: A4 or letter with the usual margins."""
 
@@ -99,7 +100,7 @@ def panels(
     columns: int = 1,
     *,
     rows: int = 1,
-    within: Any = None,
+    within: Place | None = None,
     narrow: float = NARROW,
     **options: Any,
 ) -> tuple[Figure, list[Any]]:
@@ -138,15 +139,15 @@ def panels(
         size = sized(width, height)
         if size[0] < columns * narrow * em:
             rows, columns, size = count, 1, (size[0], size[1] * columns)
-        within = plt.figure(figsize=size, layout="constrained")
+        place: Figure | SubFigure = plt.figure(figsize=size, layout="constrained")
     else:
-        within = _place(within)
+        place = _place(within)
         if narrow:
-            rows, columns = _arrangement(count, *within.bbox.size)
-    grid = list(within.subplots(rows, columns, squeeze=False, **options).flat)
+            rows, columns = _arrangement(count, *place.bbox.size)
+    grid = list(place.subplots(rows, columns, squeeze=False, **options).flat)
     for spare in grid[count:]:
         spare.remove()
-    return _whole(within), grid[:count]
+    return _whole(place), grid[:count]
 
 
 def _arrangement(count: int, across: float, up: float) -> tuple[int, int]:
@@ -155,12 +156,13 @@ def _arrangement(count: int, across: float, up: float) -> tuple[int, int]:
     return max(choices, key=lambda c: min(across / c[1], CROWDED * up / c[0]))
 
 
-def _whole(within: Any) -> Figure:
-    whole: Figure = within.get_figure(root=True)
+def _whole(within: Place) -> Figure:
+    whole = within.get_figure(root=True)
+    assert isinstance(whole, Figure)
     return whole
 
 
-def _place(within: Any) -> Any:
+def _place(within: Place) -> Figure | SubFigure:
     """A figure or part of one to draw into; that of axes is theirs, which go."""
     if not isinstance(within, Axes):
         return within
@@ -168,7 +170,8 @@ def _place(within: Any) -> Any:
     if spec is None:
         problem = "are in no grid: pass axes of plt.subplots or a SubFigure"
         raise InputError(problem, field="ax")
-    parent: Any = within.get_figure(root=False)
+    parent = within.get_figure(root=False)
+    assert parent is not None
     within.remove()
     return parent.add_subfigure(spec)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -21,6 +21,7 @@ from quasistatic_ref.model.urdf.urdf_file import (
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
+from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.step.data import Array
 
@@ -73,7 +74,9 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
             yield Visual(number, corners @ R.T + t, colour)
 
 
-def _corners(shape: Any, folder: Path, package_dirs: Sequence[Any]) -> Array:
+def _corners(
+    shape: Shape | FileMesh | InlineMesh, folder: Path, package_dirs: Sequence[str | Path]
+) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if isinstance(shape, InlineMesh):
         return np.asarray(shape.vertices[shape.triangles.ravel()])
