@@ -79,8 +79,8 @@ def _one_screen(
             words.append(f"{one.label} looks as if it {cheat}.")
     times = comparison.busy or comparison.noise.words
     again = (
-        "These lines make the numbers again, for every interface to a solver, as the next table "
-        "has them with settings and options: `table` and `claims`. They read the store that "
+        "These lines make the numbers again, but for the bootstraps, for every interface to a "
+        "solver, as the next table has them: `table` and `claims`. They read the store that "
         f"`quasistatic-ref study pack {store} --out .` writes."
     )
     table = tables.headline(comparison.fastest(), comparison)

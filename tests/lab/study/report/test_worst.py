@@ -60,7 +60,9 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
         question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
     labels = {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables}
     assert labels == {"qpsolvers:daqp", "callable:mine"}
-    for _, where, _, ((problem, _, _, _, command, *_), *_) in tables:
+    shown = [(where, line[0], line[4]) for _, where, _, body in tables for line in body]
+    assert len(shown) == 2 * 5
+    for where, problem, command in shown:
         words = shlex.split(command.strip("`"))
         assert words[:3] == ["quasistatic-ref", "study", "ask"]
         status = main([*words[1:], "--json"])
