@@ -14,8 +14,7 @@ committed or random case. Each of these is
 
 Half of the mutants, by a hash of their names, is kept apart: no rule is written while looking at
 them, and the page counts them only. The records have what is known of each, and a second run goes
-on from there; ``--each 0`` prints the page of what they hold. ``--part 0 --parts 2`` tries every
-other change, ``--cases N`` sends fewer.
+on from there; ``--each 0`` prints the page of what they hold, ``--cases N`` sends fewer.
 
 Exit status 1 if a right port is found wrong, or a mutant not at all.
 """
@@ -30,7 +29,7 @@ import sys
 import tempfile
 import tomllib
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cache
 from pathlib import Path
@@ -189,12 +188,14 @@ class Port:
         """Those that are of its scope."""
         return [q for q in questions if self.scope.holds(q.layer, q.case, q.record)]
 
-    def mutants(self, most: int, part: int, parts: int) -> Iterator[tuple[Change, Program | None]]:
-        """Changes with their programs; None for one that does not compile."""
+    def mutants(
+        self, most: int, wanted: Callable[[Change], bool]
+    ) -> Iterator[tuple[Change, Program | None]]:
+        """Changes that are wanted, with their programs; None for one that does not compile."""
         if self.name == "cpp":
-            yield from list(self._switched_programs(most))[part::parts]
+            yield from (one for one in list(self._switched_programs(most)) if wanted(one[0]))
             return
-        for change in list(changes(PORTS / self.name))[part::parts]:
+        for change in filter(wanted, changes(PORTS / self.name)):
             lines = texts(self.name)[change.file].splitlines(keepends=True)
             lines[change.line] = change.new
             path = self._work / "mutant"
@@ -355,9 +356,14 @@ def trial_of(port: Port, change: Change, program: Program | None, cases: int = C
     return trial
 
 
+def part_of(name: str, parts: int) -> int:
+    """Which part of the mutants one is of, by a hash of its name: from 0 to ``parts`` - 1."""
+    return hashlib.sha256(name.encode()).digest()[0] % parts
+
+
 def kept_apart(name: str) -> bool:
     """Whether a mutant is of the half that no rule is written for."""
-    return hashlib.sha256(name.encode()).digest()[0] % 2 == 1
+    return part_of(name, 2) == 1
 
 
 HEAD = """# Mistakes in programs that the checker's rules were not written with
@@ -430,8 +436,7 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
 
 def main() -> int:
     """Try mutants, and print the page."""
-    numbers = {"each": EACH, "cases": CASES, "part": 0, "parts": 1}
-    options = script_options(__doc__, ("go", "cpp"), out=Path, records=Path, **numbers)
+    options = script_options(__doc__, ("go", "cpp"), out=Path, records=Path, each=EACH, cases=CASES)
     done: dict[str, Json] = {}
     if options.records and options.records.exists():
         lines = options.records.read_text("utf-8").splitlines()
@@ -441,7 +446,7 @@ def main() -> int:
         for name in (options.names or ("go", "cpp")) if options.each else ():
             port = Port(name, Path(folder))
             kept = 0
-            for change, program in port.mutants(2 * options.each, options.part, options.parts):
+            for change, program in port.mutants(2 * options.each, lambda change: True):
                 if change.name not in done:
                     done[change.name] = asdict(trial_of(port, change, program, options.cases))
                     if options.records:

@@ -58,6 +58,8 @@ def to_file(name: str, ending: str = "md", command: str = "") -> Result:
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("port_mutants"),
+    to_file("port_runs"),
+    to_file("served_steps"),
     to_file("challenges"),
     to_file("vector_features", "csv"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),

@@ -1,7 +1,7 @@
 """Which features of the format the cases of a layer have, and how often."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -47,8 +47,11 @@ def features(case: Json, output: Json) -> set[str]:
     return found | {f"kink {reason['kind']}" for reason in output.get("reasons", [])}
 
 
-def _of_bodies(bodies: Iterable[Json]) -> Iterator[str]:
+def _of_bodies(bodies: Sequence[Json]) -> Iterator[str]:
+    shifted = {body["name"] for body in bodies if body.get("mimic", {}).get("offset")}
     for body in bodies:
+        if body["parent"] in shifted:
+            yield f"joint {body['joint']} of a mimic with an offset"
         where = "of the world" if body["parent"] is None else "of a body"
         yield f"joint {body['joint']} {where}"
         if body.get("actuated") and body["joint"] in ("floating", "planar"):

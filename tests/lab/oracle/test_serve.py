@@ -17,6 +17,7 @@ from quasistatic_ref.lab.oracle.pipes import ERROR, HEAD, lines_served, numbers_
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
 from quasistatic_ref.optional.fast.compiled.library import compiler
 from tests.lab.vectors.committed_cases import ROOT
+from validation.make.served_steps import LIMIT
 
 CLIENTS = ROOT / "validation" / "programs" / "clients"
 BALL = [0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0]
@@ -150,3 +151,11 @@ def test_a_client_in_c(tmp_path):
     said = client(str(program), "sphere_spin")
     torque = np.array([0, 0, 0, 0, 0, 0.02])
     assert [float(line) for line in said.split()] == steps("sphere_spin", torque)
+
+
+def test_a_step_over_the_pipe_cost_at_most_three_times_the_step_when_it_was_measured():
+    page = (ROOT / "validation" / "results" / "served_steps.md").read_text("utf-8")
+    rows = [row.split(" | ")[2:] for row in page.splitlines() if row.startswith(("| s", "| b"))]
+    ratios = [float(cell.strip(" |")) for row in rows for cell in row if "over" not in cell]
+    assert len(ratios) >= 8
+    assert max(ratios) <= LIMIT

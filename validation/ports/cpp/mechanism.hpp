@@ -135,10 +135,6 @@ struct Mechanism {
         bool planar = joint == "planar";
         for (int k = 0; k < (planar ? 2 : 3); k++) found[j + k] = v[k];
         for (int k = planar ? 2 : 0; k < 3; k++) found[planar ? j + k : j + 3 + k] = w[k];
-        if (planar) {  // the angle between two, which loses no digits where it is small
-          double c = q[i + 2], s = q[i + 3], c_to = target[i + 2], s_to = target[i + 3];
-          found[j + 2] = std::atan2(c * s_to - s * c_to, c * c_to + s * s_to);
-        }
       }
     }
     return found;

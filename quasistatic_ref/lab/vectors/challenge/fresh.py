@@ -4,6 +4,7 @@ Easy is one contact, few bodies and numbers of one digit; then come cases as the
 then those that are degenerate, badly scaled, or without solution.
 """
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -21,6 +22,7 @@ from quasistatic_ref.lab.vectors.challenge.random_derivatives import (
 )
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     few_digits,
+    random_follower,
     random_pose,
     random_q,
     random_step,
@@ -28,14 +30,12 @@ from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
 )
 from quasistatic_ref.lab.vectors.challenge.random_scenes import random_scene
 from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
-from quasistatic_ref.lab.vectors.challenge.terms import terms
 from quasistatic_ref.lab.vectors.challenge.valid import is_valid
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
-from quasistatic_ref.lab.vectors.layers import step as step_layer
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.lab.vectors.own.step import with_compliance
-from quasistatic_ref.lab.vectors.tables import follower, free_body, link
+from quasistatic_ref.lab.vectors.tables import free_body, link
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -107,8 +107,7 @@ def record_of(name: str, case: Json) -> Json | None:
     if not is_valid(case):
         return None
     try:
-        step = name == "step"
-        found = step_layer.expected(case, terms) if step else layer(name).expected(case)
+        found = layer(name).expected(case)
     except (QuasistaticError, ArithmeticError, ValueError, IndexError, KeyError):
         return None
     record = found.json()
@@ -232,13 +231,10 @@ def _tree(rng: Rng, level: int) -> Json:
     if level == EASY:
         joint = str(rng.choice(kinds))
         return {"bodies": [link("body", None, joint, actuated=bool(rng.integers(2)))]}
-    tree = random_tree(rng, int(rng.integers(1, 6)), str(rng.choice(["fixed", *kinds[3:]])))
+    tree = random_tree(rng, int(rng.integers(1, 6)), str(rng.choice(["fixed", *kinds])))
     if rng.integers(3) == 0:
-        joint = str(rng.choice(["revolute", "prismatic"]))
-        tree["bodies"] += follower(
-            joint, tree["bodies"][-1]["name"], actuated=bool(rng.integers(2))
-        )
-    if rng.integers(3) == 0:
+        tree["bodies"] += random_follower(rng, tree["bodies"][-1]["name"])
+    elif rng.integers(3) == 0:
         tree["bodies"].append(free_body("other", actuated=bool(rng.integers(2))))
     return tree
 
@@ -265,11 +261,19 @@ def _integrate(rng: Rng, level: int) -> Json:
 
 
 def _selection(rng: Rng, level: int) -> Json:
-    size = int(rng.integers(2, (6, 20, 60)[level]))
+    most = (6, 20, 60)[level]
+    sizes = [int(rng.integers(2, most))]
     k = int(rng.integers(1, 6))
     unit = (0.25, 1e-3, 2.0**-10)[level]
     draw = rng.standard_normal if level == PLAIN else lambda n: rng.integers(-3, 4, n)
-    return {"phi": [(unit * draw(size)).tolist()], "k": k}
+    if level != EASY and rng.integers(3) == 0:
+        sizes += [int(size) for size in rng.permutation([0, 1, int(rng.integers(2, most))])]
+    phi = [(unit * draw(size)).tolist() for size in sizes]
+    if level == EASY or min(sizes) == 0 or rng.integers(2):
+        return {"phi": phi, "k": k}
+    tilts = [rng.choice([0.0, 0.2, 0.3], size - 1).tolist() for size in sizes]  # [rad]
+    normals = [[[math.sin(t), 0.0, math.cos(t)] for t in (*one, 0.0)] for one in tilts]
+    return {"phi": phi, "normals": normals, "k": k}
 
 
 def _shape(rng: Rng, kind: str) -> Json:

@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.tables import at, link
+from quasistatic_ref.lab.vectors.tables import at, follower, link
 
 KINDS = ("revolute", "prismatic", "continuous", "fixed")
 
@@ -66,6 +66,17 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
             body["placement"] = random_pose(rng, 0.5)
         bodies.append(body | (mass(rng) if masses else {}))
     return {"bodies": bodies}
+
+
+def random_follower(rng: Rng, parent: str) -> list[Json]:
+    """A joint, one that follows it, and mostly a body that turns on that."""
+    joint = str(rng.choice(["revolute", "prismatic"]))
+    bodies = follower(joint, parent, actuated=bool(rng.integers(2)))
+    if rng.integers(3):
+        tip = {"axis": few_digits(rng.uniform(-1, 1, 3) + 0.01), "actuated": bool(rng.integers(2))}
+        kind = str(rng.choice(["revolute", "continuous"]))
+        bodies.append(link("tip", "finger", kind, placement=random_pose(rng, 0.5), **tip))
+    return bodies
 
 
 def random_q(rng: Rng, mechanism: Json) -> list[float]:

@@ -9,17 +9,19 @@ import numpy as np
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
+    KINDS,
     few_digits,
     mass,
+    random_follower,
     random_q,
     random_quaternion,
     random_tree,
 )
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.step import shape_pose
-from quasistatic_ref.lab.vectors.tables import GRAVITY, follower, free_body, link, on, scene
+from quasistatic_ref.lab.vectors.tables import GRAVITY, free_body, link, on, scene
 
-CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "frictionless")
+CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "facets-8", "frictionless")
 GAPS = (0.0005, 0.0, -0.0005, 0.01)
 """[m]"""
 
@@ -32,13 +34,11 @@ def random_scene(rng: Rng, hard: bool) -> Json:
             tree = [{**free_body("body0"), **mass(rng)}]
         case 1:
             stand = link("stand", None, "fixed")
-            joint = str(rng.choice(["prismatic", "revolute"]))
-            actuated = bool(rng.integers(2))
-            tree = [stand, *(b | mass(rng) for b in follower(joint, "stand", actuated=actuated))]
+            tree = [stand, *(b | mass(rng) for b in random_follower(rng, "stand"))]
         case 2:
             return _many_points(rng)
         case _:
-            base = str(rng.choice(["fixed", "floating", "planar"]))
+            base = str(rng.choice(["fixed", "floating", "planar", *KINDS[:3]]))
             count = int(rng.integers(2, 5 if hard else 4))
             tree = random_tree(rng, count, base, masses=True)["bodies"]
             tree[-1]["joint"] = "revolute" if tree[-1]["joint"] == "fixed" else tree[-1]["joint"]
@@ -84,6 +84,7 @@ def _stiffness(rng: Rng, n_a: int) -> Json:
 
 def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
     friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
+    friction = [0.0, 0.0] if rng.integers(10) == 0 else friction
     rows = int(rng.choice([4, 6, 6]))
     pair = {"name": name, "alpha": alpha, "beta": beta, "mu_v": friction[0], "rows": rows, "k": k}
     return {**pair, "mu_omega": friction[1]}
@@ -135,7 +136,8 @@ def _many_points(rng: Rng) -> Json:
     q = random_q(rng, {"bodies": [body]})
     shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
     if rng.integers(2):
-        points = [few_digits(point) for point in rng.uniform(-0.1, 0.1, (12, 3))]
+        count = int(rng.choice([2, 12]))  # also fewer than are asked for
+        points = [few_digits(point) for point in rng.uniform(-0.1, 0.1, (count, 3))]
         shape = {"kind": "cloud", "points": points}
     shapes = {"body": on("body0", shape), "floor": on(None, _plane(rng, q[:3], 0.08))}
     pairs = [_pair(rng, "floor", "floor", "body", int(rng.integers(2, 5)))]

@@ -27,6 +27,8 @@ def is_valid(case: Json) -> bool:
             return False
     if not all(_frame(contact) for contact in case.get("contacts", [])):
         return False
+    if "normals" in case and not _has_normals(case):
+        return False
     return all(_positive(case[key]) for key in ("H", "K_q") if case.get(key))
 
 
@@ -37,6 +39,14 @@ def _positive(matrix: Json) -> bool:
         return False
     scale = 1 / np.sqrt(np.diag(M))
     return bool(np.linalg.eigvalsh(scale[:, None] * M * scale).min() > 1e-6)
+
+
+def _has_normals(case: Json) -> bool:
+    """Whether each distance of a selection has a unit normal, and no group is empty."""
+    if not all(case["phi"]) or [*map(len, case["phi"])] != [*map(len, case["normals"])]:
+        return False
+    lengths = [np.linalg.norm(n, axis=1) for n in case["normals"]]
+    return bool(np.abs(np.concatenate([*lengths, [1.0]]) - 1).max() < SQUARE)
 
 
 def _frame(contact: Json) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from quasistatic_ref.lab.program.candidates import selection
 from quasistatic_ref.lab.vectors.check.compare import CONTACT, differences, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import (
     multipliers_problem,
@@ -63,22 +64,31 @@ def _far(failing: Failing) -> bool:
 def other_choice(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
     """Other indices: right only to fewer digits, among distances that these do not tell apart."""
     unit = record.get("rounding", 0.0)
-    for phi, chosen, wanted in zip(
-        case["phi"], answer["indices"], record["output"]["indices"], strict=True
+    every = selection({**case, "k": 2 * max(map(len, case["phi"]))})["indices"]
+    for g, (phi, chosen, wanted) in enumerate(
+        zip(case["phi"], answer["indices"], record["output"]["indices"], strict=True)
     ):
         last = max([len(phi) - 1, *wanted])  # places after those of phi fill the number
-        if not all(isinstance(i, int) and 0 <= i <= last for i in chosen):
-            return failure("indices", f"indices must be whole numbers from 0 to {last}")
+        for j, i in enumerate(chosen):
+            if problem := _index_problem(i, last, every[g], chosen[:j]):
+                return failure("indices", f"indices[{g}][{j}] is {i}: {problem}")
         allowed = unit * max(map(abs, phi), default=0.0)
         pairs = [(i, j) for i, j in zip(chosen, wanted, strict=True) if i != j]
         known = all(max(pair) < len(phi) for pair in pairs)
-        if len(set(chosen)) < len(chosen) or not known:
-            return plain_failure(failing)
-        if any(abs(phi[i] - phi[j]) > allowed for i, j in pairs):
+        if not known or any(abs(phi[i] - phi[j]) > allowed for i, j in pairs):
             return plain_failure(failing)
     if not unit:
         return failure("indices", "indices: equal distances stand in the order of their places")
     return acceptance("another choice among distances that are equal to so many digits")
+
+
+def _index_problem(i: Json, last: int, every: list[int], before: list[Json]) -> str:
+    """Why an index is none of those that may be chosen; empty if it is."""
+    if not isinstance(i, int) or not 0 <= i <= last:
+        return f"indices must be whole numbers from 0 to {last}"
+    if i in before:
+        return "it stands there twice"
+    return "" if i in every else "its normal is more than 0.25 rad from the last one's"
 
 
 def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:

@@ -6,7 +6,6 @@ Contacts of a pair stand in the order of their index. Gravity acts on the un-act
 that of the others is compensated.
 """
 
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -14,7 +13,6 @@ import numpy as np
 
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.candidates import tangents
-from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen_points
@@ -23,6 +21,7 @@ from quasistatic_ref.lab.vectors.exact.conditioning import Errors
 from quasistatic_ref.lab.vectors.exact.entered import exact, exact_case
 from quasistatic_ref.lab.vectors.exact.precision import Real, rounded_results, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
+from quasistatic_ref.lab.vectors.exact.terms import terms
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer, qp
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
@@ -37,16 +36,13 @@ ROUNDINGS = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 
-def expected(
-    case_input: Json, terms: Callable[[Json], tuple[float, float]] | None = None
-) -> Expected:
-    """All that one step comes to, and q after it; `terms` says how large what makes H and g is."""
+def expected(case_input: Json) -> Expected:
+    """All that one step comes to, and q after it."""
     contacts, found = contacts_of(case_input)
     contacts, jacobian, rows = with_rows(case_input, contacts)
-    H, g, g_size = objective(case_input)
-    H_size = max([abs(x) for row in H for x in row], default=0.0)
-    if terms:
-        H_size, g_size = map(max, (H_size, g_size), terms(case_input))
+    H, g = objective(case_input)
+    H_size, g_size = terms(case_input)
+    H_size = max([H_size, *(abs(x) for row in H for x in row)])
     qp_case = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
     solved = qp.expected(qp_case, errors)
@@ -55,7 +51,7 @@ def expected(
         **{f"contacts.{name}": t for name, t in distances.items()},
         "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
                                 "that of the layer jacobian, and of the points"),
-        "H": tolerance(errors.H, f"{ROUNDINGS} units of rounding of the largest entry"),
+        "H": tolerance(errors.H, f"{ROUNDINGS} units of rounding of the largest term"),
         "g": tolerance(errors.g, f"{ROUNDINGS} units of rounding of the largest term"),
         "A": tolerance(errors.A, "that of the layer rows, and of J and the normals"),
         "b": tolerance(errors.b, "that of phi"),
@@ -181,23 +177,16 @@ def _tangents(normal: list[float]) -> dict[str, Json]:
     return {"d1": d1, "d2": rounded_results(lambda: np.cross(n, np.array(exact(d1))))[0]}
 
 
-def objective(case_input: Json) -> tuple[Json, Json, float]:
-    """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
+def objective(case_input: Json) -> tuple[Json, Json]:
+    """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once."""
     case = exact_case({key: value for key, value in case_input.items() if key != "shapes"})
 
-    def terms() -> Any:
-        h = case["h"]
-        q = np.array(case["q"])
-        n_a = len(case["K_q"])
-        M, tau = program.loads(case, kinematics(case["mechanism"], q))
-        H, g = program.objective(case, M, tau)
-        sizes = np.abs(h * tau)
-        K_q = np.array(case["K_q"]).reshape(n_a, n_a)
-        sizes[:n_a] += h * np.abs(K_q) @ np.abs(way(case["mechanism"], q, case["q_bar_a"]))
-        return {"H": H, "g": g, "sizes": sizes}
+    def both() -> Any:
+        at = kinematics(case["mechanism"], np.array(case["q"]))
+        return dict(zip("Hg", program.objective(case, *program.loads(case, at)), strict=True))
 
-    out = rounded_results(terms)[0]
-    return out["H"], out["g"], max(out["sizes"], default=0.0)
+    out = rounded_results(both)[0]
+    return out["H"], out["g"]
 
 
 def _errors(

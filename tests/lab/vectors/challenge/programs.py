@@ -3,11 +3,17 @@
 import sys
 
 ANSWERS = """
-import json, sys
+import json, math, sys
 def right(case):  # the layer selection
-    groups = case["input"]["phi"]
-    order = [sorted(range(len(phi)), key=lambda i: (phi[i], i)) for phi in groups]
-    return {"indices": [one[:case["input"]["k"]] for one in order]}
+    given, found = case["input"], []
+    for g, phi in enumerate(given["phi"]):
+        left = list(range(len(phi)))
+        if "normals" in given:
+            n = given["normals"][g]
+            left = [i for i in left if sum(map(float.__mul__, n[i], n[-1])) >= math.cos(0.25)]
+        order = sorted(left, key=lambda i: (phi[i], i))
+        found.append([*order, *range(len(phi), 2 * len(phi) - len(left))][:given["k"]])
+    return {"indices": found}
 def say(id, **what):
     print(json.dumps({"id": id, **what}), flush=True)
 cases = map(json.loads, sys.stdin)

@@ -4,7 +4,8 @@ import copy
 
 import pytest
 
-from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.check.case import case_verdict, verdict_to_digits
+from quasistatic_ref.lab.vectors.layers import selection
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 
@@ -123,6 +124,32 @@ def test_equal_distances_stand_in_the_order_of_their_places(chosen, verdict):
     case = {"phi": [[0.2, 0.2, 0.1, 0.2, 0.3]], "k": 2}
     wanted = record({"indices": [[2, 0]]}, {"tie": True})
     assert case_verdict("selection", case, wanted, {"indices": [chosen]}).verdict == verdict
+
+
+LEVEL, STEEP = [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]
+NORMALS = [LEVEL, STEEP, LEVEL, LEVEL, STEEP, LEVEL]  # acos 0.8 is more than 0.25 rad
+# Places 0, 2, 3 and 5 are left, of which the distances of 2 and 3 differ in the eighth digit; the
+# fifth is the one after the last, 6.
+FILLED = {"phi": [[0.4, 0.1, 0.1, 0.1 + 1e-9, 0.2, 0.3]], "normals": [NORMALS], "k": 5}
+
+
+@pytest.mark.parametrize(
+    ("chosen", "digits", "words"),
+    [
+        ([2, 3, 5, 0, 6], None, ""),
+        ([3, 2, 5, 0, 6], 6, ""),
+        ([3, 2, 5, 0, 6], None, "indices[0][0] is off by 1"),
+        ([2, 1, 5, 0, 6], 6, "indices[0][1] is 1: its normal is more than 0.25 rad from"),
+        ([2, 3, 5, 0, 7], 6, "indices[0][4] is 7: indices must be whole numbers from 0 to 6"),
+        ([2, 3, 2, 0, 6], 6, "indices[0][2] is 2: it stands there twice"),
+    ],
+)
+def test_a_selection_with_normals_may_be_another_and_a_wrong_index_is_named(chosen, digits, words):
+    wanted = {**selection.expected(FILLED).json(), "digits": {}}
+    assert wanted["output"] == {"indices": [[2, 3, 5, 0, 6]]}
+    verdict = verdict_to_digits("selection", FILLED, wanted, {"indices": [chosen]}, digits)
+    assert (verdict.verdict == "failed") == bool(words)
+    assert words in verdict.reason
 
 
 def boxes_face_to_face():

@@ -119,3 +119,18 @@ def test_other_optimal_lam_stand_with_the_same_forces():
     assert own["lam"] != answer["lam"]
     assert case_verdict("step", case, record, own).verdict == "acceptable"
     assert case_verdict("step", case, record, {**own, "forces": own["wrench"]}).field == "forces"
+
+
+def test_g_may_lose_the_digits_that_the_difference_of_two_poses_cancels():
+    # Turns of 1 rad are known to EPS, and so is their difference, however small; g has h K_q of it.
+    eps = 2.0**-52
+    found = 0
+    for case in cases("step"):
+        driven = (b["joint"] for b in case.input["mechanism"]["bodies"] if b["actuated"])
+        first = next(driven, "")
+        if first in ("floating", "planar", "continuous"):
+            at = {"continuous": 0, "planar": 2, "floating": 3}[first]
+            allowed = expected_of("step")[case.id]["tolerance"]["g"]["absolute"]
+            assert allowed > case.input["h"] * case.input["K_q"][at][at] * eps, case.id
+            found += 1
+    assert found > 5

@@ -1,7 +1,4 @@
-"""How large the terms are that make H and g: where they cancel, their rounding is what is left.
-
-The committed steps have few that do; cases at random have all kinds.
-"""
+"""How large the terms are that make H and g: where they cancel, their rounding is what is left."""
 
 import numpy as np
 
@@ -13,7 +10,8 @@ from quasistatic_ref.lab.vectors.expected import Json
 def terms(case: Json) -> tuple[float, float]:
     """The largest sums of sizes of what an entry of H and one of g is made of, in their units.
 
-    A lever is a difference of world coordinates, a difference of turns one of cosines and sines.
+    A lever is a difference of world coordinates, that of two poses one of coordinates, cosines and
+    sines; that of two angles or lengths has no digits to lose.
 
     Parameters
     ----------
@@ -40,10 +38,11 @@ def terms(case: Json) -> tuple[float, float]:
         reach = velocity + turn * (np.abs(centre).max() + np.abs(t).max())
         inertia += mass * (velocity + turn * arm) * reach * free
         size += (force + weight * free) * reach + torque * turn
-    for _, q, v in places(case["mechanism"]):
+    for body, q, v in places(case["mechanism"]):
         if q.stop > q.start and v.stop <= n_a:
-            values = [*case["q"][q], *case["q_bar_a"][q]]  # of which the joint's way is made
-            stiff = np.abs(np.array(case["K_q"])[:, v]).sum(axis=1)
-            size[:n_a] += stiff * (1.0 + 2 * float(np.abs(values).max()))
+            old, new = np.array(case["q"][q]), np.array(case["q_bar_a"][q])
+            one = body["joint"] in ("revolute", "prismatic")
+            way = np.abs(new - old).max() if one else 1.0 + 2 * np.abs([old, new]).max()
+            size[:n_a] += np.abs(np.array(case["K_q"])[:, v]).sum(axis=1) * float(way)
     h = case["h"]
     return float(inertia.max(initial=0.0) / h), float(h * size.max(initial=0.0))
