@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.parts import Slot
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.recorder import Recorder, StepArrays
-    from quasistatic_ref.simulate.result import StepResult
+    from quasistatic_ref.simulate.recorder import Recorder
+    from quasistatic_ref.simulate.result import StepArrays, StepResult
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 
@@ -22,10 +22,17 @@ class Observer:
         Names of what :meth:`after` returns.
     every_step : bool
         Whether :meth:`after` is called after each step, and not once for several, in less time.
+    seldom : bool
+        Whether :meth:`before` may be called once for several steps that follow, in less time.
     """
 
     notes: tuple[str, ...] = ()
     every_step: bool = False
+    seldom: bool = False
+
+    def alone(self) -> bool:
+        """Whether a run stops at each step for it."""
+        return self.every_step or not (self.seldom or type(self).before is Observer.before)
 
     def before(self, recorder: "Recorder") -> None:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""
@@ -45,7 +52,7 @@ class Observer:
             Of the last steps.
         arrays : dict of str to ndarray
             What the recorder keeps of them, read-only, by the names of a trajectory [of the
-            notation]; of q where each step has led.
+            notation]; of q where each step has led; and ``motion``, J delta_q [m, m, m, rad].
         """
         return {}
 

@@ -16,6 +16,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
+from quasistatic_ref.simulate.result import StepArrays, StepResult, Steps
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.arrays import read_only, without_warnings
@@ -24,7 +25,6 @@ from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.simulator import Simulator
 
 PACKED = 100
@@ -35,9 +35,6 @@ POINTS = ("phi", "alpha", "beta", "n", "point")
 IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED)
 SECONDS = "seconds."
 """What the names of wall times begin with."""
-
-StepArrays = dict[str, NDArray[Any]]
-"""Arrays over some steps that follow one another."""
 
 
 class Recorder(Shown):
@@ -108,7 +105,8 @@ class Recorder(Shown):
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.parts: list[StepArrays] = []
-        self._latest: list[tuple[Array, StepResult]] = []
+        self._latest: list[Steps | list[StepResult]] = []
+        self._targets: list[Array] = []
 
     @property
     def t(self) -> float:
@@ -130,85 +128,98 @@ class Recorder(Shown):
             If the record holds forces and they are not known, or an extension's rows are not those
             of the step before.
         """
-        solution = result.solution
+        self.add_all([q_bar_a], [result])
+
+    def add_all(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> None:
+        """Record steps that follow one another, one or more; errors as of :meth:`add`.
+
+        Parameters
+        ----------
+        q_bar_a : sequence of ndarray, each of shape (n_q_a,)
+            Their targets.
+        results : sequence of StepResult
+        """
+        size = 4 * len(self.layout.rows) * self.system.n_v
+        if isinstance(results, Steps):
+            self.q = read_only(results.arrays["q"][-1])
+        else:
+            for result in results:
+                self._check(result)
+            size = results[-1].step.contacts.kept_J.size
+            self.q = read_only(results[-1].q)  # a function of (t, q) cannot change where it starts
+        if isinstance(results, Steps) or not (self._latest and isinstance(self._latest[-1], list)):
+            self._latest.append(results if isinstance(results, Steps) else list(results))
+        else:
+            self._latest[-1] += results
+        self._targets += q_bar_a
+        self.steps += len(results)
+        most = min(PACKED, 1 + LARGEST // max(1, size))
+        if len(self._targets) >= most or any(each.every_step for each in self.observers):
+            self.packed()
+
+    def _check(self, result: StepResult) -> None:
+        """Check a result that is added; errors as of :meth:`add`."""
         rows = result.step.extra.names
         if self.steps and rows != self.extra:
             pairs = zip_longest(self.extra, rows, fillvalue="no row")
             was, now = next((was, now) for was, now in pairs if was != now)
             problem = f"has {now} in step {self.steps}, where the step before has {was}; "
             raise InputError(problem + "give the same rows in each step", field="extension")
-        if self.record == "forces" and not solution.alone:
+        if self.record == "forces" and not result.solution.alone:
             raise InputError(UNKNOWN, field="forces")
-        self._latest.append((q_bar_a, result))
-        self.alone &= solution.alone
+        self.alone &= result.solution.alone
         self.extra = rows
-        self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
-        self.steps += 1
-        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.kept_J.size))
-        if len(self._latest) >= most or any(each.every_step for each in self.observers):
-            self.packed()
 
     def packed(self) -> list[StepArrays]:
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._latest:
-            q_bar_a, results = zip(*self._latest, strict=True)
-            arrays = self._arrays(q_bar_a, results)
-            for array in arrays.values():
+            results = self._latest[0] if len(self._latest) == 1 else _Joined(self._latest)
+            targets = self._targets
+            read = [arrays_of(part, self.system.n_v) for part in self._latest]
+            self._latest = []
+            self._targets = []
+            every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
+            arrays = self._arrays(targets, results, every)
+            for array in (*arrays.values(), every["motion"]):
                 read_only(array)
             before = self.parts[-1] if self.parts else arrays
             self.parts.append(arrays)  # before an observer may raise
-            self._latest = []
             for observer in self.observers:
-                notes = observer.after(self, results, dict(arrays))
+                notes = observer.after(self, results, every | arrays)
                 for name, note in notes.items():
                     arrays[name] = _checked_note(name, note, len(results), before.get(name))
         return self.parts
 
-    def _arrays(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> StepArrays:
-        """What is kept of the last steps, which follow one another."""
-        solutions = [result.solution for result in results]
-        steps = [result.step for result in results]
-        first = steps[0]
-        certificates = [solution.certificate for solution in solutions]
-        n_v = self.system.n_v  # without private rises
-        lam = np.array([solution.lam for solution in solutions])
-        tau_a = np.array([step.tau_a for step in steps])
-        tau_u = np.array([step.tau_u[: self.system.n_u] for step in steps])
+    def _arrays(
+        self, q_bar_a: Sequence[Array], results: Sequence[StepResult], every: StepArrays
+    ) -> StepArrays:
+        """What is kept of the last steps, of which `every` array is read, and no more."""
+        first = results[0]
+        lam = every["lam"]
         arrays: StepArrays = {
             "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * self.h,
-            "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
             "q_bar_a": np.array(q_bar_a),
-            **{name: _of_all([r.points for r in results], name) for name in POINTS},
-            **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
-            "lam": lam,
-            "wrench": without_warnings(contact_wrenches, first.contacts, lam, self.h, self.cone),
-            "certificate": np.array([one.kind for one in certificates]),
-            "worst_residual": np.array(
-                [max(one.residuals.values(), default=np.nan) for one in certificates]
+            "wrench": without_warnings(
+                contact_wrenches, first.step.contacts, lam, self.h, self.cone
             ),
-            "digits": np.array([one.statistics.digits for one in solutions], np.float64),
-            "q": _of_all(results, "q"),
-            "tau": np.concatenate([tau_a, tau_u], axis=1),
+            **{name: each for name, each in every.items() if name != "motion"},
         }
-        for part in results[0].seconds:
-            arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
         if self.record == "full":
-            arrays |= programs(steps)
+            arrays |= programs([result.step for result in results])
         known = self.record == "forces"
         if self.record == "full" and self.parts:
             known = "forces" in self.parts[0]
         elif self.record == "full":
-            known = self.simulator.records_forces(solutions[0])
+            known = self.simulator.records_forces(first.solution)
         if known:
-            arrays["forces"] = _of_all(solutions, "forces")
+            arrays["forces"] = _of_all(results, "forces")
         if self.record == "forces":
-            arrays["imbalance"] = _of_all(solutions, "imbalance")
-            arrays["motion"] = motions(results, n_v)
-        if self.simulator.law == COULOMB:
-            arrays |= {name: _of_all(solutions, name) for name in ITERATED}
-        if first.extra.names:
-            arrays["lam_extra"] = _of_all(solutions, "lam_extra")
-        return arrays
+            arrays["imbalance"] = _of_all(results, "imbalance")
+            arrays["motion"] = every["motion"]
+        more = ITERATED if self.simulator.law == COULOMB else ()
+        if first.step.extra.names:
+            more = (*more, "lam_extra")
+        return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
 
     def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
         """Add steps that were taken before, as :meth:`packed` gave them.
@@ -291,6 +302,57 @@ class Recorder(Shown):
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
         return trajectory
+
+
+class _Joined(Sequence[StepResult]):
+    """Results of several parts, one after the other."""
+
+    def __init__(self, parts: Sequence[Sequence[StepResult]]) -> None:
+        self._places = [(part, i) for part in parts for i in range(len(part))]
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __getitem__(self, k: Any) -> Any:
+        if isinstance(k, slice):
+            return [part[i] for part, i in self._places[k]]
+        part, i = self._places[k]
+        return part[i]
+
+
+def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
+    """What a recorder reads of steps that follow one another; with `motion`, J delta_q.
+
+    Returns
+    -------
+    dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
+        By the notation's names [in its units].
+    """
+    if isinstance(results, Steps):
+        return results.arrays
+    solutions = [result.solution for result in results]
+    steps = [result.step for result in results]
+    certificates = [solution.certificate for solution in solutions]
+    tau_a = np.array([step.tau_a for step in steps])
+    tau_u = np.array([step.tau_u for step in steps])
+    tau = np.concatenate([tau_a, tau_u], axis=1)
+    arrays: StepArrays = {
+        "delta_q": np.array([solution.delta_q[:n_v] for solution in solutions]),
+        **{name: _of_all([r.points for r in results], name) for name in POINTS},
+        **{name: _of_all([step.contacts for step in steps], name) for name in ("d1", "d2")},
+        "lam": _of_all(solutions, "lam"),
+        "certificate": np.array([one.kind for one in certificates]),
+        "worst_residual": np.array(
+            [max(one.residuals.values(), default=np.nan) for one in certificates]
+        ),
+        "digits": np.array([one.statistics.digits for one in solutions], np.float64),
+        "q": _of_all(results, "q"),
+        "tau": tau[:, :n_v],  # without private rises
+        "motion": motions(results, n_v),
+    }
+    for part in results[0].seconds:
+        arrays[SECONDS + part] = np.array([result.seconds[part] for result in results])
+    return arrays
 
 
 def motions(results: Sequence[StepResult], n_v: int) -> Array:

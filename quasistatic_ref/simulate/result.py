@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -17,6 +21,9 @@ from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import Array, StepData
+
+StepArrays = dict[str, NDArray[Any]]
+"""Arrays over some steps that follow one another."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -122,3 +129,12 @@ class StepResult(Plain, Shown):
         """The contacts whose normal was one of several, and how it was chosen, by their names."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
+
+
+class Steps(Sequence[StepResult]):
+    """Results of steps that follow one another, of which arrays are known before each is made."""
+
+    @property
+    @abstractmethod
+    def arrays(self) -> StepArrays:
+        """What a recorder reads of them, as of its ``arrays_of``."""

@@ -64,10 +64,10 @@ def test_bodies_that_cannot_touch_count_one_by_one():
     J has four rows a contact. Under another law than the model's contacts are never in blocks.
     """
     made = cubes(stacks=3, height=2, rows=6, push="rest").simulator("off", True)
-    here = EntriesOfJ(4 * 24 * 36, 4 * 8 * 12)
+    here = EntriesOfJ(4 * 24 * 36, 4 * 8 * 12, 12)
     assert entries_of_J(made.system, made.pairs, ordinary=True) == here
     assert entries_of_J(made.system, made.pairs, ordinary=False) == EntriesOfJ(0, 0)
-    assert entries_of_J(made.system, [], ordinary=True) == EntriesOfJ(0, 0)
+    assert entries_of_J(made.system, [], ordinary=True) == EntriesOfJ(0, 0, 1)
 
 
 @pytest.mark.extra("fast")

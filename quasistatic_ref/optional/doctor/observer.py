@@ -17,10 +17,10 @@ from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.table import AFTER, NO_STEPS, OF_SCENE, findings
 from quasistatic_ref.simulate.observer import DOCTOR, Observer
-from quasistatic_ref.simulate.recorder import Recorder, StepArrays, motions
-from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, StepData
 
 
 class Doctor(Observer):
@@ -46,11 +46,14 @@ class Doctor(Observer):
         bodies that something touches [-], and boundary layer [m].
         """
         system = recorder.system
-        steps = [result.step for result in results]
-        g = float(np.linalg.norm(recorder.simulator.gravity))
-        motion = motions(results, system.n_v)
-        gap = gap_after(arrays["phi"], arrays["n"], motion)
-        delta_q = [result.solution.delta_q for result in results]
+        simulator = recorder.simulator
+        steps: Sequence[StepData] = [results[0].step] * len(results)
+        delta_q: Sequence[Array] = list(arrays["delta_q"])
+        if system.varying_mass is not None or simulator.extension is not None:
+            steps = [result.step for result in results]
+            delta_q = [result.solution.delta_q for result in results]
+        g = float(np.linalg.norm(simulator.gravity))
+        gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
         found = drags(system, steps, delta_q, arrays["wrench"], g)
         touched = [np.where(x.touched, x.share, np.nan) for x in found]
         return {

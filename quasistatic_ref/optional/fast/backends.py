@@ -38,10 +38,13 @@ class EntriesOfJ(NamedTuple):
         4 n_c n_v.
     of_group : int
         The same of the group in which it is largest, whatever touches what.
+    coordinates : int
+        Those of the largest group.
     """
 
     every: int = 0
     of_group: int = 0
+    coordinates: int = 0
 
 
 def entries_of_J(system: System, pairs: Sequence[ContactPair], ordinary: bool) -> EntriesOfJ:
@@ -65,7 +68,8 @@ def entries_of_J(system: System, pairs: Sequence[ContactPair], ordinary: bool) -
     sizes = np.bincount(of_coordinate)
     contacts = np.bincount(of_pair, n_c, len(sizes))
     every = 4 * int(n_c.sum()) * system.n_v
-    return EntriesOfJ(every, 4 * int((contacts * sizes).max(initial=0)))
+    of_group = 4 * int((contacts * sizes).max(initial=0))
+    return EntriesOfJ(every, of_group, int(sizes.max(initial=0)))
 
 
 def fast_backend(

@@ -1,8 +1,10 @@
 """The simulator of `fast`: the same steps, with their data from compiled code."""
 
+from collections.abc import Sequence
 from operator import itemgetter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -19,16 +21,15 @@ from quasistatic_ref.optional.fast.backends import (
     fast_backend,
     sparse_from,
 )
-from quasistatic_ref.optional.fast.compiled.answer import as_said
 from quasistatic_ref.optional.fast.compiled.certificate import LARGEST
 from quasistatic_ref.optional.fast.compiled.forces import (
-    FastSolution,
     ForcesOfSteps,
     knows,
     with_forces,
 )
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
+from quasistatic_ref.optional.fast.compiled.onward import DONE, REGROUPED, Onward, Taken
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
@@ -38,6 +39,8 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
+from quasistatic_ref.optional.fast.proofs import SMALL
+from quasistatic_ref.optional.fast.rechecked import WHOLE, is_next
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.simulate.law import CONVEX
@@ -45,11 +48,13 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import FAST_BACKEND
 from quasistatic_ref.simulate.simulator import (
     FAST_SIMULATOR,
+    Given,
     Simulator,
     Stopwatch,
     by_one_thread,
 )
 from quasistatic_ref.simulate.user_functions import checked_force
+from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import (
@@ -58,14 +63,21 @@ from quasistatic_ref.solve.units import (
     StepInBothUnits,
     Units,
 )
-from quasistatic_ref.step.arrays import without_warnings
+from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
-TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau", "g")
+TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau")
 """The fields of a step among those that C has written."""
+
+OFF = "off"
+TRIED = 2.0**-10
+"""By which sums are tried [m, rad]."""
+
+LARGEST_RECORDS = 1 << 23
+"""Bytes that are kept of steps that follow on each other, beyond those of one step."""
 
 SURELY = 1 - 2.0**-40
 """Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
@@ -94,6 +106,10 @@ class FastSimulator(Simulator):
         Whether the next step is the first, which is compared.
     by_c : bool
         Whether compiled code takes the steps.
+    follows : bool
+        Whether steps that follow on another may be taken in few calls. Of those that are proved, a
+        step is sought on the rows that the step before has pressed, and the backend, cold, is asked
+        only if that fails: lam then depends on no other step but through its own lam.
     """
 
     def prepare(self) -> None:
@@ -140,6 +156,17 @@ class FastSimulator(Simulator):
         ordinary = self.extension is None and self.law == CONVEX and self.has_rows
         forms_forces = ordinary and system.n_v <= LARGEST
         self.in_c = ForcesOfSteps() if forms_forces else None
+        self.surely_within = SURELY * self.limits.reach**2
+        self.onward: Onward | None = None
+        self.never = False  # H cannot be written in fixed point
+        proved = self.certify == CERTIFY[0] and self.backend == self.default_backend
+        self.follows = (
+            ordinary
+            and self.blocks is None
+            and self.screws.known
+            and system.varying_mass is None
+            and (entries.coordinates <= SMALL if proved else self.certify == OFF)
+        )
 
     @arguments_checked
     @by_one_thread
@@ -147,20 +174,39 @@ class FastSimulator(Simulator):
         """One step, as in the base."""
         if not self.by_c:
             return super().step(q, q_bar_a, force)
-        lap = Stopwatch()
         q = with_shape(q, "q", (self.system.n_q,))
         q_bar_a = with_shape(q_bar_a, "q_a", (self.system.n_q_a,))
         self.system.actuated_units.check(q_bar_a)
         if not self.poses.are_at(q):  # where a step has led, or which was checked
             self.system.units.check(q)
             self.poses.move(q)
-        self.contacts.find(self.poses)
-        lap("distances")
-        step, form, points = self.posed_step(q, q_bar_a, force)
         if self.compares:
-            self.by_c = self.is_plain(step, form, q, q_bar_a, force)
+            self.compares = False
+            self.by_c = self.is_plain(q, q_bar_a, force)
             if not self.by_c:
                 return super().step(q, q_bar_a, force)
+        force = checked_force(self.system, force) + np.zeros(self.system.n_v)
+        taken = self.taken(q, lambda k, q: (q_bar_a, force), 1)
+        return taken[0] if taken else self.step_in_python(q, q_bar_a, force)
+
+    @by_one_thread
+    def steps(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
+        """As in the base: those that C decides, or one."""
+        of = given(0, q)
+        if self.compares or not self.by_c or of is None:
+            return ()
+        if not self.poses.are_at(q):
+            self.poses.move(q)
+        return self.taken(q, given, most) or [self.step_in_python(q, *of)]
+
+    def step_in_python(self, q: Array, q_bar_a: Array, force: Array) -> StepResult:
+        """One step from the checked q, of which C leaves something to be decided."""
+        lap = Stopwatch()
+        if not self.poses.are_at(q):  # a step that was given up has led on
+            self.poses.move(q)
+        self.contacts.find(self.poses)
+        lap("distances")
+        step, form, points = self.posed_step(q_bar_a, force)
         lap("rows")
         solution = self.solution_of(step, form, q)
         limits = self.limits
@@ -169,20 +215,79 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        if self.in_c is not None and type(solution) is not FastSolution:
+        if self.in_c is not None:
             solution = with_forces(solution, self.in_c)
-        delta_q = solution.delta_q[: self.system.n_v]
-        q_next = self.screws.integrate(delta_q)
-        if self.compares:
-            self.compares = False
-            self.by_c = bits(q_next) == bits(self.system.integrate(q, delta_q))
-            if not self.by_c:
-                return super().step(q, q_bar_a, force)
+        q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
         self.poses.move(q_next)
-        if not self.reach(self.numbers.address) <= SURELY * limits.reach**2:
+        if not self.reach(self.numbers.address) <= self.surely_within:
             limits.check_reach(step, self.system.links, self.poses.kinematics().t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
+
+    def taken(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
+        """The same, from a checked q whose poses are there."""
+        solver = self.solver
+        if not (self.follows and isinstance(solver, FastSolver)):
+            return ()
+        if solver.adapter.NEAR if self.certify == OFF else solver.pressed is None:
+            return ()
+        of = given(0, q)
+        onward = self.onward
+        old = onward is None or not onward.fits(solver, self.constant.H)
+        if of is not None and old and not self.never:
+            onward = self.onward_from(solver, *of)
+        if of is None or onward is None:
+            return ()
+        most = min(most, 1 + LARGEST_RECORDS // onward.record.itemsize)
+        records = np.zeros(most, onward.record)
+        onward.begin(records)
+        count = 0
+        while of is not None:
+            code = onward.take(*of)
+            if code == REGROUPED:
+                again = self.onward_from(solver, *of)
+                if again is None:
+                    break
+                onward = again
+                onward.begin(records[count:])
+                code = onward.take(*of)
+            if code != DONE:
+                break
+            if self.certify != OFF:
+                solver.pressed = records["lam"][count]
+            count += 1
+            at = read_only(records["q"][count - 1].copy())
+            due = self.certify != OFF and is_next(WHOLE)  # an error may follow
+            on = count < most and not due
+            of = given(count, at) if on else None
+        return Taken(onward, self, q, records[:count])
+
+    def onward_from(self, solver: FastSolver, q_bar_a: Array, force: Array) -> Onward | None:
+        """What takes steps like that from the poses that are there, if anything does."""
+        self.contacts.find(self.poses)
+        step, form, _ = self.posed_step(q_bar_a, force)
+        both = without_warnings(DenseStepInBothUnits, step, self.hessian, form)
+        self.hessian = both.hessian
+        if solver.hessian is not both.hessian:
+            solver.write_program(both)
+        program = self.program
+        if program is None or not program.fits(solver, step):
+            self.program = program = natural_program(self.numbers, solver, step)
+        prover = None if self.certify == OFF else solver.proofs.prover_of(both)
+        self.never = program is None or (prover is None and self.certify != OFF)
+        self.onward = None
+        if program is not None and not self.never:
+            self.onward = Onward(self, solver, program, step, prover)
+        return self.onward
+
+    def recalls(self, step: StepData, lam: Array) -> bool:
+        """As in the base."""
+        solver = self.fitting_solver(step)
+        recalls = self.by_c and self.follows and self.certify != OFF
+        if recalls and isinstance(solver, FastSolver):
+            solver.pressed = lam
+            return True
+        return False
 
     def records_forces(self, solution: StepSolution) -> bool:
         """As in the base: where steps are proved, and C decides the forces of the first.
@@ -200,7 +305,7 @@ class FastSimulator(Simulator):
         return None if self.in_c is None or not self.by_c else self.in_c.decided(step, near)
 
     def posed_step(
-        self, q: Array, q_bar_a: Array, force: Array | float
+        self, q_bar_a: Array, force: Array | float
     ) -> tuple[StepData, StandardForm, ClosestPoints]:
         """The problem of one step, its matrices and closest points, from those that are written.
 
@@ -222,7 +327,24 @@ class FastSimulator(Simulator):
         delta_q_bar_a.setflags(write=False)
         self.poses.weigh(self.down)
         self.gap = self.form(numbers.address)
-        *found, d1, d2, J, tau, g = TAKEN(numbers.taken())
+        taken = numbers.taken()
+        step, points = self.step_of(taken, delta_q_bar_a)
+        return step, StandardForm(self.constant.H, taken["g"], numbers["A"], numbers["b"]), points
+
+    def step_of(
+        self, written: NDArray[np.void], delta_q_bar_a: Array
+    ) -> tuple[StepData, ClosestPoints]:
+        """The problem of a step and its closest points, from what C has written of it.
+
+        Parameters
+        ----------
+        written : ndarray, shape ()
+            As of :meth:`~quasistatic_ref.optional.fast.compiled.scene.Scene.taken`, in
+            its units [any unit].
+        delta_q_bar_a : ndarray, shape (n_a,)
+            [m, rad].
+        """
+        *found, d1, d2, J, tau = TAKEN(written)
         points = ClosestPoints(*found)
         constant = self.constant_here()
         n_a = len(delta_q_bar_a)
@@ -230,8 +352,7 @@ class FastSimulator(Simulator):
             "tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a,
             "contacts": self.posed_contacts(points, d1, d2, J),
         }  # fmt: skip
-        step = posed(constant.kind, self.same, own)
-        return step, StandardForm(constant.H, g, numbers["A"], numbers["b"]), points
+        return posed(constant.kind, self.same, own), points
 
     def step_data(
         self,
@@ -275,15 +396,16 @@ class FastSimulator(Simulator):
         own = {"name": name, "phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}
         return posed(Contacts, self.friction, own)
 
-    def is_plain(
-        self,
-        step: StepData,
-        form: StandardForm,
-        q: Array,
-        q_bar_a: Array,
-        force: Array | float,
-    ) -> bool:
-        """Whether the numbers of a step and its matrices, unless sparse, are the plain path's."""
+    def is_plain(self, q: Array, q_bar_a: Array, force: Array | float) -> bool:
+        """Whether the numbers of the step from q, its matrices and a sum are the plain path's.
+
+        Of a sparse step, only the sum is compared.
+        """
+        self.contacts.find(self.poses)
+        step, form, _ = self.posed_step(q_bar_a, force)
+        delta_q = TRIED * np.arange(1.0, self.system.n_v + 1)
+        if bits(self.screws.integrate(delta_q)) != bits(self.system.integrate(q, delta_q)):
+            return False
         if self.blocks is not None:
             return True
         kinematics = self.system.kinematics(q)
@@ -318,12 +440,14 @@ class FastSimulator(Simulator):
         if isinstance(solver, FastSolver):
             units = self.units(solver, step)
             hessian = solver.hessian
-            said = as_said(step, solver, units, accuracy, self.in_c) if certify == "off" else None
-            if said is not None:
-                return said
         both = without_warnings(DenseStepInBothUnits, step, hessian, form, units)
         self.hessian = both.hessian
-        return without_warnings(solved, both, solver, accuracy, certify)
+        if not (self.follows and certify != OFF and isinstance(solver, FastSolver)):
+            return without_warnings(solved, both, solver, accuracy, certify)
+        solver.forget()
+        solution = without_warnings(solved, both, solver, accuracy, certify)
+        solver.pressed = solution.lam
+        return solution
 
     def units(self, solver: FastSolver, step: StepData) -> Units | None:
         """The natural units in which the program of the step is written; None if it is not."""

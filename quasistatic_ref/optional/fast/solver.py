@@ -87,14 +87,20 @@ class FastSolver(NativeSolver):
 
     Attributes
     ----------
+    proofs : Proofs
+        Of its steps that are certified.
     written : Units or None
         Natural units of the step whose g, A and b compiled code has written into the program.
+    pressed : ndarray, shape (m,), or None
+        Multipliers of the last proved step of a run [N s]: the next is sought on their rows.
     """
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
         self.prover = GuessProver()
+        self.proofs = self.prover.proofs
         self.written: Units | None = None
+        self.pressed: Array | None = None
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""

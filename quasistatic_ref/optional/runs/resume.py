@@ -13,7 +13,8 @@ from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.between import POSED
 from quasistatic_ref.optional.runs.saved_files import SavedSteps, first_step, run_settings
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.recorder import Recorder, StepArrays, programs
+from quasistatic_ref.simulate.recorder import Recorder, programs
+from quasistatic_ref.simulate.result import StepArrays
 from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, SAVE_EVERY, start_cold
 from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
@@ -111,7 +112,7 @@ def _posed_again(
             step, linear = _step(simulator, q, goal, pushed)
             _check("scene", k, part["phi"][i], step.contacts.phi)
             recorder.alone &= linear
-            if k >= cold:
+            if k >= cold and not simulator.recalls(step, part["lam"][i]):
                 _ask(simulator, step, linear)
             if "s" in part:
                 step = step.replace(contacts=step.contacts.raised(part["s"][i]))

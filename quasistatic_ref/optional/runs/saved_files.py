@@ -37,7 +37,8 @@ from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.recorder import Recorder, StepArrays
+    from quasistatic_ref.simulate.recorder import Recorder
+    from quasistatic_ref.simulate.result import StepArrays
     from quasistatic_ref.simulate.simulator import Simulator
 
 FORMAT = "quasistatic-ref/saved-steps"
@@ -125,6 +126,7 @@ class SavedSteps(Observer):
         self.path = Path(path)
         self.settings = dict(settings)
         self.every = every
+        self.seldom = every > 0
         self.kept = kept
         self.folder = saved_folder(path)
         self.lock = Lock(self.folder)

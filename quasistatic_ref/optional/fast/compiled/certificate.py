@@ -268,9 +268,7 @@ def write_data(s: Structure, step: StepData) -> None:
 
 def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
     """The optimum that C has written, of a group or of a step."""
-    unique, smooth = s.integers("claims").astype(bool).tolist()
-    least_slack, least_multiplier = s["least"].tolist()
-    inactive = least_slack if least_slack < math.inf else None
+    unique, smooth, least_slack, least_multiplier = claims_of(s.integers("claims"), s["least"])
     return ExactOptimum(
         delta_q=s["delta_q"].copy(),
         lam=s["lam"].copy(),
@@ -279,10 +277,22 @@ def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
         working_set=tuple(working),
         multipliers_unique=unique,
         differentiable=smooth,
-        smallest_inactive_slack=inactive if smooth else 0.0,
+        smallest_inactive_slack=least_slack,
         smallest_active_multiplier=least_multiplier if working else None,
         walks=0,
     )
+
+
+def claims_of(claims: Indices, least: Array) -> tuple[bool, bool, float | None, float]:
+    """What a certificate claims, as C has written it: shapes (2,), `least` in [m] and [N s].
+
+    Whether multipliers are unique, and delta_q differentiable; the smallest inactive slack; and the
+    smallest active multiplier, if there is one.
+    """
+    unique, smooth = claims.astype(bool).tolist()
+    slack, multiplier = least.tolist()
+    inactive = slack if slack < math.inf else None
+    return unique, smooth, inactive if smooth else 0.0, multiplier
 
 
 class Prover:

@@ -41,8 +41,9 @@ CONSTANTS = {
     **{
         name: getattr(tolerances, name)
         for name in (
-            "COMPLIANCE", "FILLED", "HARDLY_MOVES", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE",
-            "OVER_FACE", "REPEATED", "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
+            "COMPLIANCE", "FILLED", "HARDLY_MOVES", "ILL_POSED", "ON_RIM", "ON_SURFACE",
+            "OUTSIDE_FACE", "OVER_FACE", "REPEATED", "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN",
+            "UPRIGHT",
         )
     },
     "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,
@@ -70,6 +71,10 @@ FUNCTIONS = {
     "proof_nearby": ctypes.c_int,
     "groups_proved": ctypes.c_int,
     "groups_forces": None,
+    "step_posed": ctypes.c_int,
+    "step_answered": ctypes.c_int,
+    "step_proved": ctypes.c_int,
+    "step_led": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""
 

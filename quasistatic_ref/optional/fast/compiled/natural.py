@@ -26,6 +26,13 @@ class NaturalProgram:
         That of the solver.
     hessian : HessianInBothUnits
         Of H.
+
+    Attributes
+    ----------
+    units : ndarray, shape (2,)
+        {length, size}, as of :class:`~quasistatic_ref.solve.units.Units`, which C writes.
+    address : int
+        Of ``Natural`` of natural.c.
     """
 
     def __init__(
@@ -33,7 +40,7 @@ class NaturalProgram:
     ) -> None:
         self._write = library().natural_program
         self._solver = solver
-        self._hessian = hessian
+        self.hessian = hessian
         self._structure = s = Structure("natural.c", "Natural")
         m, n = program.A.shape
         row, column = (stride // program.A.itemsize for stride in program.A.strides)
@@ -49,14 +56,15 @@ class NaturalProgram:
                 "natural_A": program.A.ravel(order="K"),
             }
         )  # fmt: skip
-        self._units = s["units"]
+        self.units = s["units"]
+        self.address = s.address
         same = [np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b")]
         assert all(same) or not m  # without rows there is no memory
 
     def fits(self, solver: FastSolver, step: StepData) -> bool:
         """Whether a step can be written into a solver's arrays: both have the H of this program."""
         own = self._solver
-        hessian = self._hessian
+        hessian = self.hessian
         return solver is own and own.hessian is hessian and hessian.H is step.H
 
     def written(self) -> Units | None:
@@ -69,7 +77,7 @@ class NaturalProgram:
         """
         if not self._write(self._structure.address):
             return None
-        units = Units(self._hessian.coordinate, *self._units.tolist())
+        units = Units(self.hessian.coordinate, *self.units.tolist())
         self._solver.written = units
         return units
 

@@ -61,6 +61,10 @@ class Scene(Structure):
     ----------
     points : ClosestPoints
         From which the contacts are made: to be written first.
+    given : dtype
+        Of what C writes of a step.
+    written : ndarray of uint8
+        Its bytes.
     """
 
     def __init__(
@@ -92,8 +96,8 @@ class Scene(Structure):
                 ("g", np.float64, (n_v,)),
             ]
         )  # fmt: skip
-        self._bytes = np.zeros(given.itemsize, np.uint8)
-        written = np.ndarray((), given, self._bytes)
+        self.written = np.zeros(given.itemsize, np.uint8)
+        written = np.ndarray((), given, self.written)
         terms = cone_terms(constant.cone) if friction_cone.polyhedral else {}
         self.put(
             {
@@ -114,7 +118,7 @@ class Scene(Structure):
     def taken(self) -> NDArray[np.void]:
         """What C has written of a step, of shape (): its arrays by their names."""
         # A copy of the bytes is read-only; copying field by field takes ten times as long.
-        return np.ndarray((), self.given, self._bytes.tobytes())
+        return np.ndarray((), self.given, self.written.tobytes())
 
 
 def cone_terms(name: str) -> dict[str, Array | Indices]:

@@ -24,6 +24,15 @@ class Screws:
     system : System
     poses : Poses
         Its configuration q is where sums and differences start.
+
+    Attributes
+    ----------
+    known : bool
+        Whether C knows every joint.
+    sums, changes : Structure
+        ``Screws`` of screws.c, of all joints and of those that are actuated.
+    target : ndarray, shape (n_q_a,)
+        To which changes lead.
     """
 
     def __init__(self, system: System, poses: Poses) -> None:
@@ -37,31 +46,36 @@ class Screws:
         joints = system.joints
         n_a = system.n_a
         self.known = all(joint.in_c is not None for joint in joints)
-        self._sums = _structure(poses.q, joints, system.n_v)
-        self._differences = _structure(poses.q, [j for j in joints if j.actuated], n_a)
-        self._target = self._differences["q_next"][: system.n_q_a]
+        self.sums = _structure(poses.q, joints, system.n_v)
+        self.changes = _structure(poses.q, [j for j in joints if j.actuated], n_a)
+        self.target = self.changes["q_next"][: system.n_q_a]
         self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.unit]
 
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         if not self.known:
             return self.system.integrate(self.q, delta_q)
-        s = self._sums
+        s = self.sums
         s["delta_q"][:] = delta_q
         if not self._half_turns(s.address):
-            for i, _ in self._turning:
-                s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
+            self.say_sines()
         self._add(s.address)
         return s["q_next"].copy()
+
+    def say_sines(self) -> None:
+        """Write the sines and cosines of a sum, some of which C could not decide."""
+        s = self.sums
+        for i, _ in self._turning:
+            s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
 
     def actuated_difference(self, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
         if not self.known:
             return self.system.actuated_difference(self.q, q_a)
-        s = self._differences
-        if np.shape(q_a) != self._target.shape:
+        s = self.changes
+        if np.shape(q_a) != self.target.shape:
             self.system.with_actuated(self.q, q_a)  # which says so
-        self._target[:] = q_a
+        self.target[:] = q_a
         if not self._turns(s.address):
             for i, actuated in self._turning:
                 if actuated:

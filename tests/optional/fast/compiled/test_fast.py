@@ -130,7 +130,7 @@ def wrong_arrays(system, pairs, cone, rng):
         expected = arrays(*of_plain(simulator, q, goal, force))
         simulator.poses.move(q)
         simulator.contacts.find(simulator.poses)
-        found = arrays(*simulator.posed_step(q, goal, force))
+        found = arrays(*simulator.posed_step(goal, force))
         assert simulator.gap == expected["phi"].min()
         wrong.update(differing_names(found, expected))
         after = simulator.screws.integrate(move)
@@ -283,7 +283,7 @@ def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name):
 def test_a_sum_that_compiled_code_makes_wrong_is_left_to_the_plain_path():
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one = scenario.simulator()
-    one.screws._sums["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
+    one.screws.sums["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
     q = scenario.system.q_start
     goal = scenario.targets(scenario.h)
     expected = replace(scenario, fast=False).simulator().step(q, goal)

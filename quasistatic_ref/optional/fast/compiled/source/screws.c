@@ -8,7 +8,7 @@
 enum { FLOATING, PLANAR, CONTINUOUS, SCALAR };
 
 /* structure.py reads this: 64-bit integers, then pointers. */
-typedef struct {
+typedef struct Screws {
     int64_t joints;
     /* Of each joint: its kind, and where its entries of q and of delta_q start. */
     const int64_t *kind, *q_start, *v_start;

@@ -1,0 +1,322 @@
+"""Steps that follow on each other, in few calls, as long as C decides all of a step."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.residuals import Residuals
+from quasistatic_ref.certify.rows import contact_rows
+from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.optional.fast.compiled.certificate import Prover, claims_of
+from quasistatic_ref.optional.fast.compiled.forces import FastSolution
+from quasistatic_ref.optional.fast.compiled.library import library
+from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram
+from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.posed import posed
+from quasistatic_ref.optional.fast.rechecked import WHOLE, check, is_due
+from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.simulate.recorder import SECONDS
+from quasistatic_ref.simulate.result import StepArrays, StepResult, Steps
+from quasistatic_ref.solve.solve import NOTHING_CLAIMED
+from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.data import Array, StepData
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.fast.simulator import FastSimulator
+
+TO_PYTHON, DONE, REGROUPED, SINES = range(4)
+"""As in onward.c."""
+LAPS = ("distances", "rows", "solve", "proof", "integrate")
+RESIDUALS = tuple(Residuals.__dataclass_fields__)
+PROVED = {"kind": "exact", "error_bound": 0.0, "gap": None}
+"""What all certificates of proofs say."""
+NO_ROWS = {"lam_extra": read_only(np.zeros(0)), "alone": True}
+SHARED = ("J", "phi", "tau", "g", "A", "b", "delta_q_bar_a")
+"""What the scene writes where the proofs read it."""
+
+
+class Onward:
+    """What takes a step after another.
+
+    Parameters
+    ----------
+    simulator : FastSimulator
+        At the poses of the step.
+    solver : FastSolver
+        That has solved the step before.
+    program : NaturalProgram
+        Into which its steps are written.
+    step : StepData
+        One of the steps.
+    prover : Prover or None
+        That of these steps, on the rows that the step before has pressed; without it the backend
+        answers, and nothing is claimed.
+
+    Attributes
+    ----------
+    record : dtype
+        Of what is kept of a step.
+    said : list of (int or None, float or None)
+        Iterations and time [s] of the backend in each step since the last :meth:`begin`.
+    """
+
+    def __init__(
+        self,
+        simulator: FastSimulator,
+        solver: FastSolver,
+        program: NaturalProgram,
+        step: StepData,
+        prover: Prover | None,
+    ) -> None:
+        self.solver = solver
+        self.prover = prover
+        self._simulator = simulator
+        self._option_set = solver.option_sets(simulator.accuracy)[0]
+        self.said: list[tuple[int | None, float | None]] = []
+        compiled = library()
+        self._posed = compiled.step_posed
+        self._answered = compiled.step_answered
+        self._proved = compiled.step_proved
+        self._led = compiled.step_led
+        self._reach = compiled.reach
+        self._groups_proved = compiled.groups_proved
+        numbers = simulator.numbers
+        screws = simulator.screws
+        natural = solver.program
+        n, m = step.n_v, step.m
+        self._s = s = Structure("onward.c", "Onward")
+        self._address = s.address
+        self._hessian = hessian = program.hessian
+        norm = hessian.norm
+        row, column = (stride // 8 for stride in natural.A.strides)
+        screws.changes.put({"delta_q": numbers["delta_q_bar_a"]})
+        self._target = screws.target
+        self._force = numbers["force"]
+        self._links = simulator.system.links
+        s.put(
+            {
+                "n": n, "m": m, "row": row, "column": column,
+                "change": screws.changes.address, "sum": screws.sums.address,
+                "pairs": simulator.contacts.address, "scene": numbers.address,
+                "program": program.address,
+                "penetration": np.array([simulator.limits.penetration]),
+                "coordinate": hessian.coordinate, "units": program.units,
+                "H": hessian.natural_H, "f": natural.f, "b": natural.b,
+                "A": natural.A.ravel(order="K"), "g": numbers["g"],
+                "unit": norm.unit, "L": norm.L, "inverse": norm.inverse,
+                "residuals": np.zeros(4), "clock": np.zeros(1), "seconds": np.zeros(len(LAPS)),
+                "x": np.zeros(n), "y": np.zeros(m), "delta_q": np.zeros(n), "lam": np.zeros(m),
+            }
+        )  # fmt: skip
+        if prover is not None:
+            self._share(prover, step)
+        screws.sums.put({"delta_q": s["delta_q"]})
+        kept: dict[str, NDArray[Any]] = {
+            "scene": numbers.written, "delta_q_bar_a": numbers["delta_q_bar_a"],
+            "delta_q": s["delta_q"], "lam": s["lam"], "q": screws.sums["q_next"],
+            "seconds": s["seconds"],
+        }  # fmt: skip
+        if prover is not None:
+            claims = {name: prover.s[name] for name in ("net", "least", "claims")}
+            kept |= {"residuals": s["residuals"], **claims}
+        self.record = np.dtype(
+            [(name, numbers.given if name == "scene" else (array.dtype, array.shape))
+             for name, array in kept.items()]
+        )  # fmt: skip
+        s.put(
+            {
+                "pieces": len(kept),
+                "piece": np.array([array.ctypes.data for array in kept.values()]),
+                "size": np.array([array.nbytes // 8 for array in kept.values()]),
+            }
+        )
+
+    def _share(self, prover: Prover, step: StepData) -> None:
+        """Have proofs read what C writes of a step, and the record what they find."""
+        s = self._s
+        proofs = self.solver.proofs
+        self._first = proofs.parts[0]
+        group = np.zeros(step.n_v, np.int64)
+        for i, part in enumerate(proofs.parts):
+            group[part.group.coordinates] = i
+        prover.s.share(self._simulator.numbers, SHARED)
+        prover.s["mu"][:, 1:] = step.contacts.mu
+        s.share(prover.s, ("frame", "pressure", "delta_q", "lam"))
+        s.put(
+            {
+                "groups": len(proofs.parts), "group": group,
+                "squared": np.zeros(2 * len(proofs.parts)),
+                "moves": np.asarray(step.contacts.J.any(axis=1), np.int64),
+            }
+        )  # fmt: skip
+
+    def fits(self, solver: FastSolver, H: Array) -> bool:
+        """Whether it takes the steps of a solver whose H, shape (n_v, n_v), is the same array."""
+        hessian = self._hessian
+        return solver is self.solver and solver.hessian is hessian and hessian.H is H
+
+    def begin(self, records: NDArray[np.void]) -> None:
+        """Begin from the last step, and write the next ones into `records`, shape (steps,) [-]."""
+        s = self._s
+        s.put({"record": records.ctypes.data})
+        s["clock"][0] = 0.0
+        self.said = []
+        if self.prover is not None:
+            s["pressure"][:] = self.solver.pressed
+            self.prover.s["gap"][:] = 0.0
+
+    def take(self, q_bar_a: Array, force: Array) -> int:
+        """Take the step from the poses that are there: TO_PYTHON, DONE or REGROUPED.
+
+        Parameters
+        ----------
+        q_bar_a : ndarray, shape (n_q_a,)
+            Checked [m, rad, -].
+        force : ndarray, shape (n_v,)
+            [N, N m].
+        """
+        simulator = self._simulator
+        address = self._address
+        self._target[:] = q_bar_a
+        self._force[:] = force
+        simulator.poses.weigh(simulator.down)
+        code: int = self._posed(address)
+        if code != DONE:
+            return code
+        code = self._by_backend() if self.prover is None else self._by_proof(self.prover)
+        if code == SINES:
+            simulator.screws.say_sines()
+            code = self._led(address)
+        if code != DONE:
+            return TO_PYTHON
+        poses = simulator.poses
+        poses.move(simulator.screws.sums["q_next"])
+        if self._reach(simulator.numbers.address) <= simulator.surely_within:
+            return DONE
+        beyond = simulator.limits.out_of_reach(self._links, poses.kinematics().t)
+        return DONE if beyond is None else TO_PYTHON
+
+    def _by_proof(self, prover: Prover) -> int:
+        if not self._groups_proved(prover.s.address):
+            return TO_PYTHON
+        if is_due(WHOLE, len(self._first.group.coordinates)):
+            decided = prover.proofs[0].decided() if prover.proofs[0] else None
+            assert decided is not None
+            simulator = self._simulator
+            numbers = simulator.numbers
+            step, _ = simulator.step_of(numbers.taken(), numbers["delta_q_bar_a"].copy())
+            check(self._first.step(step), decided)
+        code: int = self._proved(self._address)
+        return code
+
+    def _by_backend(self) -> int:
+        try:
+            reply = self.solver.reply(self._option_set, None)
+        except Exception:  # whatever another package raises: Python tries again
+            return TO_PYTHON
+        if not reply.solved or reply.x is None or reply.lam is None:
+            return TO_PYTHON
+        self._s["x"][:] = reply.x
+        self._s["y"][:] = reply.lam
+        self.said.append((reply.iterations, reply.seconds))
+        code: int = self._answered(self._address)
+        return code
+
+
+class Taken(Steps):
+    """Steps that were taken so; each becomes an object when it is asked for.
+
+    Parameters
+    ----------
+    onward : Onward
+    simulator : FastSimulator
+    q : ndarray, shape (n_q,)
+        Where they start.
+    records : ndarray, shape (steps,)
+        What C has written of them [of the notation].
+    """
+
+    def __init__(
+        self, onward: Onward, simulator: FastSimulator, q: Array, records: NDArray[np.void]
+    ) -> None:
+        self._records = read_only(records)
+        self._simulator = simulator
+        self._start = q
+        self._proved = onward.prover is not None
+        self._solver = onward.solver
+        self._said = onward.said
+        self._made: dict[int, StepResult] = {}
+
+    def __len__(self) -> int:
+        return len(self._records)
+
+    def __getitem__(self, i: Any) -> Any:
+        if isinstance(i, slice):
+            return [self[k] for k in range(*i.indices(len(self)))]
+        k = range(len(self))[i]
+        if k not in self._made:
+            self._made[k] = self._result(k)
+        return self._made[k]
+
+    @cached_property
+    def arrays(self) -> StepArrays:
+        """As of any such steps."""
+        records = self._records
+        scene = records["scene"]
+        names = ("phi", "alpha", "beta", "n", "point", "d1", "d2", "tau")
+        kind = "exact" if self._proved else NOTHING_CLAIMED.kind
+        worst = records["residuals"].max(axis=1) if self._proved else np.nan
+        count = len(records)
+        return {
+            **{name: scene[name] for name in names},
+            **{name: records[name] for name in ("delta_q", "lam", "q")},
+            "motion": (scene["J"] @ records["delta_q"][:, None, :, None])[..., 0],
+            "certificate": np.full(count, kind),
+            "worst_residual": np.full(count, worst),
+            "digits": np.full(count, np.nan),
+            **{SECONDS + name: records["seconds"][:, i] for i, name in enumerate(LAPS)},
+        }
+
+    def _result(self, k: int) -> StepResult:
+        simulator = self._simulator
+        solver = self._solver
+        record = self._records[k]
+        step, points = simulator.step_of(record["scene"], record["delta_q_bar_a"])
+        seconds = dict(zip(LAPS, record["seconds"].tolist(), strict=True))
+        status = "not called" if self._proved else "optimal"
+        iterations, solve_time = (None, None) if self._proved else self._said[k]
+        statistics = SolverStatistics(
+            solver.name,
+            status,
+            iterations,
+            solve_time,
+            simulator.accuracy,
+            interface=solver.interface,
+            proof_time=seconds["proof"],
+        )
+        own = {
+            "delta_q": record["delta_q"], "lam": record["lam"], "step": step,
+            "backend": solver.name, "statistics": statistics, "in_c": simulator.in_c,
+            "net_impulse": record["net"] if self._proved else None,
+            "certificate": self._certificate(record, step) if self._proved else NOTHING_CLAIMED,
+        }  # fmt: skip
+        solution = posed(FastSolution, NO_ROWS, own)
+        start = self._records["q"][k - 1] if k else self._start
+        return StepResult(record["q"], step, solution, points, seconds, start, simulator.scene)
+
+    def _certificate(self, record: Any, step: StepData) -> Certificate:
+        """As of :func:`~quasistatic_ref.certify.certificate.exact_certificate`."""
+        working = record["lam"].nonzero()[0].tolist()
+        unique, smooth, least_slack, least_multiplier = claims_of(record["claims"], record["least"])
+        own = {
+            "residuals": dict(zip(RESIDUALS, record["residuals"].tolist(), strict=True)),
+            "active": contact_rows(step, working), "multipliers_unique": unique,
+            "differentiable": smooth, "smallest_inactive_slack": least_slack,
+            "smallest_active_multiplier": least_multiplier if working else None, "step": step,
+        }  # fmt: skip
+        return posed(Certificate, PROVED, own)

@@ -1,0 +1,290 @@
+"""Steps that follow on each other, in few calls: those of the long way, to the last bit."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import InputError, RunFailed, load_scenario, rollout
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast import rechecked
+from quasistatic_ref.optional.fast.adapters.daqp import Daqp
+from quasistatic_ref.optional.fast.compiled import onward
+from quasistatic_ref.optional.fast.rechecked import WHOLE, WrongProof
+from quasistatic_ref.optional.fast.simulator import FastSimulator
+from quasistatic_ref.simulate.observer import Observer
+from tests.closeness import assert_within
+from tests.optional.fast.compiled.test_fast import needs_compiler
+
+pytestmark = needs_compiler
+UNCERTIFIED = ["solver.certify=off", "record=light"]
+ROUNDING = 1e-13
+"""Of residuals: sums of 100 products near one, in two orders."""
+
+
+def long_way(simulator):
+    """The same simulator, which takes each step in Python, and asks the backend."""
+    simulator.taken = lambda q, given, most: ()
+    return simulator
+
+
+def results(scenario, simulator, steps=12):
+    q = scenario.system.q_start
+    for k in range(steps):
+        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
+        q = result.q
+        yield result
+
+
+@pytest.fixture(autouse=True)
+def _no_proof_is_due(monkeypatch):
+    monkeypatch.setitem(rechecked._proofs, WHOLE, 1)
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """How many steps C takes in each block, and how many it leaves."""
+    found = []
+    plain = FastSimulator.taken
+
+    def watched(*arguments):
+        taken = plain(*arguments)
+        found.append(len(taken))
+        return taken
+
+    monkeypatch.setattr(FastSimulator, "taken", watched)
+    return found
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "stack"])
+def test_runs_of_which_nothing_is_claimed_have_the_bits_of_the_long_way(few, name):
+    scenario = load_scenario(name, UNCERTIFIED, fast=True)
+    ways = scenario.simulator(), long_way(scenario.simulator())
+    for one, other in zip(*(results(scenario, way) for way in ways), strict=True):
+        assert one == other
+        assert one.solution.statistics._replace(solve_time=0.0) == (
+            other.solution.statistics._replace(solve_time=0.0)
+        )
+    assert sum(few) == 11  # all but the first
+
+
+@pytest.mark.parametrize("name", ["bunny_grasp", "block_push", "panda_push"])
+def test_proofs_on_the_rows_of_the_step_before_have_the_bits_of_the_long_way(few, name):
+    scenario = load_scenario(name, ["record=light"], fast=True)
+    ways = scenario.simulator(), long_way(scenario.simulator())
+    for one, other in zip(*(results(scenario, way, 40) for way in ways), strict=True):
+        mine = one.solution
+        its = other.solution
+        assert one.step == other.step
+        assert bits([one.q, mine.delta_q, mine.net_impulse, mine.forces]) == (
+            bits([other.q, its.delta_q, its.net_impulse, its.forces])
+        )
+        claims = {"multipliers_unique", "differentiable", "smallest_inactive_slack", "error_bound"}
+        if its.certificate.multipliers_unique:
+            assert bits(mine.lam) == bits(its.lam)
+            claims |= {"active", "smallest_active_multiplier"}
+        for claim in claims:
+            assert getattr(mine.certificate, claim) == getattr(its.certificate, claim)
+        assert [*mine.certificate.residuals] == [*its.certificate.residuals]
+        assert max(mine.certificate.residuals.values()) < ROUNDING
+    assert sum(few) == 39
+
+
+class Every(Observer):
+    """Has a run stop at each step."""
+
+    every_step = True
+
+
+class Times:
+    """A target, and how often it was asked for each step."""
+
+    def __init__(self, scenario, fails_at=np.inf):
+        self.scenario = scenario
+        self.fails_at = fails_at
+        self.asked = []
+
+    def __call__(self, t, q):
+        """The target, unless it fails."""
+        self.asked.append(round(t / self.scenario.h) - 1)
+        if self.asked[-1] == self.fails_at:
+            raise InputError("is wrong on purpose", field="target")
+        return self.scenario.targets(t)
+
+
+def run_of(scenario, steps, target=None, **more):
+    return rollout(
+        scenario.simulator(), scenario.system.q_start, target or scenario.targets, steps,
+        record=scenario.record, progress=False, **more,
+    )  # fmt: skip
+
+
+def same(one, other, steps):
+    """Whether two runs have the same first steps."""
+    return all(bits(one[name][:steps]) == bits(other[name][:steps]) for name in one.arrays)
+
+
+@pytest.mark.parametrize("settings", [["record=full"], UNCERTIFIED], ids=["proved", "off"])
+def test_blocks_have_the_bits_of_single_steps_however_a_run_ends(few, tmp_path, settings):
+    scenario = load_scenario("bunny_grasp", [*settings, "steps=24"], fast=True)
+    whole = run_of(scenario, 24)
+    assert few == [0, 23]
+    single = run_of(scenario, 24, observers=[Every()])
+    assert same(single, whole, 25)
+    assert same(run_of(scenario, 9), whole, 9)
+    times = Times(scenario)
+    assert same(run_of(scenario, 24, times), whole, 25)
+    assert times.asked == [*range(24)]
+    with pytest.raises(RunFailed, match=r"step 17: .*wrong on purpose") as failed:
+        run_of(scenario, 24, Times(scenario, 17), save=tmp_path / "run.npz", save_every=60)
+    assert failed.value.trajectory.steps == 17
+    assert same(failed.value.trajectory, whole, 17)
+
+
+def test_interrupted_blocks_go_on_with_the_rows_of_the_last_step(few, tmp_path, monkeypatch):
+    """What a run is resumed by is the saved lam: no step is asked for again."""
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
+    whole = run_of(scenario, 120)
+    path = tmp_path / "run.npz"
+
+    def noting(t, q):
+        if round(t / scenario.h) == 50:
+            interrupt.noted = True
+        return scenario.targets(t)
+
+    from quasistatic_ref.simulate import rollout as module
+
+    class Noted(module.Interrupt):
+        def __init__(self):
+            nonlocal interrupt
+            super().__init__()
+            interrupt = self
+
+    interrupt = None
+    monkeypatch.setattr(module, "Interrupt", Noted)
+    with pytest.raises(RunFailed, match="step 50: interrupted") as ended:
+        run_of(scenario, 120, noting, save=path, save_every=0.001)
+    assert same(ended.value.trajectory, whole, 50)
+    monkeypatch.setattr(Daqp, "reply", None)  # it is not asked
+    resumed = run_of(scenario, 120, save=path, resume=True)
+    assert same(resumed, whole, 121)
+
+
+def test_a_limit_ends_a_block_at_the_step_that_it_ends(few):
+    settings = ["record=light", "limits.reach=0.205", "steps=200"]
+    scenario = load_scenario("bunny_grasp", settings, fast=True)
+    ends = []
+    for observers in ((), [Every()]):
+        with pytest.raises(RunFailed) as failed:
+            run_of(scenario, 200, observers=observers)
+        ends.append((str(failed.value), failed.value.trajectory))
+    (said, one), (other_said, other) = ends
+    assert "limits.reach" in said
+    assert said == other_said
+    assert one.steps > 100
+    assert few.count(0) == 4  # the first step and the last, twice
+    assert same(one, other, one.steps + 1)
+
+
+def test_a_block_ends_before_a_proof_that_is_checked(monkeypatch):
+    scenario = load_scenario("bunny_grasp", ["record=light", "steps=12"], fast=True)
+    monkeypatch.setattr(rechecked, "EVERY", 7)
+    monkeypatch.setitem(rechecked._proofs, WHOLE, 0)
+
+    def checked(step, found):
+        if rechecked._proofs[WHOLE] > 1:
+            raise WrongProof(step, "all of it")
+
+    monkeypatch.setattr(onward, "check", checked)
+    with pytest.raises(RunFailed, match=r"step 7: .*all of it") as failed:
+        scenario.run(progress=False)
+    assert failed.value.trajectory.steps == 7
+
+
+def test_a_step_in_which_others_move_contacts_is_divided_anew(few):
+    scenario = load_scenario("stack", ["record=light", "steps=8"], fast=True)
+    whole = run_of(scenario, 8)
+    simulator = scenario.simulator()
+    run = list(results(scenario, simulator, 4))
+    before = simulator.onward
+    before._s.integers("moves")[0, 0] ^= 1  # as if it had been otherwise
+    run.append(simulator.step(run[-1].q, scenario.targets(5 * scenario.h)))
+    assert simulator.onward is not before
+    assert bits(np.array([result.q for result in run])) == bits(whole["q"][1:6])
+    assert 0 not in few[3:]
+
+
+@pytest.mark.parametrize("part", ["inverse", "b"])
+def test_a_proved_step_that_python_would_refuse_is_left_to_it(few, part):
+    """It may be too long for its load, or its residuals no numbers: Python then looks again."""
+    scenario = load_scenario("stack", ["record=light"], fast=True)
+    simulator = scenario.simulator()
+    run = list(results(scenario, simulator, 4))
+    array = simulator.onward._s[part]
+    if part == "inverse":
+        simulator.onward._s.put({part: np.zeros_like(array)})  # as if nothing moved by the load
+    else:
+        simulator.onward._s.put({part: np.full_like(array, np.inf)})
+    after = simulator.step(run[-1].q, scenario.targets(5 * scenario.h))
+    assert few[-1] == 0
+    assert bits(after.q) == bits(run_of(scenario, 5)["q"][5])
+
+
+def fails(reply):
+    reply.solved = False
+    reply.status = "on purpose"
+
+
+def is_not_finite(reply):
+    reply.x[0] = np.nan
+
+
+def has_no_multipliers(reply):
+    reply.lam = None
+
+
+def raises(reply):
+    raise RuntimeError("on purpose")
+
+
+@pytest.mark.parametrize("wrong", [fails, is_not_finite, has_no_multipliers, raises])
+def test_an_answer_that_will_not_do_is_left_to_the_long_way(few, monkeypatch, wrong):
+    """The next reply of the backend is right again, and so is what the step comes to."""
+    scenario = load_scenario("bunny_grasp", UNCERTIFIED, fast=True)
+    expected = [result.q for result in results(scenario, scenario.simulator(), 8)]
+    plain = Daqp.reply
+    calls = []
+
+    def once(self, same_H, warm):
+        reply = plain(self, same_H, warm)
+        calls.append(reply)
+        if len(calls) in (6, 7):  # and its second, cold attempt
+            wrong(reply)
+        return reply
+
+    monkeypatch.setattr(Daqp, "reply", once)
+    del few[:]
+    run = list(results(scenario, scenario.simulator(), 8))
+    assert 0 in few[3:]
+    for result, q in zip(run, expected, strict=True):
+        assert_within(result.q, q, 1e-9)  # cold, and so not the same bits
+
+
+def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(few):
+    scenario = load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"], fast=True)
+    list(results(scenario, scenario.simulator(), 4))
+    assert few == [0] * 4
+
+
+def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_the_plain_path():
+    """Nine free bodies have 54 coordinates, and a part at most 48."""
+    ways = [pile((9, 1, 1), backend="daqp") for _ in range(2)]
+    assert len(ways[0].simulator.system.workspace().parts) == 2
+    ways[1].simulator.by_c = False
+    q = [way.q for way in ways]
+    for _ in range(3):
+        one, other = (
+            way.simulator.step(at, np.zeros(0), way.force) for way, at in zip(ways, q, strict=True)
+        )
+        assert one == other
+        q = [one.q, other.q]
+    assert ways[0].simulator.by_c
