@@ -18,7 +18,7 @@ TERMS = {
     "dual": ["|Hx|", "|A'lam|", "|g|"],
     "gap": ["|x'Hx|", "|g'x|", "|b'lam|"],
 }
-"""What each residual is the difference of."""
+"""What each residual is the difference of: its terms where a promise names none."""
 KNOWN = {
     "1",
     "m",
