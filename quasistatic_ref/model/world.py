@@ -263,7 +263,8 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])
             # URDF's default is 0 to 0, with which nothing is said.
-            joint = replace(joint, limits=None if lower == upper == 0 else (lower, upper))
+            said = lower <= upper and (lower, upper) != (0.0, 0.0)
+            joint = replace(joint, limits=(lower, upper) if said else None)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
 

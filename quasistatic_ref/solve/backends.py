@@ -253,9 +253,12 @@ def backend(name: str) -> Backend:
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:
         other = QPSOLVERS + name
-        remedy = f"is available as {other!r}" if other in known else "is not installed"
-        if other not in known:
-            remedy += f"; {entry.to_install_it}"
+        if other in known:
+            remedy = f"is available as {other!r}"
+        elif not entry.cvxpy and name in installed("native"):
+            remedy = "is reached with fast alone"
+        else:
+            remedy = f"is not installed; {entry.to_install_it}"
         choices = ", ".join(known)
         raise BackendError(f"{remedy}; installed here: {choices}", field="backend", value=name)
     return entry

@@ -37,7 +37,7 @@ def test_how_many_multipliers_a_contact_has(name, counts, rng):
              "facets-+8", "facets-1026", "facets-٨", "Pyramid", "facets-8.0"],
 )  # fmt: skip
 def test_another_name_is_refused(name, rng):
-    with pytest.raises(StepDataError, match=r"cone: must be one of pyramid, ellipsoid"):
+    with pytest.raises(StepDataError, match=r"cone: must be one of pyramid, "):
         random_step(rng).replace(cone=name)
 
 

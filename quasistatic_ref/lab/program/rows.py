@@ -6,7 +6,13 @@ from .number import part_of_turn
 
 
 def cone_table(cone, rows, mu):
-    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega), for mu of any kind."""
+    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega), for mu of any kind.
+
+    Raises
+    ------
+    ValueError
+        If the cone is another one.
+    """
     sides = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     spins = [[0, 0, 1], [0, 0, -1]]
     if cone == "frictionless":
@@ -14,9 +20,11 @@ def cone_table(cone, rows, mu):
     if cone == "product":
         both = [[a, b, s if rows == 6 else 0] for s in (1, -1) for a, b, _ in sides]
         return np.array(both if rows == 6 else both[:4])
-    if cone != "pyramid":
-        K = int(cone.split("-")[1])
+    if cone.startswith("facets-"):
+        K = int(cone.removeprefix("facets-"))
         sides = [[*part_of_turn(mu, k, K), 0] for k in range(K)]
+    elif cone != "pyramid":
+        raise ValueError(f"the cone {cone} is none that this program knows")
     return np.array(sides + (spins if rows == 6 else []))
 
 

@@ -19,7 +19,6 @@ class AxisJoint(Joint):
 
     measure: ClassVar[str] = "rad"
     lengths = 0
-    in_c = 3
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -52,9 +51,12 @@ class AxisJoint(Joint):
 class Revolute(AxisJoint):
     """A joint that turns about its axis, between limits."""
 
+    in_c = 3
+
 
 class Prismatic(AxisJoint):
     """A joint that slides along its axis."""
 
     measure = "m"
     lengths = 1
+    in_c = 3

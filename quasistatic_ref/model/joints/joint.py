@@ -44,7 +44,8 @@ class Joint(Plain, ABC):
         Its entries of q and of delta_q: lengths first.
     limits : tuple of float, optional
         Least and greatest position that its URDF allows [m, rad], which the model ignores. None
-        where the URDF gives none or both are 0, and for bases and continuous joints.
+        where the URDF gives none, both are 0 or the lower is above the upper one, and for bases and
+        joints whose position is no number.
 
     Attributes
     ----------
@@ -55,7 +56,8 @@ class Joint(Plain, ABC):
     free : bool
         Whether nothing guides the link that it moves.
     in_c : int or None
-        Its number in ``screws.c``; None where compiled code does not know it.
+        Its number in ``screws.c``; None where compiled code does not know it. It is not inherited,
+        since a class may change the sum of the one from which it inherits.
     """
 
     name: str
@@ -68,6 +70,9 @@ class Joint(Plain, ABC):
     unit: ClassVar[str | None] = None
     free: ClassVar[bool] = False
     in_c: ClassVar[int | None] = None
+
+    def __init_subclass__(cls) -> None:
+        cls.in_c = cls.__dict__.get("in_c")
 
     @property
     @abstractmethod

@@ -323,7 +323,7 @@ def _joint(element: Element, ignored: list[str]) -> FileJoint:
     parent, child = (joint.child(end, "link").text("link") for end in ("parent", "child"))
     axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
     written = joint.perhaps("axis")
-    if written is not None and kind == "fixed":
+    if written is not None and kind in ("fixed", "ball"):
         ignored.append(written.where)
     elif written is not None:
         written.only("xyz")

@@ -33,13 +33,16 @@ def backend_failures(run: Run) -> Iterator[Said]:
     short = int(((digits > 0) & (digits < asked)).sum())
     if simulator.backend == NONE or not failed + short:
         return
-    first = int(np.flatnonzero((digits == 0) | (digits < asked))[0])
+    missed = (digits == 0) | (digits < asked)
+    first = int(np.flatnonzero(missed)[0])
+    exact = (run["certificate"][missed] == "exact").all()
+    other = "the exact method" if exact else "another backend or the exact method"
     said = f"failed in {failed} of {run.steps} steps" if failed else ""
     fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
     yield Said(
         f"choose another backend than {simulator.backend}, such as clarabel or daqp",
         f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
-        f"{first}; the exact method solved them",
+        f"{first}; {other} solved them",
         {"failed": failed, "short": short, "step": first},
     )
 

@@ -13,9 +13,6 @@ from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.step.arrays import freeze_copies
 from quasistatic_ref.step.data import Array, Extra, Indices
 
-LIMITED = [word for word, kind in JOINTS.items() if kind.unit is None]
-"""Types of joints whose ``<limit>`` bounds a position, in URDF."""
-
 
 @dataclass(frozen=True, eq=False)
 class JointLimits(Plain):
@@ -81,7 +78,8 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
     Raises
     ------
     InputError
-        If a joint has no position within its limits and those of the joints that mimic it.
+        If a lower limit is above the upper one, or a joint has no position within its limits and
+        those of the joints that mimic it.
     """
     joints = {joint.name: joint for joint in system.joints}
     moves = {name: (name, 1.0, 0.0) for name in joints}
@@ -91,10 +89,14 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
         for joint in xml_root(text).iter("joint") if body.name in bodies else ():
             limit = joint.find("limit")
             name = f"{body.name}/{joint.get('name')}"
-            if limit is None or joint.get("type") not in LIMITED or name not in moves:
+            kind = JOINTS.get(joint.get("type", ""))
+            if limit is None or kind is None or kind.unit or name not in moves:
                 continue
             says = Tag(limit, f"{body.name}: joint[{joint.get('name')}].limit")
             own = [says.number("lower", default=0.0), says.number("upper", default=0.0)]
+            if own[0] > own[1]:
+                problem = f"its lower limit is above its upper one, {own[1]:.6g}"
+                raise InputError(problem, field=name, value=own[0])
             of, multiplier, offset = moves[name]
             if own == [0.0, 0.0] or multiplier == 0:
                 continue

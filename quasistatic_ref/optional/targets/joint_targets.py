@@ -92,8 +92,9 @@ def joint_targets(
     ------
     InputError
         If a pose is not reached: the sentence names it, the millimetres left, and the joints at
-        their limits, or that the arm is stretched; if no actuated joint moves the link, or its base
-        is actuated; if the extra ``targets`` is not installed.
+        their limits, or that the arm is stretched; if no actuated joint moves the link, a mimic
+        joint does, or its body has a base or a ball joint; if the extra ``targets`` is not
+        installed.
 
     Examples
     --------
@@ -180,9 +181,20 @@ class _Arm:
         if body.base != FIXED:
             problem = f"is of {name}, whose base is {body.base}; a link of a fixed base is meant"
             raise ScenarioError(problem, field="link", value=link)
+        own = [joint for joint in system.joints if joint.name.startswith(f"{name}/")]
+        for joint in own:
+            if len(joint.coordinates) > 1:
+                problem = f"is of {name}, whose joint {joint.name} is no joint of one coordinate"
+                raise ScenarioError(problem, field="link", value=link)
         model = pin.buildModelFromXML(system.texts[number])
         of_link = model.frames[model.getFrameId(short)].parentJoint
         moving = {model.names[joint] for joint in [*model.supports[of_link]]}
+        for mimic in system.mimics:
+            if mimic.name in {f"{name}/{joint}" for joint in moving}:
+                problem = (
+                    f"is moved by {mimic.name}, which mimics {mimic.of}; no such link is meant"
+                )
+                raise ScenarioError(problem, field="link", value=link)
         actuated = scenario.bodies[name].actuated(system)
         self.joints = [joint for joint in actuated if joint.name.partition("/")[2] in moving]
         if not self.joints:

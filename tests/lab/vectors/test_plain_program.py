@@ -12,6 +12,7 @@ import pytest
 
 from quasistatic_ref.lab import program
 from quasistatic_ref.lab.program.distance import closest_points
+from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
@@ -27,6 +28,11 @@ LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_by_challenges.json")
 """Quadratic programs that this one or another once got wrong: rows that all but repeat or
 contradict each other, cones at their tips."""
+
+
+def test_a_cone_that_it_does_not_know_is_refused():
+    with pytest.raises(ValueError, match="the cone pyramid-45 is none that this program knows"):
+        cone_table("pyramid-45", 4, 0.5)
 
 
 @pytest.fixture(scope="module")

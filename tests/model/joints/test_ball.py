@@ -157,6 +157,12 @@ def test_a_target_turns_it_the_shorter_way(base, name):
     assert_within(held.targets(0.05), half.as_quat(), 8 * ROUNDING)
 
 
+def test_an_axis_means_nothing_to_a_ball():
+    other = System([Body("arm", HANGING.replace('xyz="1 0 0"', 'xyz="0 0 1"'))])
+    assert "arm: joint[ball].axis" in other.ignored
+    assert other.joints == System([Body("arm", HANGING)]).joints
+
+
 def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])

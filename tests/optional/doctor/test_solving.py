@@ -88,5 +88,7 @@ def test_no_run_under_residual_ends_for_a_backend_that_fails(monkeypatch, fast, 
     run = scenario.run(progress=False)
     assert (run.digits == 0).all()
     assert [one.name for one in run.findings] == ["failing backend"]
+    other = "the exact method" if saved_by == "none" else "another backend or the exact method"
+    assert f"step 0; {other} solved them" in run.findings[0].sentence
     assert set(run.certificate) == {"exact" if saved_by == "none" else "residual"}
     np.testing.assert_allclose(run.q, exact.q, atol=1e-9)

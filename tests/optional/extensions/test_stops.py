@@ -137,6 +137,16 @@ def test_limits_that_leave_no_position_are_refused():
         qr.load_scenario(scene(drawer(-0.001, 0.002, link("lower"), follower)))
 
 
+def test_limits_in_the_wrong_order_are_refused_where_they_stop_and_otherwise_none():
+    tables = scene(drawer(0.002, -0.001))
+    with pytest.raises(
+        InputError, match=r"c/slide: its lower limit is above its upper one, -0.001"
+    ):
+        qr.load_scenario(tables)
+    del tables["bodies"]["c"]["joint_limits"]
+    assert qr.load_scenario(tables).system.joints[0].limits is None
+
+
 def test_a_start_beyond_a_limit_is_refused_by_joint():
     problem = r"c/slide.*starts beyond its limits, -0.001 to 0.002; change the start, or leave out"
     with pytest.raises(InputError, match=problem):

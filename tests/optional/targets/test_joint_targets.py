@@ -91,6 +91,27 @@ def test_a_pose_that_is_not_reached_is_named_with_what_is_left(link, pose, words
         qr.joint_targets(qr.load_scenario(CRANE), link, [{"t": 1.0, **pose}])
 
 
+@pytest.mark.parametrize(
+    ("joint", "moving", "words"),
+    [
+        (
+            'type="prismatic"><mimic joint="turn"/>',
+            ["turn"],
+            "moved by crane/lift, which mimics crane/turn",
+        ),
+        ('type="ball">', ["turn", "lift"], "whose joint crane/lift is no joint of one coordinate"),
+    ],
+)
+def test_a_chain_with_a_joint_that_is_not_sought_is_refused(joint, moving, words):
+    urdf = WHEELED.replace("continuous", "revolute").replace('type="prismatic">', joint)
+    limit = '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    urdf = urdf.replace('<axis xyz="0 0 1"/></joint>', f'<axis xyz="0 0 1"/>{limit}</joint>', 1)
+    crane = {"urdf": urdf, "actuated": "all", "K_q": dict.fromkeys(moving, 10.0)}
+    scenario = qr.load_scenario(CRANE | {"bodies": CRANE["bodies"] | {"crane": crane}})
+    with pytest.raises(InputError, match=words):
+        qr.joint_targets(scenario, "crane/hook", [{"t": 1.0, "xyz": (0, 0, 0)}])
+
+
 def test_the_command_writes_what_the_scenario_of_the_package_holds(tmp_path, capsys):
     folder = scenario_path("arm_push").parent
     shutil.copytree(folder, tmp_path / "copy")
