@@ -25,7 +25,8 @@ from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Ellipsoid, PlacedShape
 
 Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
@@ -35,6 +36,12 @@ MOST_PAIRS = 50_000
 """Most pairs of a scenario."""
 SECONDS = 5.0
 """What so many take [s]."""
+COUNTED = 0.002
+CURVED = 0.05
+"""What it takes to count how many points of two solids are near, and of two of which one is curved
+[s]."""
+OF_TWO = 3e-7
+"""The same of a point and a face, or of two points [s]; 8 s of it take 1.5 GiB."""
 
 
 def placed_shapes(
@@ -143,11 +150,21 @@ def contact_pairs(
                 with about_field(table.where):
                     pair = ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull)
                     if within is not None:
+                        spend(_seconds(pair))
                         number = number_within(pair, start.R, start.t, within)
                         pair = replace(pair, k=number)
                     pairs.append(pair)
     tables.close()
     return tuple(pairs)
+
+
+def _seconds(pair: ContactPair) -> float:
+    """What :func:`~quasistatic_ref.contact.distance.number_within` takes of a pair [s]."""
+    shapes = [pair.alpha.shape, pair.beta.shape]
+    curved = any(isinstance(shape, Cylinder | Cone | Ellipsoid) for shape in shapes)
+    faces = [len(shape.triangles) for shape in shapes if isinstance(shape, ConvexMesh)]
+    other = max([4, *faces]) if pair.has_cloud else pair.candidates
+    return (CURVED if curved else COUNTED) + OF_TWO * pair.candidates * other
 
 
 def _within(k_given: Any, where: str) -> float | None:
