@@ -117,7 +117,8 @@ def _cause(trial: Trial, found: Comparison) -> str:
 HEAD = f"""# Whole runs of programs with a mistake
 
 Made by `python -m validation.make.port_runs`. Of the [mutants of the ports](port_mutants.md) that
-are kept apart {sum(DRAWN.values())} are drawn. Each takes {STEPS} steps of {", ".join(SCENES)},
+are kept apart {sum(DRAWN.values())} are drawn. Each takes the first {STEPS} steps of these scenes,
+{", ".join(SCENES)},
 until `quasistatic-ref compare` sees a wrong step. The layer is right if it is the first that fails
 in `vectors check`; a classic mistake, if it is made in the place that was changed. Lines are those
 of the plain program with which it would end so, too.
@@ -128,8 +129,9 @@ def page(found: Sequence[Told]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
     outcomes = Counter(one.outcome for one in found)
-    yield f"Of {len(found)} mutants {outcomes['ends']} take no step, {outcomes['same']} take each"
-    yield f"as the reference does, and {outcomes['wrong']} are found."
+    yield f"Of {len(found)} mutants {outcomes['wrong']} are found; {outcomes['same']} take each"
+    yield f"step as the reference does, and {outcomes['ends']} none. What a mistake is about has to"
+    yield "be in the scene, and to move something."
     yield ""
     count = Counter((one.cause, one.layer) for one in found)
     rows = [(words, *(count[cause, layer] for layer in LAYERS)) for cause, words in CAUSES.items()]
