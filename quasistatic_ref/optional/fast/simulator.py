@@ -185,7 +185,8 @@ class FastSimulator(Simulator):
             self.by_c = self.is_plain(q, q_bar_a, force)
             if not self.by_c:
                 return super().step(q, q_bar_a, force)
-        force = checked_force(self.system, force) + np.zeros(self.system.n_v)
+        if np.shape(force) != self.given.shape:
+            force = checked_force(self.system, force) + np.zeros(self.system.n_v)
         taken = self.taken(q, lambda k, q: (q_bar_a, force), 1)
         return taken[0] if taken else self.step_in_python(q, q_bar_a, force)
 
@@ -256,10 +257,9 @@ class FastSimulator(Simulator):
             if self.certify != OFF:
                 solver.pressed = records["lam"][count]
             count += 1
-            at = read_only(records["q"][count - 1].copy())
-            due = self.certify != OFF and is_next(WHOLE)  # an error may follow
-            on = count < most and not due
-            of = given(count, at) if on else None
+            if count == most or (self.certify != OFF and is_next(WHOLE)):  # an error may follow
+                break
+            of = given(count, read_only(records["q"][count - 1].copy()))
         return Taken(onward, self, q, records[:count])
 
     def onward_from(self, solver: FastSolver, q_bar_a: Array, force: Array) -> Onward | None:
