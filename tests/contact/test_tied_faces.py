@@ -27,11 +27,6 @@ def closest_points_of(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) 
 CUBE = Box(np.full(3, 0.05))
 
 
-CUBE_MESH = convex_hull(
-    [[x, y, z] for x in (-0.05, 0.05) for y in (-0.05, 0.05) for z in (-0.05, 0.05)]
-)
-
-
 def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place():
     # The lower corners are level but for rounding, and so is the middle of their edge, where the
     # support point lies when an edge is parallel to the slope.

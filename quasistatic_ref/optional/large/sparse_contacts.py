@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.arrays import Array, Indices, read_only
+from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.step.contacts import Contacts
 
 
@@ -77,8 +77,9 @@ class SparseContacts(Contacts):
         return contact, self.blocks.column[contact, place], self.blocks.J[contact, :, place]
 
     def moving(self) -> bytes:
-        """Which coordinates move which contacts: equal bytes where these are the same."""
-        return b"".join(where.tobytes() for where in self.entries()[:2])
+        """Which coordinates move which contacts, and where they are kept, as bytes."""
+        moves: Mask = (self.blocks.J != 0).any(axis=1)
+        return self.blocks.column.tobytes() + moves.tobytes()
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, those columns of it, shape (k, 4, n)."""

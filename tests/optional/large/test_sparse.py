@@ -59,6 +59,18 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene, always_sparse):
     assert sparse.name == dense.name
 
 
+def test_blocks_that_keep_a_coordinate_in_another_place_are_told_apart():
+    """What a proof keeps of a step reads J by its places."""
+    c = random_step(np.random.default_rng(1), rows=(6,)).contacts
+    own = {name: getattr(c, name) for name in c.kept() if name != "J"}
+    J = np.ones((1, 4, 1))
+    none = np.zeros((1, 4, 1))
+    later = SparseContacts(**own, blocks=Blocks([[0, 1]], np.concatenate([none, J], axis=2), 3))
+    first = SparseContacts(**own, blocks=Blocks([[1, 2]], np.concatenate([J, none], axis=2), 3))
+    assert later.J.tobytes() == first.J.tobytes()
+    assert later.moving() != first.moving()
+
+
 @pytest.mark.extra("fast")
 def test_the_sparse_form_is_the_standard_form(always_sparse):
     step = step_after(pile(BOXES), 2).step
