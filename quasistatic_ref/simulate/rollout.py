@@ -16,13 +16,13 @@ from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import PACKED, Recorder
+from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
     Checked,
     Force,
     Target,
     force_function,
-    needed_arguments,
     target_function,
 )
 from quasistatic_ref.step.data import Array
@@ -158,10 +158,8 @@ def rollout(
     # Of a run that takes long, it prints that `fast` would shorten it.
     if progress and (pace := PACE.found()) is not None:
         recorder.observers.append(pace(simulator.fast, steps - recorder.steps))
-    wants_last = any(
-        callable(of) and needed_arguments(of, name) == 3
-        for name, of in (("target", target), ("force", force))
-    )
+    # A function of the user's may take steps itself, or ask for the last one.
+    asks_user = any(callable(of) and type(of) is not Targets for of in (target, force))
     bar = progress_bar(unit="step", total=steps, done=recorder.steps, shown=progress)
     last: StepResult | None = None
     with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt, bar:
@@ -169,7 +167,7 @@ def rollout(
         while (k := recorder.steps) < steps:
             if k % COLD_EVERY == 0:
                 start_cold(simulator)
-            one = wants_last or any(observer.alone() for observer in recorder.observers)
+            one = asks_user or any(observer.alone() for observer in recorder.observers)
             most = 1 if one else min(PACKED, COLD_EVERY - k % COLD_EVERY, steps - k)
             try:
                 interrupt.check()
@@ -191,7 +189,7 @@ def rollout(
                 trajectory = recorder.trajectory(reason, interrupted)
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
-            if wants_last:
+            if asks_user:
                 last = taken[-1]
             bar.update(len(taken))
         return recorder.trajectory()

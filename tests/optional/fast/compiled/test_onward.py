@@ -140,6 +140,20 @@ def test_blocks_have_the_bits_of_single_steps_however_a_run_ends(few, tmp_path, 
     assert same(failed.value.trajectory, whole, 17)
 
 
+def test_a_target_may_take_steps_with_the_same_simulator(few):
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
+    simulator = scenario.simulator()
+
+    def tried(t, q):
+        simulator.step(q, scenario.targets(t + scenario.h))
+        return scenario.targets(t)
+
+    q = scenario.system.q_start
+    run = rollout(simulator, q, tried, 6, record="light", progress=False)
+    assert bits(run["q"]) == bits(run_of(scenario, 6)["q"])
+    assert few[:12] == [0] + [1] * 11
+
+
 def test_interrupted_blocks_go_on_with_the_rows_of_the_last_step(few, tmp_path, monkeypatch):
     """What a run is resumed by is the saved lam: no step is asked for again."""
     scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
