@@ -187,8 +187,9 @@ class FastSimulator(Simulator):
                 return super().step(q, q_bar_a, force)
         if np.shape(force) != self.given.shape:
             force = checked_force(self.system, force) + np.zeros(self.system.n_v)
-        taken = self.taken(q, lambda k, q: (q_bar_a, force), 1)
-        return taken[0] if taken else self.step_in_python(q, q_bar_a, force)
+        tau = np.asarray(force)
+        taken = self.taken(q, lambda k, q: (q_bar_a, tau), 1)
+        return taken[0] if taken else self.step_in_python(q, q_bar_a, tau)
 
     @by_one_thread
     def steps(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
