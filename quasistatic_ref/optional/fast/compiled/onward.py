@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,7 +116,7 @@ class Onward:
         if prover is not None:
             self._share(prover, step)
         screws.sums.put({"delta_q": s["delta_q"]})
-        kept: dict[str, NDArray[Any]] = {
+        kept: dict[str, NDArray[np.generic]] = {
             "scene": numbers.written, "delta_q_bar_a": numbers["delta_q_bar_a"],
             "delta_q": s["delta_q"], "lam": s["lam"], "q": screws.sums["q_next"],
             "seconds": s["seconds"],
@@ -255,7 +255,13 @@ class Taken(Steps):
     def __len__(self) -> int:
         return len(self._records)
 
-    def __getitem__(self, i: Any) -> Any:
+    @overload
+    def __getitem__(self, i: int) -> StepResult: ...
+
+    @overload
+    def __getitem__(self, i: slice) -> list[StepResult]: ...
+
+    def __getitem__(self, i: int | slice) -> StepResult | list[StepResult]:
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
         k = range(len(self))[i]
@@ -309,7 +315,7 @@ class Taken(Steps):
         start = self._records["q"][k - 1] if k else self._start
         return StepResult(record["q"], step, solution, points, seconds, start, simulator.scene)
 
-    def _certificate(self, record: Any, step: StepData) -> Certificate:
+    def _certificate(self, record: np.void, step: StepData) -> Certificate:
         """As of :func:`~quasistatic_ref.certify.certificate.exact_certificate`."""
         working = record["lam"].nonzero()[0].tolist()
         unique, smooth, least_slack, least_multiplier = claims_of(record["claims"], record["least"])
