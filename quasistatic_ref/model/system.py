@@ -179,7 +179,9 @@ class System(Shown):
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
             neutral = self.kinematics(self.neutral())
-            self.varying_mass = mass_matrix(self._model, unactuated, neutral, self.n_a, inertias)
+            mass = mass_matrix(self._model, unactuated, neutral, self.n_a, inertias)
+            self.varying_mass = mass if len(mass.link) else None
+            self._M_u = mass.known
             unactuated = []
         self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
         if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
