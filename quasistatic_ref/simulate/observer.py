@@ -32,7 +32,8 @@ class Observer:
 
     def alone(self) -> bool:
         """Whether a run stops at each step for it."""
-        return self.every_step or not (self.seldom or type(self).before is Observer.before)
+        before = getattr(self.before, "__func__", None)
+        return self.every_step or not (self.seldom or before is Observer.before)
 
     def before(self, recorder: "Recorder") -> None:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""

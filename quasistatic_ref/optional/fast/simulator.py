@@ -55,7 +55,7 @@ from quasistatic_ref.simulate.simulator import (
 )
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import CERTIFY
-from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.solve.solve import FACTOR_LIMIT, solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import (
     DenseStepInBothUnits,
@@ -159,12 +159,15 @@ class FastSimulator(Simulator):
         self.surely_within = SURELY * self.limits.reach**2
         self.onward: Onward | None = None
         self.never = False  # H cannot be written in fixed point
+        self.left_open: bytes | None = None  # where a step starts that is left to Python
         proved = self.certify == CERTIFY[0] and self.backend == self.default_backend
         self.follows = (
             ordinary
             and self.blocks is None
             and self.screws.known
             and system.varying_mass is None
+            and self.h > 1 / FACTOR_LIMIT
+            and np.vdot(mu, mu) < FACTOR_LIMIT / 2  # C looks at the multipliers
             and (entries.coordinates <= SMALL if proved else self.certify == OFF)
         )
 
@@ -199,7 +202,9 @@ class FastSimulator(Simulator):
             return ()
         if not self.poses.are_at(q):
             self.poses.move(q)
-        return self.taken(q, given, most) or [self.step_in_python(q, *of)]
+        left_open = q.tobytes() == self.left_open
+        taken = () if left_open else self.taken(q, given, most)
+        return taken or [self.step_in_python(q, *of)]
 
     def step_in_python(self, q: Array, q_bar_a: Array, force: Array) -> StepResult:
         """One step from the checked q, of which C leaves something to be decided."""
@@ -229,9 +234,11 @@ class FastSimulator(Simulator):
     def taken(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
         """The same, from a checked q whose poses are there."""
         solver = self.solver
-        if not (self.follows and isinstance(solver, FastSolver)):
+        if not (self.follows and self.extension is None and isinstance(solver, FastSolver)):
             return ()
-        if solver.adapter.NEAR if self.certify == OFF else solver.pressed is None:
+        if self.certify == OFF and (solver.adapter.NEAR or solver.unsafe):
+            return ()
+        if self.certify != OFF and solver.pressed is None:
             return ()
         of = given(0, q)
         onward = self.onward
@@ -244,6 +251,7 @@ class FastSimulator(Simulator):
         records = np.zeros(most, onward.record)
         onward.begin(records)
         count = 0
+        start = q
         while of is not None:
             code = onward.take(*of)
             if code == REGROUPED:
@@ -254,7 +262,9 @@ class FastSimulator(Simulator):
                 onward.begin(records[count:])
                 code = onward.take(*of)
             if code != DONE:
+                self.left_open = start.tobytes()
                 break
+            start = records["q"][count]
             if self.certify != OFF:
                 solver.pressed = records["lam"][count]
             count += 1

@@ -75,6 +75,7 @@ FUNCTIONS = {
     "step_answered": ctypes.c_int,
     "step_proved": ctypes.c_int,
     "step_led": ctypes.c_int,
+    "step_within": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""
 

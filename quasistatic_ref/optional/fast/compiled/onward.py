@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.certify.rows import contact_rows
@@ -83,7 +84,7 @@ class Onward:
         self._answered = compiled.step_answered
         self._proved = compiled.step_proved
         self._led = compiled.step_led
-        self._reach = compiled.reach
+        self._within = compiled.step_within
         self._groups_proved = compiled.groups_proved
         numbers = simulator.numbers
         screws = simulator.screws
@@ -110,6 +111,7 @@ class Onward:
                 "A": natural.A.ravel(order="K"), "g": numbers["g"],
                 "unit": norm.unit, "L": norm.L, "inverse": norm.inverse,
                 "residuals": np.zeros(4), "clock": np.zeros(1), "seconds": np.zeros(len(LAPS)),
+                "reach": np.array([simulator.surely_within]),
                 "x": np.zeros(n), "y": np.zeros(m), "delta_q": np.zeros(n), "lam": np.zeros(m),
             }
         )  # fmt: skip
@@ -119,11 +121,11 @@ class Onward:
         kept: dict[str, NDArray[np.generic]] = {
             "scene": numbers.written, "delta_q_bar_a": numbers["delta_q_bar_a"],
             "delta_q": s["delta_q"], "lam": s["lam"], "q": screws.sums["q_next"],
-            "seconds": s["seconds"],
         }  # fmt: skip
         if prover is not None:
             claims = {name: prover.s[name] for name in ("net", "least", "claims")}
             kept |= {"residuals": s["residuals"], **claims}
+        kept["seconds"] = s["seconds"]  # C adds the last lap at the end of a record
         self.record = np.dtype(
             [(name, numbers.given if name == "scene" else (array.dtype, array.shape))
              for name, array in kept.items()]
@@ -164,7 +166,6 @@ class Onward:
         """Begin from the last step, and write the next ones into `records`, shape (steps,) [-]."""
         s = self._s
         s.put({"record": records.ctypes.data})
-        s["clock"][0] = 0.0
         self.said = []
         if self.prover is not None:
             s["pressure"][:] = self.solver.pressed
@@ -196,12 +197,13 @@ class Onward:
             return TO_PYTHON
         poses = simulator.poses
         poses.move(simulator.screws.sums["q_next"])
-        if self._reach(simulator.numbers.address) <= simulator.surely_within:
+        if self._within(address):
             return DONE
         beyond = simulator.limits.out_of_reach(self._links, poses.kinematics().t)
         return DONE if beyond is None else TO_PYTHON
 
     def _by_proof(self, prover: Prover) -> int:
+        check_arithmetic()
         if not self._groups_proved(prover.s.address):
             return TO_PYTHON
         if is_due(WHOLE, len(self._first.group.coordinates)):

@@ -1,9 +1,12 @@
 """Steps that follow on each other, in few calls: those of the long way, to the last bit."""
 
+import time
+
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, RunFailed, load_scenario, rollout
+from quasistatic_ref.errors import LimitExceeded
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast import rechecked
@@ -195,7 +198,7 @@ def test_a_limit_ends_a_block_at_the_step_that_it_ends(few):
     assert "limits.reach" in said
     assert said == other_said
     assert one.steps > 100
-    assert few.count(0) == 4  # the first step and the last, twice
+    assert few.count(0) == 3  # the first step, twice; the last, which a block has left open, once
     assert same(one, other, one.steps + 1)
 
 
@@ -302,3 +305,62 @@ def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_the_plain_pat
         assert one == other
         q = [one.q, other.q]
     assert ways[0].simulator.by_c
+
+
+def test_nothing_is_claimed_where_arithmetic_is_not_that_of_proofs(few, monkeypatch):
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
+    simulator = scenario.simulator()
+    *_, last = results(scenario, simulator, 3)
+
+    def changed():
+        raise InputError("numbers are not those of IEEE 754", field="arithmetic")
+
+    monkeypatch.setattr(onward, "check_arithmetic", changed)
+    with pytest.raises(InputError, match="not those of IEEE 754"):
+        simulator.step(last.q, scenario.targets(4 * scenario.h))
+
+
+def test_an_extension_that_is_given_late_is_asked():
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
+    simulator = scenario.simulator()
+    *_, last = results(scenario, simulator, 3)
+
+    def asked(q):
+        raise InputError("is asked", field="extension")
+
+    simulator.extension = asked
+    with pytest.raises(InputError, match="extension: is asked"):
+        simulator.step(last.q, scenario.targets(4 * scenario.h))
+
+
+def test_a_backend_that_may_not_return_is_asked_behind_its_guard(few):
+    settings = [*UNCERTIFIED, "solver.backend=quadprog"]
+    scenario = load_scenario("bunny_grasp", settings, fast=True)
+    assert len(list(results(scenario, scenario.simulator(), 3))) == 3
+    assert few == [0, 0, 0]
+
+
+def test_a_step_from_too_deep_is_refused_in_the_words_of_the_plain_path(few):
+    said = []
+    for fast in (False, True):
+        scenario = load_scenario("block_push", ["record=light"], fast=fast)
+        simulator = scenario.simulator()
+        *_, last = results(scenario, simulator, 3)
+        sunk = scenario.system.placed({"block": {"xyz": [0, 0, -0.06]}}, last.q)
+        with pytest.raises(LimitExceeded) as refused:
+            simulator.step(sunk, scenario.targets(4 * scenario.h))
+        said.append(str(refused.value))
+    assert "deeper than limits.penetration" in said[0]
+    assert said[1] == said[0]
+    assert few == [0, 1, 1, 0]
+
+
+def test_laps_are_of_the_step_alone():
+    """A target that sleeps is no part of a step; a proof on the last rows asks no backend."""
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
+    run = rollout(
+        scenario.simulator(), scenario.system.q_start,
+        lambda t, q: time.sleep(0.05) or scenario.targets(t), 4, progress=False,
+    )  # fmt: skip
+    assert sum(seconds[3] for seconds in run.seconds.values()) < 0.05
+    assert {name for name, seconds in run.seconds.items() if not seconds[3] > 0} == {"solve"}

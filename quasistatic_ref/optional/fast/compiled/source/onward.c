@@ -22,6 +22,7 @@ void changes(struct Screws *s);
 int half_turns(struct Screws *s);
 void sums(struct Screws *s);
 double step_data(Scene *s);
+double reach(const Scene *s);
 int natural_program(struct Natural *s);
 
 /* structure.py reads this: 64-bit integers, then pointers. */
@@ -50,6 +51,8 @@ typedef struct {
     /* A backend's answer; the solution in SI units. */
     const double *x, *y;
     double *delta_q, *lam;
+    /* The square of how far points may surely be [m^2]. */
+    const double *reach;
     /* When the last lap ended; the laps of this step [s]. */
     double *clock, *seconds;
     /* The arrays of a record and how long they are, and where they are copied to. */
@@ -58,13 +61,18 @@ typedef struct {
     double *record;
 } Onward;
 
-static void lap(Onward *s, int part)
+static double now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
-    double now = (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-    s->seconds[part] = *s->clock > 0.0 ? now - *s->clock : 0.0;
-    *s->clock = now;
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void lap(Onward *s, int part)
+{
+    double end = now();
+    s->seconds[part] = end - *s->clock;
+    *s->clock = end;
 }
 
 /* step/contacts.moving: whether the same coordinates move the same contacts as in the proofs' groups. */
@@ -86,6 +94,7 @@ static int moves_alike(const Onward *s)
 int step_posed(Onward *s)
 {
     const Scene *of = s->scene;
+    *s->clock = now();
     if (!turns(s->change))
         return TO_PYTHON;
     changes(s->change);
@@ -110,13 +119,21 @@ int step_led(Onward *s)
 {
     double *to = s->record;
     sums(s->sum);
-    lap(s, INTEGRATE);
     for (int64_t i = 0; i < s->pieces; to += s->size[i++])
         memcpy(to, s->piece[i], (size_t)s->size[i] * sizeof(double));
     s->record = to;
     if (s->pressure)
         memcpy(s->pressure, s->lam, (size_t)s->m * sizeof(double));
     return DONE;
+}
+
+/* Whether all points are within reach, once the poses at q (+) delta_q are there. */
+int step_within(Onward *s)
+{
+    int within = reach(s->scene) <= *s->reach;
+    lap(s, INTEGRATE);
+    s->record[-1] = s->seconds[INTEGRATE];
+    return within;
 }
 
 static int led(Onward *s) { return half_turns(s->sum) ? step_led(s) : SINES; }
