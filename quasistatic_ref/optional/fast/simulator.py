@@ -267,7 +267,7 @@ class FastSimulator(Simulator):
         if of is None or onward is None:
             return ()
         most = min(most, 1 + LARGEST_RECORDS // onward.record.itemsize)
-        records = np.zeros(most, onward.record)
+        records = np.empty(most, onward.record)
         onward.begin(records)
         count = 0
         start = q

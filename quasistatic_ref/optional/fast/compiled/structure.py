@@ -8,6 +8,7 @@ from functools import cache
 from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.optional.fast.compiled.library import SOURCE
 from quasistatic_ref.step.arrays import Array, Indices
@@ -59,6 +60,10 @@ class Structure:
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
         array[...] = value
+
+    def point(self, name: str, array: NDArray[np.void]) -> None:
+        """Point to an array that is not kept, of any shape [of its fields]."""
+        setattr(self._fields, name, array.ctypes.data)
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
