@@ -8,7 +8,7 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.files import plain, text_written
 
 ROOT = Path(__file__).parents[2]
 """Of the checkout."""
@@ -54,8 +54,8 @@ def show_page(text: str, out: Path | None) -> None:
 
 
 def record_written(path: Path, record: Any) -> None:
-    """Write a record of numbers and arrays as JSON, a field a line."""
-    text_written(path, json.dumps(json.loads(json_text(record)), indent=1) + "\n")
+    """Write a record of numbers and arrays as JSON, a field a line; infinite ones as Infinity."""
+    text_written(path, json.dumps(plain(record), indent=1) + "\n")
 
 
 def environment(home: Path, *wanted: str, python: str = sys.executable) -> Path:

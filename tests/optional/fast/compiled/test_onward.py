@@ -71,7 +71,10 @@ def test_runs_of_which_nothing_is_claimed_have_the_bits_of_the_long_way(few, nam
     assert sum(few) == 11  # all but the first
 
 
-@pytest.mark.parametrize("name", ["bunny_grasp", "block_push", "panda_push"])
+@pytest.mark.parametrize(
+    "name",
+    ["bunny_grasp", "block_push", pytest.param("panda_push", marks=pytest.mark.extra("robots"))],
+)
 def test_proofs_on_the_rows_of_the_step_before_have_the_bits_of_the_long_way(few, name):
     scenario = load_scenario(name, ["record=light"], fast=True)
     ways = scenario.simulator(), long_way(scenario.simulator())
