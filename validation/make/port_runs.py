@@ -54,7 +54,7 @@ CAUSES = {
 }
 
 
-class Told(NamedTuple):
+class RunsOutcome(NamedTuple):
     """What became of a mutant's runs.
 
     Parameters
@@ -85,8 +85,8 @@ def run_of(program: Program, scenario: Scenario) -> OtherRun | None:
     return OtherRun(0, np.array(q), 0.0) if len(q) > 1 else None
 
 
-def told(trial: Trial, program: Program) -> Told:
-    """What is said of a mutant that has been checked."""
+def runs_outcome(trial: Trial, program: Program) -> RunsOutcome:
+    """What `compare` says of the runs of a mutant that has been checked."""
     runs = 0
     for name in SCENES:
         scenario = load_scenario(name, steps=STEPS)
@@ -96,8 +96,8 @@ def told(trial: Trial, program: Program) -> Told:
         runs += 1
         found = comparison_of_run(scenario, run)
         if found.first is not None:
-            return Told("wrong", _layer(trial, found), _cause(trial, found))
-    return Told("same" if runs else "ends")
+            return RunsOutcome("wrong", _layer(trial, found), _cause(trial, found))
+    return RunsOutcome("same" if runs else "ends")
 
 
 def _layer(trial: Trial, found: Comparison) -> str:
@@ -125,7 +125,7 @@ of the plain program with which it would end so, too.
 """
 
 
-def page(found: Sequence[Told]) -> Iterator[str]:
+def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
     outcomes = Counter(one.outcome for one in found)
@@ -150,7 +150,7 @@ def main() -> int:
             for change, program in port.mutants(2 * EACH, lambda c: part_of(c.name, PARTS) == 1):
                 trial = trial_of(port, change, program, cases=0)
                 if program is not None and trial.outcome == "other":
-                    found.append(told(trial, program))
+                    found.append(runs_outcome(trial, program))
                     print(change.name, *found[-1], sep=", ", file=sys.stderr, flush=True)
                 if len(found) == before + count:
                     break

@@ -22,23 +22,21 @@ from quasistatic_ref.optional.fast.backends import (
     sparse_from,
 )
 from quasistatic_ref.optional.fast.compiled.certificate import LARGEST
-from quasistatic_ref.optional.fast.compiled.forces import (
-    ForcesOfSteps,
-    knows,
-    with_forces,
-)
+from quasistatic_ref.optional.fast.compiled.forces import ForcesOfSteps, knows, with_forces
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
-from quasistatic_ref.optional.fast.compiled.onward import DONE, REGROUPED, Onward, Taken
+from quasistatic_ref.optional.fast.compiled.onward import (
+    DONE,
+    REGROUPED,
+    Onward,
+    Taken,
+    proved_bits,
+)
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
 from quasistatic_ref.optional.fast.compiled.screws import Screws
-from quasistatic_ref.optional.fast.posed import (
-    Constants,
-    constants,
-    posed,
-)
+from quasistatic_ref.optional.fast.posed import Constants, constants, posed
 from quasistatic_ref.optional.fast.proofs import SMALL
 from quasistatic_ref.optional.fast.rechecked import WHOLE, is_next
 from quasistatic_ref.optional.fast.solver import FastSolver
@@ -244,7 +242,8 @@ class FastSimulator(Simulator):
             return taken
         first = taken[0]
         plain = self.step_in_python(q, *of)
-        self.follows = self.follows_alike = told(first) == told(plain)
+        self.follows_alike = proved_bits(first) == proved_bits(plain)
+        self.follows = self.follows_alike
         if not self.follows:
             return [plain]
         solver.pressed = first.solution.lam
@@ -485,14 +484,6 @@ class FastSimulator(Simulator):
         if program is None or not program.fits(solver, step):
             self.program = program = natural_program(self.numbers, solver, step)
         return None if program is None else program.written()
-
-
-def told(result: StepResult) -> object:
-    """What two ways to take a proved step have in common, to compare it."""
-    one = result.solution
-    certificate = one.certificate
-    claims = certificate.kind, certificate.multipliers_unique, certificate.differentiable
-    return bits([result.q, one.delta_q, one.net_impulse, claims, result.points]), result.step
 
 
 FAST_SIMULATOR.fill(FastSimulator)

@@ -40,7 +40,8 @@ def terms(case: Json) -> tuple[float, float]:
         size += (force + weight * free) * reach + torque * turn
     for body, q, v in places(case["mechanism"]):
         if q.stop > q.start and v.stop <= n_a:
-            old, new = np.array(case["q"][q]), np.array(case["q_bar_a"][q])
+            old = np.array(case["q"][q])
+            new = np.array(case["q_bar_a"][q])
             one = body["joint"] in ("revolute", "prismatic")
             way = np.abs(new - old).max() if one else 1.0 + 2 * np.abs([old, new]).max()
             size[:n_a] += np.abs(np.array(case["K_q"])[:, v]).sum(axis=1) * float(way)

@@ -111,7 +111,7 @@ class ForcesOfSteps:
         self._one_at_a_time = Lock()
 
     def __reduce__(self) -> tuple[type["ForcesOfSteps"], tuple[()]]:
-        return ForcesOfSteps, ()  # that of a copy finds everything anew
+        return ForcesOfSteps, ()  # a copy forms what it keeps itself
 
     def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
         """As of :meth:`Forces.wrench`, which has `near`, too: shape (n_c, 4) [N, N m]."""

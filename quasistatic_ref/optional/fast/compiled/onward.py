@@ -13,6 +13,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.certificate import Prover, claims_of
 from quasistatic_ref.optional.fast.compiled.forces import FastSolution
 from quasistatic_ref.optional.fast.compiled.library import library
@@ -89,7 +90,8 @@ class Onward:
         numbers = simulator.numbers
         screws = simulator.screws
         natural = solver.program
-        n, m = step.n_v, step.m
+        n = step.n_v
+        m = step.m
         self._s = s = Structure("onward.c", "Onward")
         self._address = s.address
         self._hessian = hessian = program.hessian
@@ -297,7 +299,8 @@ class Taken(Steps):
         step, points = simulator.step_of(record["scene"], record["delta_q_bar_a"])
         seconds = dict(zip(LAPS, record["seconds"].tolist(), strict=True))
         status = "not called" if self._proved else "optimal"
-        iterations, solve_time = (None, None) if self._proved else self._said[k]
+        none: tuple[int | None, float | None] = None, None  # no backend was asked
+        iterations, solve_time = none if self._proved else self._said[k]
         statistics = SolverStatistics(
             solver.name,
             status,
@@ -328,3 +331,11 @@ class Taken(Steps):
             "smallest_active_multiplier": least_multiplier if working else None, "step": step,
         }  # fmt: skip
         return posed(Certificate, PROVED, own)
+
+
+def proved_bits(result: StepResult) -> object:
+    """The bits of a proved step that are the same however it is taken, to compare two ways."""
+    one = result.solution
+    certificate = one.certificate
+    claims = certificate.kind, certificate.multipliers_unique, certificate.differentiable
+    return bits([result.q, one.delta_q, one.net_impulse, claims, result.points]), result.step
