@@ -6,10 +6,11 @@ from itertools import chain, product
 
 import numpy as np
 
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.account.account import pair_accounts
 from quasistatic_ref.optional.account.observer import side
-from quasistatic_ref.optional.account.words import amount, length, listed
+from quasistatic_ref.optional.account.words import amount, length
 from quasistatic_ref.optional.between import OF_TASK, TASK, FinishedRun, Said
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.account import PairAccount

@@ -1,12 +1,13 @@
 """An account in words: its events, the lines of each pair, body and joint, and its JSON."""
 
 from base64 import b64encode
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Span
 from quasistatic_ref.step.data import Array
@@ -44,7 +45,16 @@ def events(account: Account) -> list[Event]:
     """
     t = account.t
     last = len(t) - 1
-    found = [*_of_pairs(account, _touch, last), *_of_pairs(account, _leave, last)]
+    touch = []
+    leave = []
+    for pair in account.pairs:
+        for span in pair.contact:
+            if span.first:
+                touch.append((span.first, f"{pair.table}: {{}} touch{{}} {pair.beta}", pair.alpha))
+            if span.last < last:
+                go = f"{pair.table}: {{}} let{{}} go of {pair.beta}"
+                leave.append((span.last + 1, go, pair.alpha))
+    found = [*_joined(touch, "es"), *_joined(leave, "s")]
     for pair in account.pairs:
         for span in pair.sliding:
             if slid(pair, span) >= SLID:
@@ -71,36 +81,18 @@ def _waypoints(account: Account) -> Iterator[Event]:
         yield Event(time, f"{body} at its waypoint, {off}")
 
 
-def _touch(pair: PairAccount, last: int) -> Iterator[tuple[int, str, str]]:
-    for span in pair.contact:
-        if span.first:
-            yield span.first, f"touch{{}} {pair.beta}", pair.alpha
+def _joined(events: Iterable[tuple[int, str, str]], one: str) -> Iterator[tuple[int, str]]:
+    """Events of pairs, those of one table that are `BRIEF` steps apart at most joined.
 
-
-def _leave(pair: PairAccount, last: int) -> Iterator[tuple[int, str, str]]:
-    for span in pair.contact:
-        if span.last < last:
-            yield span.last + 1, f"let{{}} go of {pair.beta}", pair.alpha
-
-
-def _of_pairs(
-    account: Account,
-    begun: Callable[[PairAccount, int], Iterator[tuple[int, str, str]]],
-    last: int,
-) -> Iterator[tuple[int, str]]:
-    """Events of pairs, those of one table that are `BRIEF` steps apart at most joined."""
-    every = sorted(
-        (k, f"{pair.table}: {{}} {does}", who)
-        for pair in account.pairs
-        for k, does, who in begun(pair, last)
-    )
+    Each has its step, its words, and who does it; `one` is the ending of a verb of one.
+    """
+    every = sorted(events)
     while every:
         k, does, _ = every[0]
         own = [x for x in every if x[1] == does and x[0] <= k + BRIEF]
         every = [x for x in every if x not in own]
         names = list(dict.fromkeys(who for *_, who in own))
-        yield k, does.format(listed(names), "es" * (len(names) == 1) if "touch" in does else
-                             "s" * (len(names) == 1))  # fmt: skip
+        yield k, does.format(listed(names), one if len(names) == 1 else "")
 
 
 def lines(account: Account) -> Iterator[str]:
@@ -307,11 +299,6 @@ def times(held: Iterable[Span], t: Array) -> str:
 
 def _until(span: Span, t: Array) -> str:
     return "to the end" if span.last == len(t) - 1 else f"until {t[span.last]:.2f} s"
-
-
-def listed(names: list[str]) -> str:
-    """Names as a list in words."""
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def amount(x: float, unit: str) -> str:

@@ -93,7 +93,7 @@ def contact_frame(trajectory: "Trajectory") -> "DataFrame":
         If pandas is not installed.
     """
     pandas = _pandas()
-    pairs = [slot.rpartition("/")[0] for slot in _slots(trajectory)]
+    pairs = trajectory.pair_names
     columns: dict[str, NDArray[Any]] = {
         "t [s]": np.repeat(trajectory["t"], len(pairs)),
         "pair": np.tile(pairs, trajectory.steps),
@@ -189,12 +189,6 @@ def _positions(trajectory: "Trajectory") -> list[str]:
     """Names of the entries of q; numbers, of a file that has no names."""
     count = trajectory["q"].shape[1]
     return list(trajectory.header.get("positions", [f"q.{i} [m, rad]" for i in range(count)]))
-
-
-def _slots(trajectory: "Trajectory") -> list[str]:
-    """Names of the places of contacts; numbers, of a file that has no names."""
-    count = len(trajectory["rows"])
-    return list(trajectory.header.get("slots", [f"contact/{i}" for i in range(count)]))
 
 
 def _pandas() -> ModuleType:

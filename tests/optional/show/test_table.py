@@ -111,7 +111,7 @@ def test_files_without_names_have_numbers(run):
              if name not in ("positions", "slots", "units", "scene")}  # fmt: skip
     table = Trajectory(plain, run.arrays).to_pandas()
     contacts = Trajectory(plain, run.arrays).contacts_to_pandas()
-    assert list(contacts["pair"][:2]) == ["contact", "contact"]
+    assert list(contacts["pair"][:2]) == ["contact/0", "contact/1"]
     np.testing.assert_array_equal(table["q.0 [m, rad]"], run.q[1:, 0])
 
 
