@@ -193,6 +193,16 @@ def test_a_sheet_that_comes_and_goes_needs_no_new_list(solid, top, away, rng):
     assert made == 1
 
 
+def test_points_that_are_as_high_but_for_rounding_are_all_looked_at(rng):
+    """A sheet in the plane of a half-space: each slide along it rounds heights anew."""
+    solid = HalfSpace(np.array([1.0, 2.0, 2.0]), 1.0)
+    along = np.array([[2.0, 1.0, -2.0], [-2.0, 2.0, -1.0], [1.0, 2.0, 2.0]]) / 3
+    pairs = one_pair(solid, sheet(20, 1 / 512) @ along, 5)
+    tracker = PosedPairs(pairs, 3)
+    for slide in rng.uniform(-0.1, 0.1, size=(30, 2)):
+        same_bits(tracker, pairs, *poses((0, 0, 0), slide @ along[:2] + along[2] / 3))
+
+
 @pytest.mark.parametrize("cloud_first", [False, True])
 def test_zero_is_positive(cloud_first):
     """Half a turn about z whose zeros are -0.0, and a height that is -0.0."""

@@ -1,11 +1,14 @@
 """Closest points of solids in compiled code against the plain path: equal to the last bit."""
 
 import numpy as np
+import pytest
 
-from quasistatic_ref import convex_hull
+from quasistatic_ref import Box, ContactError, Cylinder, Sphere, convex_hull
+from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.fast.compiled.solids import CORNERS, measured
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles import closest
+from tests.oracles.posed_pairs import PosedPairs
 
 POSES = 12
 LEFT = 0.5
@@ -36,3 +39,30 @@ def test_meshes_of_many_corners_are_measured_on_half_spaces_only():
         assert measured(pair_of(mesh, shapes["half-space"], 1))
         assert measured(pair_of(mesh, shapes["box"], 1)) == expected
         assert measured(pair_of(shapes["sphere"], mesh, 1)) == expected
+
+
+CUBE = Box(np.full(3, 0.25))
+UNDER_TWO_FACES = {
+    "box": (CUBE, (0.125, 0.125, 0.0)),
+    "mesh": (convex_hull(CUBE.corners(np.ones(3))[0]), (0.125, 0.125, 0.0)),
+    "cylinder": (Cylinder(0.25, 0.25), (0.125, 0.0, 0.125)),
+}
+"""A solid, and a place 0.125 m below two of its faces [m]."""
+
+
+@needs_compiler
+@pytest.mark.parametrize(("solid", "place"), UNDER_TWO_FACES.values(), ids=UNDER_TWO_FACES)
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_ball_as_deep_under_two_faces_is_left_to_the_plain_path(solid, place, number):
+    from validation.make.solid_pairs import pair_of
+
+    sides = (solid, Sphere(0.0625))
+    pair = pair_of(*sides[:: 1 - 2 * number], 1)
+    R = np.tile(np.eye(3), (2, 1, 1))
+    for height, expected in ((0.0, 0), (0.0625, 1)):  # then one of the faces is nearer
+        t = np.zeros((2, 3))
+        t[1 - number] = np.add(place, (height, 0.0, 0.0))
+        assert len(PosedPairs([pair], 2).decided(R, t)[1]) == expected
+        if not expected:
+            with pytest.raises(ContactError, match="as deep in each other"):
+                pair_closest_points(pair, R, t)
