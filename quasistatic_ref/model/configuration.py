@@ -144,8 +144,8 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
 
 
 def _entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
-    """Copy of q, if it is finite and of shape (n_q,); ModelError else, which names the joint."""
-    entries = checked_numbers(q, "q", ModelError) + 0.0
+    """The numbers of q, if finite and of shape (n_q,); ModelError else, which names the joint."""
+    entries = checked_numbers(q, "q", ModelError)
     if entries.shape != (n_q,):
         raise ModelError(f"must have shape ({n_q},)", field="q", value=entries.shape)
     for joint in joints:

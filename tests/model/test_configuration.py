@@ -8,6 +8,7 @@ from quasistatic_ref.model.configuration import (
     UnitParts,
     configuration,
     normalised,
+    surely_configurations,
     unit_configuration,
 )
 from quasistatic_ref.model.joints.axis_joint import Revolute
@@ -85,6 +86,29 @@ def test_the_length_that_is_refused_is_named_with_its_remedy():
         with pytest.raises(ModelError, match=words):
             refusing(q)
     assert np.allclose(unit_configuration(JOINTS, len(q), q), normalised(JOINTS, Q), atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("entries", "values", "sure"),
+    [
+        (slice(0), [], True),
+        (slice(0, 3), [-0.0, 1e9, 1.0], True),
+        (UNITS["quaternion"], [0.0, 0.0, 0.0, 1 - 2.0**-53], True),
+        (UNITS["quaternion"], [0.0, 1.0, 0.0, 0.0], True),
+        (UNITS["quaternion"], [1.0, 0.0, 0.0, 0.0], False),  # refused
+        (UNITS["heading"], [1 + 2.0**-31, 0.0], False),  # divided by its length
+        (UNITS["turn"], [0.0, 2.0**-31 - 1], False),
+        (slice(13, 14), [np.nan], False),
+    ],
+)
+def test_only_what_would_keep_its_bits_is_surely_a_configuration(entries, values, sure):
+    q = normalised(JOINTS, Q)
+    one = q.copy()
+    one[entries] = values
+    for every in (one, np.array([q, one, q])):
+        assert surely_configurations(JOINTS, every) == sure
+    if sure:
+        assert np.array_equal(configuration(JOINTS, len(q), one), one)
 
 
 @pytest.mark.parametrize("name", UNITS)

@@ -110,6 +110,13 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     assert_close(back, -shorter * axis, 4 * ROUNDING)
 
 
+@pytest.mark.parametrize("axis", [*np.eye(3), -AXIS])
+def test_half_a_turn_is_about_the_axis_of_the_quaternion_that_names_it(axis):
+    # From no turn: (e, 0) stands for a turn by pi about e, and -(e, 0) for the same about -e.
+    found = change(FLOATING, [9.0, 0, 0, 0, 0, 0, 0, 1.0], [9.0, 0, 0, 0, *axis, 0.0])
+    assert_within(found[3:], np.pi * axis, 4 * ROUNDING)
+
+
 @pytest.mark.parametrize("joint", [FLOATING, PLANAR, CONTINUOUS])
 def test_without_a_turn_a_joint_keeps_its_bits(joint):
     q = [9.0, 0.1, 0.2, 0.3, *quaternion_about(AXIS, 0.8)]

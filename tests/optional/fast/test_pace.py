@@ -29,6 +29,16 @@ def test_it_is_said_once_where_ten_seconds_would_be_saved(share, spoken):
         assert "--fast" in sentences[FIRST]
 
 
+def test_each_step_is_looked_at_until_enough_are_measured():
+    pace = Pace(False, STEPS)
+    looks = []
+    for _ in range(1 + FIRST + 1):
+        looks.append(pace.every_step)
+        pace.advice({"solve": 1e-9})
+    assert looks == [True] * (1 + FIRST) + [False]
+    assert not Pace(True, STEPS).every_step
+
+
 def test_a_large_scene_is_told_at_once():
     assert Pace(False, 1).opening(SPARSE_FROM_PIQP - 1) is None
     assert Pace(True, 1).opening(SPARSE_FROM_PIQP) is None

@@ -139,7 +139,7 @@ model/column_map.py
     system simulator CONTACT
 model/screw.py model/joints/joint.py model/joints/axis_joint.py model/joints/continuous.py
 model/joints/floating.py model/joints/planar.py model/joints/ball.py model/joints/twist_joint.py
-    screw ball rotation system
+    screw tangent ball rotation system
 shapes/placed_shape.py
     shapes solid words
 shapes/point_cloud.py

@@ -112,3 +112,4 @@ def test_entries_of_a_base_change_as_those_of_its_unit_part():
     flat = entry_rates([PLANAR], np.array([1.0, 2.0, 3.0, 4.0]))
     expected = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, -4], [0, 0, 3]]
     assert_within(flat, expected, ROUNDING)
+    assert_within(entry_rates([CONTINUOUS], np.array([3.0, 4.0])), [[-4], [3]], ROUNDING)
