@@ -7,7 +7,6 @@ from quasistatic_ref.optional.show.figures import Figure, figure_style
 
 EXAMPLES = {
     "block_on_a_table": "one_step",
-    "six_rows_of_a_contact": "one_step",
     "cone_surfaces": "friction",
     "finger_spring_block": "one_step",
     "the_step_loop": "one_step",
@@ -15,7 +14,6 @@ EXAMPLES = {
     "two_moving_bodies": "geometry",
     "mass_of_a_free_body": "geometry",
     "a_screw": "geometry",
-    "slip_margins": "one_step",
     "drag_against_h": "friction",
     "both_laws": "friction",
     "flat_patch": "friction",

@@ -97,7 +97,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == 30
+    assert len(EXAMPLES) == 28
 
 
 @pytest.mark.parametrize("name", GALLERY)
@@ -122,10 +122,6 @@ def test_a_block_on_a_table_slides_beyond_mu_v_m_g_only():
     # To slide by x it rises by mu_v x: h^2 (F - mu_v m g) = m (1 + mu_v^2) x, F = 1.5 mu_v m g.
     expected = 1e3 * 0.01**2 * 0.5 * 0.4 * G / (1 + 0.4**2)
     assert_relative(beyond, expected, ROUNDING)
-
-
-def test_a_ball_that_slides_or_spins_stands_on_one_of_six_rows():
-    assert list(numbers("six_rows_of_a_contact").values()) == [6, 1, 1]
 
 
 def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
@@ -227,11 +223,3 @@ def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
     np.testing.assert_allclose(turn, 0.945, atol=0.005)
     assert difference < 2 * FIRST_ORDER
     assert smooth < SCENARIO
-
-
-def test_friction_used_rises_with_a_push_without_a_jump():
-    """The rear corners slip first, at the limit of friction that they bear, (R42) to (R44)."""
-    jump, of_multipliers, front, rear = numbers("slip_margins").values()
-    assert jump < 2.0 < 10.0 < of_multipliers
-    assert front < 1.0
-    np.testing.assert_array_equal(rear, 1.0)

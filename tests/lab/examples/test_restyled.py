@@ -8,8 +8,8 @@ from matplotlib import pyplot as plt
 from tests.extras import GALLERY
 from validation.tools.restyled import FIGURES, GRID, drawer, in_styles
 
-QUICK = ("six_rows_of_a_contact", "corner_loads")
-"""Three panels each: bars, drawings, a legend for all. The others take minutes."""
+QUICK = ("cone_surfaces", "corner_loads")
+"""Three panels each, surfaces and drawings. The others take minutes."""
 
 
 @pytest.mark.parametrize("name", QUICK)
