@@ -28,6 +28,7 @@ from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, TestSet, study_problems
 from quasistatic_ref.lab.study.report.report import study_report
@@ -237,23 +238,24 @@ def answers(folder: Path) -> dict[str, Reader]:
 
 
 def stores(folder: Path) -> dict[str, Reader]:
-    """Each file of a store in turn, the others being good."""
+    """Stores, the table of a sweep, and each file of a test set, the others being good."""
 
     def reported(path: Path) -> None:
         markdown_page(study_report(path.parent))
 
-    found = {}
-    stores = ("solvers", made_store.write_store), ("sweep", made_store.sweep_written)
-    for kind, made in stores:
-        home = folder / f"store of {kind}"
-        made(home, count=3) if kind == "solvers" else made(home)
-        good = (home / STORE).read_bytes()
-        found[f"study of {kind}, {STORE}"] = Reader(
-            f"{home.name}/{STORE}", (good,), spoilt_bytes, reported
-        )
-    kept = packed_store(folder / "store of solvers", folder / "packed")
-    name = f"packed/{kept.name}"
-    found[f"study, {kept.name}"] = Reader(name, (kept.read_bytes(),), spoilt_xz, reported)
+    made_store.write_store(folder / "study", count=3)
+    good = (folder / "study" / STORE).read_bytes()
+    kept = packed_store(folder / "study", folder / "packed")
+    (folder / "sweep").mkdir()
+    found = {
+        f"study, {STORE}": Reader(f"study/{STORE}", (good,), spoilt_bytes, reported),
+        f"study, {kept.name}": Reader(
+            f"packed/{kept.name}", (kept.read_bytes(),), spoilt_xz, reported
+        ),
+        f"sweep, {TABLE}": Reader(
+            f"sweep/{TABLE}", (made_store.SWEEP.encode(),), spoilt_text, reported
+        ),
+    }
 
     def problems(path: Path) -> None:
         set_read(path.parent.parent if path.parent.name == NUMBERS else path.parent)

@@ -117,7 +117,7 @@ def digest(folder: Path) -> dict[str, object]:
             found[name] = [
                 {k: v for k, v in row.items() if k not in MACHINE_DEPENDENT} for row in rows
             ]
-        elif path.suffix in (".json", ".md", ".cff", ".txt"):
+        elif path.suffix in (".json", ".md", ".cff", ".txt", ".csv"):
             found[name] = path.read_bytes()
         else:  # pictures hold the time of day
             found[name] = path.stat().st_size > 0

@@ -162,7 +162,7 @@ RESULTS = (
             f"validation.make.study_reports {name}",
             (f"validation/studies/{name}",),
         )
-        for name in ("default", "sequences", "bunny_torsion")
+        for name in ("default", "sequences")
     ),
 )
 

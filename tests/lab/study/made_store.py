@@ -119,23 +119,11 @@ def facts(problems):
     ]  # fmt: skip
 
 
-SWEEP_AXES = {"mu": (0.0, 0.3, 0.1), "h": (0.02, 0.01)}
-
-
-def sweep_written(folder):
-    """Write a store of one sweep, one of whose runs ended early; returns its rows."""
-    rows = [
-        {"sweep": "slide", "scenario": "block", "values": {"mu": mu, "h": h},
-         "outcome": "ended_early" if (mu, h) == (0.1, 0.01) else "done",
-         "reason": "it fell" if (mu, h) == (0.1, 0.01) else None,
-         "measures": {"block.largest_rotation_deg": 10 * mu + h, "steps": 1.0,
-                      "boundary_layer_um": 100 * h, "quasi_dynamic_number": None},
-         "seconds": {"call": 1.0}}
-        for mu in SWEEP_AXES["mu"] for h in SWEEP_AXES["h"]
-    ]  # fmt: skip
-    sweep = {"name": "slide", "scenario": "block", "axes": []}
-    study = {"kind": "sweep", "sweeps": [sweep], "machine": {}, "versions": {}}
-    folder.mkdir()
-    with Store(folder, study) as store:
-        store.add(*rows)
-    return rows
+SWEEP = """run,mu,cone,outcome,reason,block.largest_rotation_deg,boundary_layer_um,steps_taken
+runs/a.npz,0.0,pyramid,done,,0.25,20.0,2.0
+runs/b.npz,0.3,pyramid,done,,3.25,20.0,2.0
+runs/c.npz,0.1,pyramid,done,,1.25,20.0,2.0
+runs/d.npz,0.1,product,ended_early,it fell,,,1.0
+runs/e.npz,0.0,product,done,,0.125,10.0,2.0
+"""
+"""The table of a sweep, one of whose runs ended early."""

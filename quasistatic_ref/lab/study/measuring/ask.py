@@ -81,8 +81,6 @@ def question(
         limits = Limits()
     else:
         study = contents(store).study
-        if study["kind"] != "solvers":
-            raise InputError("holds a sweep, and no solvers", file=store)
         own = _of_store(solver, study)
         settings = [Setting(**s) for s in study["settings"]]
         limits = Limits(**{one.name: study[one.name] for one in fields(Limits)})

@@ -1,28 +1,37 @@
-"""Many runs of one scenario at once: the sweep's machinery, without a study file."""
+"""Many runs of one scenario at once: a grid of values, a trajectory a run, and one table."""
 
 import csv
+import hashlib
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.study.measuring.sweep import (
-    MOST_RUNS,
-    Axis,
-    Sweep,
-    is_value,
-    run_file,
-    run_sweep,
-)
-from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.formats.files import json_text, text_written, writable_folder
+from quasistatic_ref.lab.parallel import results, workers
+from quasistatic_ref.optional.account.words import measures
 from quasistatic_ref.scenario.overrides import parsed
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
+from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"
+RUNS = "runs"
+"""Folder of trajectories next to the table."""
+DONE = "done"
+ENDED_EARLY = "ended_early"
+LAYER = "boundary_layer_um"
+MOST_RUNS = 100_000
+Row = dict[str, Any]
 
 
 def simulate_many(
@@ -37,6 +46,9 @@ def simulate_many(
 ) -> list[Row]:
     """Run a scenario with every combination of some values, several runs at a time.
 
+    A run that ends early is a result, too. What was run is in the folder: the same call, after an
+    interruption, makes the runs that are missing.
+
     Parameters
     ----------
     scenario : str or Path
@@ -45,8 +57,8 @@ def simulate_many(
         Dotted field of the scenario -> its values [the field's unit]; of several fields with the
         same values, their names with commas between.
     folder : str or Path
-        For ``runs.csv``, one line a run; ``runs/*.npz``, one light trajectory a run; and
-        ``study.sqlite``, from which the same call goes on after an interruption.
+        For ``runs.csv``, one line a run, and ``runs/*.npz``, one light trajectory a run, named by
+        the scenario's text, the values and the settings.
     settings : sequence of str
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
@@ -58,25 +70,43 @@ def simulate_many(
     Returns
     -------
     list of dict
-        One row a run, sorted: ``values``, ``outcome``, ``reason``, ``measures``.
+        One row a run, in the order of the values: ``run``, its file; ``values``; ``outcome``;
+        ``reason``, why it ended early; ``measures``.
 
     Raises
     ------
     InputError
-        If a field, a value or any of the scenarios is unusable, or the folder holds other runs:
-        before anything is written.
+        If a field, a value or any of the scenarios is unusable: before anything is written.
     """
-    axes = tuple(_axis(name, values) for name, values in variations.items())
-    count = math.prod(len(axis.values) for axis in axes)
-    if not axes or count > MOST_RUNS:
+    grid = {name: _value_list(name, values) for name, values in variations.items()}
+    count = math.prod(map(len, grid.values()))
+    if not grid or count > MOST_RUNS:
         problem = f"must make 1 to {MOST_RUNS} runs"
-        raise InputError(problem, field="variations", value=count if axes else 0)
+        raise InputError(problem, field="variations", value=count if grid else 0)
     if workers is not None and workers < 1:
         raise InputError("must be at least 1", field="workers", value=workers)
-    path = str(Path(scenario).resolve()) if str(scenario).endswith(".toml") else str(scenario)
-    sweep = Sweep(Path(path).stem, path, None, axes, tuple(settings))
-    rows = run_sweep([sweep], folder, jobs=workers, scheduler=scheduler, progress=progress)
-    text_written(Path(folder) / TABLE, _table(rows))
+    is_file = str(scenario).endswith(".toml")
+    source = str(Path(scenario).resolve()) if is_file else str(scenario)
+    points = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]
+    changes = [_changes(point, settings) for point in points]
+    with _executor(workers, scheduler) as (executor, slots):
+        for _ in executor.map(check_scenario, [source] * count, changes):
+            pass  # an error of any of them is raised here
+        text = Path(source).read_text("utf-8") if is_file else source
+        files = [_file(Path(source).stem, text, own) for own in changes]
+        folder = writable_folder(folder)
+        writable_folder(folder / RUNS)
+        todo = [
+            (file, source, own)
+            for file, own in zip(files, changes, strict=True)
+            if not (folder / file).exists()
+        ]
+        with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
+            for file, trajectory in results(executor, slots, run_of, todo):
+                trajectory.save(folder / file)
+                bar.update()
+    rows = [_row(folder, file, point) for file, point in zip(files, points, strict=True)]
+    text_written(folder / TABLE, _table(rows))
     return rows
 
 
@@ -110,12 +140,93 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
     return field, [parsed(word) for word in given.split(",")]
 
 
-def _axis(name: str, values: Iterable[float | str]) -> Axis:
+def _value_list(name: str, values: Iterable[float | str]) -> list[Any]:
+    """Values without repetitions, each a word or a finite number."""
     own = [v.item() if isinstance(v, np.generic) else v for v in values]
     own = [str(v) if isinstance(v, str) else v for v in own]  # no word of a file of ours
-    if not own or not all(map(is_value, own)):
+    if not own or not all(
+        isinstance(v, str) or (isinstance(v, int | float) and abs(v) < LARGE) for v in own
+    ):
         raise InputError("must be a list of finite numbers or words", field=name, value=own)
-    return Axis(name, tuple(name.split(",")), tuple(dict.fromkeys(own)))
+    return list(dict.fromkeys(own))
+
+
+def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
+    """One combination of values as changes of the scenario."""
+    own = [f"{field}={json_text(value)}" for name, value in point.items()
+           for field in name.split(",")]  # fmt: skip
+    return [*settings, *own, 'record="light"', "fast=true"]
+
+
+@contextmanager
+def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor, int]]:
+    """What runs several scenarios at once, and how many."""
+    if scheduler is not None:
+        from quasistatic_ref.lab.study.measuring.cluster import executor_of
+
+        with executor_of(scheduler) as there:
+            yield there
+    else:
+        with workers(jobs) as pool:
+            yield pool, jobs or os.cpu_count() or 1
+
+
+def check_scenario(scenario: str, changes: Sequence[str]) -> None:
+    """Refuse what cannot be run; InputError as :func:`.load_scenario` has it."""
+    load_scenario(scenario, changes).simulator()
+
+
+def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory]:
+    """The name of a file, and what is to be kept in it: a run, or the part of it that succeeded.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If the user ended it.
+    """
+    try:
+        return file, load_scenario(scenario, changes).run(progress=False)
+    except RunFailed as failure:
+        if isinstance(failure.__cause__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
+        return file, failure.trajectory
+
+
+def _file(name: str, text: str, changes: Sequence[str]) -> str:
+    """Where the trajectory of a run is kept, in the folder of the table."""
+    digest = hashlib.sha256(json_text([text, *changes]).encode()).hexdigest()
+    return f"{RUNS}/{name}_{digest[:12]}.npz"
+
+
+def _row(folder: Path, file: str, point: Mapping[str, Any]) -> Row:
+    trajectory = trajectory_read(folder / file)
+    outcome = DONE if trajectory.failed is None else ENDED_EARLY
+    own = {"run": file, "values": point, "outcome": outcome, "reason": trajectory.failed}
+    return own | {"measures": outcomes(trajectory)}
+
+
+def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
+    """Measured outcomes of one run.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+
+    Returns
+    -------
+    dict
+        What :func:`.words.measures` gives of its account, ``boundary_layer_um``,
+        ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
+    """
+    Pi = trajectory.header["quasi_dynamic_number"]
+    exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
+    return {
+        **measures(trajectory.account(forces=False)),
+        LAYER: 1e6 * float(trajectory.header["largest_boundary_layer"]),
+        "quasi_dynamic_number": None if Pi is None else float(Pi),
+        "steps": float(trajectory.steps),
+        "exact": float(np.mean(exact)),
+    }
 
 
 def _table(rows: Sequence[Row]) -> str:
@@ -123,13 +234,13 @@ def _table(rows: Sequence[Row]) -> str:
 
     The steps that were taken are named so, because `steps` may be a value.
     """
-    measures = list(dict.fromkeys(name for row in rows for name in row["measures"]))
-    named = ["steps_taken" if name == "steps" else name for name in measures]
+    names = list(dict.fromkeys(name for row in rows for name in row["measures"]))
+    named = ["steps_taken" if name == "steps" else name for name in names]
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
     lines.writerow(["run", *rows[0]["values"], "outcome", "reason", *named])
     for row in rows:
-        found: list[Any] = [row["measures"].get(name) for name in measures]
-        lines.writerow([run_file(row), *row["values"].values(), row["outcome"], row["reason"],
+        found = [row["measures"].get(name) for name in names]
+        lines.writerow([row["run"], *row["values"].values(), row["outcome"], row["reason"],
                         *found])  # fmt: skip
     return text.getvalue()

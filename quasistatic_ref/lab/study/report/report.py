@@ -1,17 +1,18 @@
-"""The report on a store, as data; drawing and writing it is the command's."""
+"""The report on a store, or on a sweep, as data; drawing and writing it is the command's."""
 
 import os
 from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.parts import Report
+from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.report.solver_report import solver_report
 from quasistatic_ref.lab.study.report.sweep_report import sweep_report
 from quasistatic_ref.lab.study.store.store import UNREADABLE, contents
 
 
 def study_report(folder: str | Path, out: str | Path | None = None) -> Report:
-    """The report on a store.
+    """The report on a store, or on the table of a sweep.
 
     Parameters
     ----------
@@ -26,14 +27,14 @@ def study_report(folder: str | Path, out: str | Path | None = None) -> Report:
     Raises
     ------
     InputError
-        If there is no store, or nothing in it yet.
+        If there is neither, or nothing in it yet.
     """
+    if (table := Path(folder) / TABLE).exists():
+        return sweep_report(table)
     found = contents(folder)
     if not found.rows:
         raise InputError("holds no rows yet; run the study first", file=folder)
     try:
-        if found.study["kind"] == "sweep":
-            return sweep_report(found.study, found.rows)
         return solver_report(found, os.path.relpath(folder, out or folder))
     except UNREADABLE as error:
         words = " ".join(f"holds what no study has written: {type(error).__name__} {error}".split())

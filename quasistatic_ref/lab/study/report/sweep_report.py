@@ -1,88 +1,99 @@
-"""The report on a sweep of simulation parameters: a table and a figure for each."""
+"""The report on a sweep of simulation parameters: its table, and a figure of two measures."""
 
+import csv
+import io
+import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import LARGEST_TEXT, bytes_read, text_of
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
-from quasistatic_ref.lab.study.report.studied import place_tables
+from quasistatic_ref.lab.study.measuring.many import DONE, LAYER
 from quasistatic_ref.lab.study.report.words import sentences
-from quasistatic_ref.lab.study.store.rows import Row
 
-UNITS = {"h": "s", "mu_omega": "m", "K_width": "N/m", "mu_v": "-", "k": "-"}
-"""Of axes that are well known by their names."""
-OTHER = "the scenario's unit"
-LAYER = "boundary_layer_um"
+UNIT = "[the scenario's unit]"
+Columns = Mapping[str, Sequence[str]]
+Points = list[tuple[Any, ...]]
 
 
-def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
-    """The report on a store of sweeps.
+def sweep_report(path: Path) -> Report:
+    """The report on the table of a sweep.
 
     Parameters
     ----------
-    study : mapping
-        As a store has it.
-    rows : sequence of dict
+    path : Path
+        Of ``runs.csv``.
 
     Returns
     -------
     Report
+
+    Raises
+    ------
+    InputError
+        If no sweep has written it.
     """
-    sections = [
-        Section(sweep["name"], tuple(_blocks(sweep, [r for r in rows if r["sweep"] == name], k)))
-        for k, (sweep, name) in enumerate((s, s["name"]) for s in study["sweeps"])
-    ]
+    text = text_of(bytes_read(path, largest=LARGEST_TEXT), path)
+    try:
+        head, *lines = csv.reader(io.StringIO(text))
+        table = dict(zip(head, zip(*lines, strict=True), strict=True))
+        end = head.index("outcome")
+        axes = head[1:end]
+        measures = head[end + 2 :]
+        ends = [why or how for how, why in zip(table["outcome"], table["reason"], strict=True)]
+        shown = measures[0], measures[measures.index(LAYER)]
+        points = _points(table, axes[:2], shown)
+    except (csv.Error, ValueError, LookupError):
+        raise InputError("is no table of a sweep; run the sweep again", file=path) from None
+    columns = [*(table[name] for name in axes), ends, *(table[name] for name in measures)]
+    cells = tuple(tuple(map(_cell, line)) for line in zip(*columns, strict=True))
+    units = [_with_unit(name, table[name]) for name in axes]
+    names = (*units, "outcome", *measures)
+    blocks: list[Block] = [Table("The runs.", path.name, names, cells, left=end)]
+    if len(axes) <= 2 and points:
+        drawn = {"axis": units[0], "panels": shown, "lines": points}
+        where = f"{path.name}, outcome = {DONE}"
+        blocks.insert(0, Picture("sweep", "sweep", drawn, f"{' and '.join(shown)}.", where))
     return Report(
-        "Simulation parameters swept over scenarios",
-        (*sections, Section("Method and limitations", tuple(sentences("sweep"))),
-         Section("Machine and versions", tuple(place_tables(study)))),
+        "Simulation parameters swept over a scenario",
+        (Section("The runs", tuple(blocks)),
+         Section("Method and limitations", tuple(sentences("sweep")))),
     )  # fmt: skip
 
 
-def _blocks(sweep: Mapping[str, Any], rows: Sequence[Row], number: int) -> list[Block]:
-    axes = list(rows[0]["values"]) if rows else []
-    names = list(dict.fromkeys(name for row in rows for name in row["measures"]))
-    ordered = sorted(rows, key=lambda row: [_sort_key(v) for v in row["values"].values()])
-    cells = tuple(
-        (*(_cell(v) for v in row["values"].values()), row["reason"] or row["outcome"],
-         *(_cell(row["measures"].get(key)) for key in names))
-        for row in ordered
-    )  # fmt: skip
-    where = f"sweep = {sweep['name']}"
-    columns = (*(_axis(a, rows) for a in axes), "outcome", *names)
-    blocks: list[Block] = [
-        Table(f"{sweep['scenario']}.", where, columns, cells, left=len(axes) + 1)
-    ]
-    whole = [row for row in ordered if row["outcome"] == "done"]
-    if whole and len(axes) <= 2:
-        drawn = _line_data(axes, whole, (names[0], LAYER))
-        words = f"{names[0]} and {LAYER}, {sweep['scenario']}."
-        blocks.insert(0, Picture(f"sweep_{number + 1}", "sweep", drawn, words,
-                                 f"{where}, outcome = done"))  # fmt: skip
-    return blocks
+def _points(table: Columns, axes: Sequence[str], shown: tuple[str, str]) -> dict[str, Points]:
+    """Two measures of runs that were done, against the first parameter, by the second one."""
+    first, *others = axes
+    words = _has_words(table[first])
+    lines: dict[str, Points] = {}
+    for k, outcome in enumerate(table["outcome"]):
+        numbers = [_number(table[name][k]) for name in shown]
+        if outcome == DONE and None not in numbers:
+            key = ", ".join(f"{name} = {_cell(table[name][k])}" for name in others)
+            value = table[first][k]
+            lines.setdefault(key, []).append((value if words else _number(value), *numbers))
+    return {key: sorted(points) for key, points in lines.items()}
 
 
-def _line_data(axes: Sequence[str], rows: Sequence[Row], shown: tuple[str, str]) -> dict[str, Any]:
-    """Lines of two measures against the first axis, one a value of the second."""
-    lines: dict[str, list[tuple[Any, float, float]]] = {}
-    for row in rows:
-        first, *rest = row["values"].values()
-        key = f"{axes[1]} = {_cell(rest[0])} {UNITS.get(axes[1], '')}".strip() if rest else ""
-        lines.setdefault(key, []).append((first, *(row["measures"][name] for name in shown)))
-    return {"axis": _axis(axes[0], rows), "panels": shown, "lines": lines}
+def _has_words(values: Sequence[str]) -> bool:
+    return any(_number(text) is None for text in values)
 
 
-def _axis(name: str, rows: Sequence[Row]) -> str:
-    """An axis with its unit; one of words has none."""
-    if any(isinstance(row["values"][name], str) for row in rows):
-        return name
-    return f"{name} [{UNITS.get(name, OTHER)}]"
+def _with_unit(name: str, values: Sequence[str]) -> str:
+    """A parameter with its unit; one of words has none."""
+    return name if _has_words(values) else f"{name} {UNIT}"
 
 
-def _sort_key(value: object) -> tuple[int, float, str]:
-    return (0, float(value), "") if isinstance(value, int | float) else (1, 0.0, str(value))
+def _number(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
 
 
-def _cell(value: object) -> str:
-    if value is None:
-        return "-"
-    return f"{value:.4g}" if isinstance(value, int | float) else str(value)
+def _cell(text: str) -> str:
+    value = _number(text)
+    return (text or "-") if value is None else f"{value:.4g}"

@@ -11,7 +11,7 @@ from quasistatic_ref.errors import InputError
 
 PASSING = ("load",)
 """What is of the moment, and not of the machine."""
-SAME = ("kind", "time_limit", "budget", "warm_up", "memory", "repetitions", "problems", "sweeps")
+SAME = ("kind", "time_limit", "budget", "warm_up", "memory", "repetitions", "problems")
 """What rows are comparable under, besides settings and options."""
 BY_SETTING = ("options", "promise")
 """What a solver has at each setting."""

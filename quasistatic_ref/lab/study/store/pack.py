@@ -30,7 +30,7 @@ def packed_store(folder: str | Path, out: str | Path) -> Path:
     Parameters
     ----------
     folder : str or Path
-        A store of solvers or of sweeps; one that is packed is copied.
+        A store; one that is packed is copied.
     out : str or Path
 
     Returns

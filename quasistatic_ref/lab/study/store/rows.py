@@ -29,7 +29,7 @@ TABLES = {
 """Fields that are tables."""
 FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
                 "wrong_multipliers", "clock_agrees", "repeats", "tuned", "present")  # fmt: skip
-JSON = ("facts", "versions", "target", "options", "promise", "axes", "fixed", "point", "measures")
+JSON = ("facts", "versions", "target", "options", "promise")
 KEY = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 MACHINE_DEPENDENT = ("seconds", "calls", "clock_agrees", "memory")
@@ -38,8 +38,6 @@ MACHINE_DEPENDENT = ("seconds", "calls", "clock_agrees", "memory")
 
 def key_of(row: Row) -> tuple[Any, ...]:
     """The key of a row: equal for equal measurements, and sortable."""
-    if "sweep" in row:
-        return row["sweep"], json.dumps(row["values"], sort_keys=True)
     return (*(row[name] for name in KEY), row.get("machine", ""))
 
 

@@ -3,10 +3,9 @@
 PRAGMA foreign_keys = ON;
 
 CREATE TABLE study (
-  kind TEXT NOT NULL CHECK (kind IN ('solvers', 'sweep')),
-  time_limit REAL CHECK (time_limit > 0),        -- of a problem [s]
-  facts TEXT NOT NULL CHECK (json_valid(facts)), -- the rest of the study file, and its problems
-  CHECK (kind = 'sweep' OR time_limit IS NOT NULL)
+  kind TEXT NOT NULL CHECK (kind = 'solvers'),
+  time_limit REAL NOT NULL CHECK (time_limit > 0), -- of a problem [s]
+  facts TEXT NOT NULL CHECK (json_valid(facts))  -- the rest of the study file, and its problems
 ) STRICT;
 
 CREATE TABLE machines (                          -- '' where results were not merged
@@ -106,25 +105,3 @@ CREATE TABLE rows (                              -- one measurement each
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE unreached (solver TEXT PRIMARY KEY, reason TEXT NOT NULL) STRICT;
-
-CREATE TABLE sweeps (
-  name TEXT PRIMARY KEY,
-  scenario TEXT NOT NULL,
-  duration REAL,                                 -- [s]
-  axes TEXT NOT NULL CHECK (json_type(axes) = 'array'),
-  fixed TEXT NOT NULL DEFAULT '[]' CHECK (json_type(fixed) = 'array')  -- changes that every run has
-) STRICT;
-
-CREATE TABLE runs (                              -- one run of a sweep each
-  sweep TEXT NOT NULL REFERENCES sweeps DEFERRABLE INITIALLY DEFERRED,
-  point TEXT NOT NULL CHECK (json_type(point) = 'object'),
-  scenario TEXT NOT NULL,
-  outcome TEXT NOT NULL CHECK (outcome IN ('done', 'ended_early', 'refused')),
-  reason TEXT,
-  measures TEXT NOT NULL CHECK (json_type(measures) = 'object'),
-  seconds REAL NOT NULL CHECK (seconds >= 0),
-  PRIMARY KEY (sweep, point),
-  CHECK (outcome <> 'done' OR (
-    coalesce(json_type(measures, '$.steps'), '') IN ('real', 'integer') AND
-    coalesce(json_type(measures, '$.boundary_layer_um'), '') IN ('real', 'integer')))
-) STRICT, WITHOUT ROWID;

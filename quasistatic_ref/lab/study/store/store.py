@@ -26,12 +26,10 @@ PACKED = "study.json.xz"
 FORMAT, VERSION = "quasistatic-ref/study-store", 5
 """Versions 1 and 2 were lines of JSON; versions 3 and 4 judged claims by digits."""
 SCHEMA = (Path(__file__).parent / "schema.sql").read_text("utf-8")
-TABLES = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
-                 "sweeps", "rows", "runs")  # fmt: skip
-ABOUT = ("study", "machines", "settings", "solvers", "options", "problems", "sweeps")
+TABLES = ("study", "machines", "settings", "solvers", "options", "problems", "unreached", "rows")
+ABOUT = ("study", "machines", "settings", "solvers", "options", "problems")
 """Tables that say what is studied."""
-APART = ("kind", "time_limit", "settings", "solvers", "sweeps", "machine", "versions",
-                "machines")  # fmt: skip
+APART = ("kind", "time_limit", "settings", "solvers", "machine", "versions", "machines")
 """What has a table or a column of its own; the rest of a study is JSON."""
 Line = tuple[Any, ...]
 LARGEST_UNPACKED = 64 * 2**20
@@ -53,7 +51,7 @@ class Contents:
     Parameters
     ----------
     study : dict
-        ``kind``, the limits, ``settings``, ``solvers``, ``sweeps``, ``machine`` and ``versions``;
+        ``kind``, the limits, ``settings``, ``solvers``, ``machine`` and ``versions``;
         of a merged store, in which these two are by the names in ``machines``.
     rows : list of dict
         Sorted by their keys.
@@ -142,7 +140,7 @@ class Store:
         """
         with self._errors_of_writing(), self._tables:
             for row in rows:
-                row_put(self._tables, row)
+                put(self._tables, "rows", {"machine": "", **row})
         self.rows += rows
 
     def keep_unreached(self, reasons: Mapping[str, str]) -> None:
@@ -237,20 +235,9 @@ def about_written(
     for name, records in (
         ("settings", study.get("settings", ())),
         ("problems", problems),
-        ("sweeps", study.get("sweeps", ())),
     ):
         for record in records:
             put(tables, name, record)
-
-
-def row_put(tables: sqlite3.Connection, row: Row) -> None:
-    """Add a row, of solvers or of a sweep."""
-    if "sweep" not in row:
-        put(tables, "rows", {"machine": "", **row})
-        return
-    names = ("sweep", "scenario", "outcome", "reason", "measures")
-    run = {name: row[name] for name in names}
-    put(tables, "runs", {**run, "point": row["values"], "seconds": row["seconds"]["call"]})
 
 
 def put(tables: sqlite3.Connection, name: str, record: Mapping[str, Any]) -> None:
@@ -349,7 +336,6 @@ def _contents(tables: sqlite3.Connection, every: bool) -> Contents:
         "kind": head["kind"],
         "time_limit": head["time_limit"],
         "settings": found["settings"],
-        "sweeps": found["sweeps"],
         "solvers": [one for one in solvers if every or one["present"]],
         **_machines(found["machines"]),
     }
@@ -358,15 +344,8 @@ def _contents(tables: sqlite3.Connection, every: bool) -> Contents:
     if "machines" not in study:
         for row in rows:
             del row["machine"]
-    rows += [_run(run) for run in found["runs"]]
     unreached = {one["solver"]: one["reason"] for one in found["unreached"]}
     return Contents(study, sorted(rows, key=key_of), found["problems"], unreached)
-
-
-def _run(record: Row) -> Row:
-    names = ("sweep", "scenario", "outcome", "reason", "measures")
-    seconds = {"call": record["seconds"]}
-    return {**{n: record[n] for n in names}, "values": record["point"], "seconds": seconds}
 
 
 def _solver(record: Row, options: Iterable[Row]) -> Row:

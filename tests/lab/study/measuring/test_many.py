@@ -2,7 +2,6 @@
 
 import csv
 import json
-import sqlite3
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ import pytest
 from quasistatic_ref import InputError, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
-from quasistatic_ref.lab.study.store.store import STORE
+from tests.scenes import PUSH, written_scenario
 
 SLOPE = ["block_incline", "--set", "steps=2", "--sweep", "contacts.rough.mu_v=0:0.9:2", "--quiet"]
 
@@ -32,17 +31,61 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
         settings = {"contacts.rough.mu_v": mu, "h": h, "steps": 2}
         alone = load_scenario("block_incline", settings, fast=True).run(progress=False)
         np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
-    # What ends the program leaves the rows so far: only what is missing is run again.
-    with sqlite3.connect(tmp_path / STORE) as tables:
-        tables.execute("DELETE FROM runs WHERE point LIKE '%0.02%' AND point LIKE '%0.9%'")
-    tables.close()
+    # What ends the program leaves the runs so far: only what is missing is run again.
+    missing = tmp_path / lines[3]["run"]
+    content = missing.read_bytes()
+    missing.unlink()
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
     assert main([*argv, "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
     assert (printed["runs"], printed["fast"]) == (4, False)
-    written = [path for path, time in kept.items() if path.stat().st_mtime_ns != time]
-    assert len(written) == 1
-    assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    assert missing.read_bytes() == content
+    assert table(tmp_path) == lines
+
+
+def test_a_scenario_file_that_has_changed_is_run_again(tmp_path):
+    path = written_scenario(tmp_path)
+    files = []
+    for text in (PUSH, PUSH.replace("mu_v = 0.3", "mu_v = 0.4")):
+        path.write_text(text)
+        rows = simulate_many(path, {"h": [0.01]}, tmp_path / "map", workers=1, progress=False)
+        files += [row["run"] for row in rows]
+    assert len(set(files)) == 2
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+def test_a_sliding_block_travels_as_its_closed_form_says(tmp_path, mu):
+    """Step k slips d (1 - r^(k+1)), d = h^2 g (sin a - mu cos a), r = mu^2 / (1 + mu^2).
+
+    It is then mu times its last slip above the slope: docs/derivations.md.
+    """
+    given = {"contacts.smooth.mu_v": [mu], "h": [0.01, 0.02], "steps": [2]}
+    rows = simulate_many("block_incline", given, tmp_path, workers=1, progress=False)
+    angle = np.radians(25)
+    for row in rows:
+        d = row["values"]["h"] ** 2 * 9.81 * (np.sin(angle) - mu * np.cos(angle))
+        r = mu**2 / (1 + mu**2)
+        slips = d * (1 - r ** np.arange(1, 3))
+        travel = np.hypot(slips.sum(), mu * slips[-1])
+        measures = row["measures"]
+        assert row["outcome"] == "done"
+        assert measures["smooth.ends_from_start_m"] == pytest.approx(travel, rel=1e-9)
+        layer = 1e6 * mu * slips[-1]
+        assert measures["boundary_layer_um"] == pytest.approx(layer, rel=1e-9, abs=1e-9)
+        assert measures["smooth.largest_rotation_deg"] < 1e-9
+        assert (measures["steps"], measures["exact"]) == (2, 1.0)
+
+
+def test_a_run_that_ends_early_is_a_row_too(tmp_path):
+    """The block starts at 0.20616 m from the origin and slides past 0.2063 m on its way down."""
+    reach = {"limits.reach": [100.0, 0.2063]}
+    rows = simulate_many("block_incline", reach, tmp_path, workers=1, progress=False)
+    assert [row["outcome"] for row in rows] == ["done", "ended_early"]
+    assert [row["reason"] is None for row in rows] == [True, False]
+    steps = [row["measures"]["steps"] for row in rows]
+    assert steps[0] == 100
+    assert 0 < steps[1] < 100
 
 
 def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, capsys):

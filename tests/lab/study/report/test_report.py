@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, figure_of
 from quasistatic_ref.lab.page.html import html_page, sorting_script
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Code, Report, Section, Table
+from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.report.comparison import noise_of
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.report.rows import rows_of
@@ -288,8 +290,8 @@ def test_the_html_page_shows_the_same_tables_without_network(report, tables):
 
 
 def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
-    made_store.sweep_written(tmp_path / "store")
-    every = (*report.pictures, *study_report(tmp_path / "store").pictures)
+    (tmp_path / TABLE).write_text(made_store.SWEEP)
+    every = (*report.pictures, *study_report(tmp_path).pictures)
     assert [picture.kind for picture in every] == list(KINDS)
     for picture in every:
         figure = figure_of(picture.kind, picture.data)
@@ -298,25 +300,30 @@ def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
 
 
 def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
-    rows = made_store.sweep_written(tmp_path / "store")
-    report = study_report(tmp_path / "store")
+    (tmp_path / TABLE).write_text(made_store.SWEEP)
+    report = study_report(tmp_path)
     (_, where, columns, body), *_ = plain_report.tables_of(markdown_page(report))
-    assert where == "sweep = slide"
-    assert columns[:3] == ["mu [the scenario's unit]", "h [s]", "outcome"]
-    assert columns[3:] == list(rows[0]["measures"])
-    ordered = sorted(rows, key=lambda row: (row["values"]["mu"], row["values"]["h"]))
-    for row, line in zip(ordered, body, strict=True):
-        values = [*row["values"].values(), *row["measures"].values()]
-        shown = line[:2] + line[3:]
-        assert [c if c == "-" else float(c) for c in shown] == [
-            "-" if v is None else v for v in values
+    head, *lines = (line.split(",") for line in made_store.SWEEP.splitlines())
+    assert where == TABLE
+    assert columns == ["mu [the scenario's unit]", "cone", "outcome", *head[5:]]
+    for shown, line in zip(body, lines, strict=True):
+        assert shown[1:3] == [line[2], line[4] or line[3]]
+        numbers = [line[1], *line[5:]]
+        assert [c if c == "-" else float(c) for c in (shown[0], *shown[3:])] == [
+            float(n) if n else "-" for n in numbers
         ]
-        assert line[2] == (row["reason"] or "done")
     (picture,) = report.pictures
-    assert {name: len(points) for name, points in picture.data["lines"].items()} == {
-        "h = 0.01 s": 2,
-        "h = 0.02 s": 3,
+    assert picture.data["lines"] == {
+        "cone = pyramid": [(0.0, 0.25, 20.0), (0.1, 1.25, 20.0), (0.3, 3.25, 20.0)],
+        "cone = product": [(0.0, 0.125, 10.0)],
     }
+
+
+@pytest.mark.parametrize("text", ["", "run,mu,outcome\n", made_store.SWEEP[:-20], "a" * 200_000])
+def test_what_no_sweep_has_written_is_refused(tmp_path, text):
+    (tmp_path / TABLE).write_text(text)
+    with pytest.raises(InputError, match="is no table of a sweep; run the sweep again"):
+        study_report(tmp_path)
 
 
 def test_names_are_shown_in_markdown_not_obeyed():

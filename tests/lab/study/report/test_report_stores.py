@@ -7,6 +7,7 @@ from quasistatic_ref import InputError
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study_images import figure_of
 from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.pack import shorter
 from quasistatic_ref.lab.study.store.store import Store, contents
@@ -79,11 +80,12 @@ def test_nothing_is_drawn_of_calls_that_were_not_made(rows, tmp_path):
     assert "the figure `profiles` is not drawn" in markdown_page(report)
 
 
-def test_a_report_and_a_packed_store_stand_next_to_their_store(tmp_path, capsys):
-    folder = tmp_path / "sweep"
-    made_store.sweep_written(folder)
-    assert main(["study", "report", str(folder)]) == 0
-    assert f"wrote {folder / 'report' / 'report.html'}\n" in capsys.readouterr().out
-    assert (folder / "report" / "figures" / "sweep_1.png").stat().st_size > 1000
+def test_a_report_and_a_packed_store_stand_next_to_what_they_are_of(tmp_path, capsys):
+    (tmp_path / TABLE).write_text(made_store.SWEEP)
+    assert main(["study", "report", str(tmp_path)]) == 0
+    assert f"wrote {tmp_path / 'report' / 'report.html'}\n" in capsys.readouterr().out
+    assert (tmp_path / "report" / "figures" / "sweep.png").stat().st_size > 1000
+    folder = tmp_path / "store"
+    made_store.write_store(folder, count=3)
     assert main(["study", "pack", str(folder)]) == 0
     assert f"wrote {folder / 'packed' / 'study.json.xz'}\n" in capsys.readouterr().out

@@ -115,9 +115,6 @@ def test_a_folder_that_cannot_be_merged_is_refused(tmp_path):
     store_of(tmp_path / "unsaid", 3, count=1, problems={})
     with pytest.raises(InputError, match="does not say which problems"):
         part_read(str(tmp_path / "unsaid"))
-    made_store.sweep_written(tmp_path / "sweep")
-    with pytest.raises(InputError, match="holds a sweep"):
-        part_read(str(tmp_path / "sweep"))
 
 
 def test_a_store_is_written_whole_or_not_at_all(stores, both, tmp_path, monkeypatch):

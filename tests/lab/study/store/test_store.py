@@ -130,14 +130,6 @@ def test_what_no_study_has_written_is_refused(folder, statement):
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("measures", ["{}", '{"steps": "a", "boundary_layer_um": 1}', "3"])
-def test_a_run_without_its_measures_is_refused(tmp_path, measures):
-    made_store.sweep_written(tmp_path / "sweep")
-    change(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")
-    with pytest.raises(InputError, match="holds what no study has written"):
-        contents(tmp_path / "sweep")
-
-
 @pytest.mark.parametrize(
     "number",
     ["residuals_gap = 9e999", "seconds_call = 9e999", "residuals_primal = -9e999"],
