@@ -14,7 +14,7 @@ from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.groups import group_steps, groups
 from quasistatic_ref.tolerances import ILL_POSED
 from tests.helpers import always_in_blocks, changed
-from validation.make.grouped_proofs import faults, random_case
+from tests.oracles.grouped import faults, random_case
 
 
 def two_bodies(normals, phi, force):

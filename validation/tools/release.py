@@ -79,7 +79,6 @@ RESULTS = (
         to_file,
         (
             "large_steps",
-            "grouped_proofs",
             "proved_problems",
             "pair_distances",
             "scans",

@@ -22,9 +22,9 @@ from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
+from tests.oracles.grouped import unlike_fields
 from tests.oracles.random_steps import designed_step, equal_groups, mixed_step
 from validation.make import designed_steps
-from validation.make.grouped_proofs import unlike_fields
 
 
 def optimum_of(step):

@@ -22,9 +22,9 @@ from quasistatic_ref.step.groups import Group
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler
+from tests.oracles.grouped import unlike_fields
 from tests.oracles.random_steps import any_step
 from validation.make.confirmed_bits import NEARBY, OTHERS, differing_fields
-from validation.make.grouped_proofs import unlike_fields
 
 pytestmark = needs_compiler
 

@@ -1,0 +1,53 @@
+"""Optima proved whole and by group, and steps of several groups."""
+
+import numpy as np
+
+from quasistatic_ref import StepData, StepIllPosed, StepInfeasible
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum, step_optimum
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.scenes.at_random import divided
+from tests.oracles.random_steps import mixed_step
+
+SAME = (
+    "delta_q",
+    "net",
+    "slack",
+    "multipliers_unique",
+    "differentiable",
+    "smallest_inactive_slack",
+)
+"""What of an optimum no choice is left of."""
+
+
+def random_case(seed: int) -> StepData:
+    """A random step, mostly without what couples two or three classes of its coordinates."""
+    rng = np.random.default_rng([seed, 3])
+    return divided(rng, mixed_step(seed), int(rng.integers(1, 4)))
+
+
+def faults(step: StepData) -> list[str]:
+    """In what the optimum by group is not that of the whole; empty if it is."""
+    whole = form_optimum(exact_form(step))
+    try:
+        grouped = step_optimum(step)
+    except StepInfeasible as failure:
+        if not isinstance(whole, Farkas):
+            return ["infeasible by group only"]
+        reason = farkas_refutation(step, failure.farkas.exact)
+        return [] if reason is None else [reason]
+    except StepIllPosed as failure:
+        if isinstance(whole, Farkas):
+            return ["feasible by group only"]
+        return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
+    return unlike_fields(grouped, whole)
+
+
+def unlike_fields(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
+    """In what of that no choice is left of an optimum is not that of the whole step."""
+    if isinstance(whole, Farkas):
+        return ["feasible by group only"]
+    names = (*SAME, "lam") if whole.multipliers_unique else SAME
+    return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
