@@ -20,8 +20,8 @@ CAUSES = {
 }  # fmt: skip
 
 
-def step_file(folder, record, name="step.json"):
-    path = folder / name
+def step_file(folder, record):
+    path = folder / "step.json"
     path.write_text(record if isinstance(record, str) else json.dumps(record))
     return path
 

@@ -52,7 +52,7 @@ def scene(tmp_path):
     return scene_written(tmp_path)
 
 
-def ran(scenario, path, *, killed_at=None, resume=False, every=0.0, extension=None):
+def ran(scenario, path, *, killed_at=None, resume=False, extension=None):
     """A run that saves every step, and is perhaps killed in one of them."""
 
     def target(t):
@@ -64,7 +64,7 @@ def ran(scenario, path, *, killed_at=None, resume=False, every=0.0, extension=No
         return rollout(
             scenario.simulator(extension), scenario.system.q_start, target, scenario.steps,
             force=scenario.force, record=scenario.record, progress=False,
-            save=path, save_every=every, resume=resume,
+            save=path, save_every=0.0, resume=resume,
         )  # fmt: skip
 
 

@@ -40,12 +40,12 @@ def film(path: Path, size: tuple[float, float], columns: int, frames: int,
         plt.close(page)
 
 
-def grasps(path: Path, every: int = 10) -> None:
+def grasps(path: Path) -> None:
     """Both runs of the grasp, each tenth step."""
     scenario = grasp("with torsion")[0]
     runs = {case: grasp(case)[1] for case in CASES}
     turned = rotations(scenario, runs)
-    steps = range(0, len(runs["with torsion"]["t"]), every)
+    steps = range(0, len(runs["with torsion"]["t"]), 10)
     moments = {case: [moment(scenario, run, k) for k in steps] for case, run in runs.items()}
     scale = force_scale([one for of in moments.values() for one in of], SHOWN["view"], HALF)
 

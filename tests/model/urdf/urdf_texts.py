@@ -39,8 +39,8 @@ def mimic(of: str, multiplier: float = 1.0, offset: float = 0.0) -> str:
     return f'<mimic joint="{of}" multiplier="{multiplier}" offset="{offset}"/>'
 
 
-def robot(*elements: str, version: str = ' version="1.1"') -> str:
-    return f'<robot name="r"{version}>{"".join(elements)}</robot>'
+def robot(*elements: str) -> str:
+    return f'<robot name="r" version="1.1">{"".join(elements)}</robot>'
 
 
 def urdf_of_text(folder: Path, text: str, name: str = "r.urdf") -> Path:

@@ -60,9 +60,9 @@ X = np.eye(3)[0]
 SLANTING = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
 
 
-def tips(gap, R=None, at=(0.0, 0.0, 0.0)):
-    """Two ellipsoids whose longest axes are in line, along R's first column, tip to tip."""
-    R = np.eye(3) if R is None else R
+def tips(gap, at=(0.0, 0.0, 0.0)):
+    """Two ellipsoids whose longest axes are in line, along x, tip to tip."""
+    R = np.eye(3)
     at = np.array(at)
     one = Ellipsoid(np.array([0.125, 0.05, 0.04]))
     two = Ellipsoid(np.array([0.25, 0.03, 0.06]))

@@ -10,11 +10,11 @@ from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 
 
-def body_on_one_place(force, mu_v, mu_omega=0.0, phi=0.0, h=0.5, lever=1.0):
+def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
     """A body that moves along x, y, z and turns about z, on contacts that are all in one place."""
     each = (len(mu_v), 1, 1)
     at = contacts_of(
-        phi, np.tile(np.eye(3), each), np.tile(lever * np.eye(4), each), mu_v, mu_omega, rows=6
+        0.0, np.tile(np.eye(3), each), np.tile(lever * np.eye(4), each), mu_v, mu_omega, rows=6
     )
     return free_step(np.eye(4), [*force, 0.0], at, h).replace(cone="ellipsoid")
 

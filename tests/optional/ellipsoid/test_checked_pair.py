@@ -40,10 +40,10 @@ def units(values, unit):
     return [arb(v) / unit for v in np.asarray(values, float).tolist()]
 
 
-def point_at(form, delta_q, gap=0.0):
-    """A displacement [m] whose duality gap is `gap` [N m s], in the units of a form."""
+def point_at(form, delta_q):
+    """A displacement [m] without a duality gap, in the units of a form."""
     x = arb_mat(form.n, 1, units(delta_q, form.x_unit))
-    return Checked(x, [], arb(gap) / (form.net_unit * form.x_unit), arb(1))
+    return Checked(x, [], arb(0), arb(1))
 
 
 @pytest.mark.parametrize("k", [1, 2, 3])

@@ -29,15 +29,13 @@ DIAGONAL = (X + Y) / np.sqrt(2)
 EDGE, FACE = (Feature(free=free) for free in (DIAGONAL[None], ACROSS))
 
 
-def feature_rates(features, v, omega, turned=None):
+def feature_rates(features, v, omega):
     """Of two bodies at the origin and at PHI N that move by v and turn by omega, one coordinate."""
-    R = np.eye(3) if turned is None else turned
-    both = [f.turned(R) for f in features]
-    own = (np.array(v) @ R.T)[:, None, :, None]
-    turn = (np.array(omega) @ R.T)[:, None, :, None]
+    own = np.array(v)[:, None, :, None]
+    turn = np.array(omega)[:, None, :, None]
     phi = np.array([PHI])
     size = np.array([1.0])
-    return closest_point_rates(phi, (R @ N)[None], both, own, turn, size)
+    return closest_point_rates(phi, N[None], [*features], own, turn, size)
 
 
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])

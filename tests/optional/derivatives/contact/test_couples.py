@@ -45,8 +45,8 @@ def body(xyz, rpy=(0.0, 0.0, 0.0)):
     return System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=xyz, rpy=rpy)])
 
 
-def couples_of(system, pair, q=None):
-    where = system.kinematics(system.q_start if q is None else q)
+def couples_of(system, pair):
+    where = system.kinematics(system.q_start)
     points = closest_points([pair], where)
     return points, couples([pair], points, where.R, where.t)
 
