@@ -39,8 +39,10 @@ class HalfTurn(NamedTuple):
 def half_turn(w: Vector) -> HalfTurn:
     """Half of the turn by |w|, of 3 floats [rad]."""
     a = length(w)
+    if a == 0:
+        return HalfTurn(a, 1.0, 1.0)
     C, S = cos_sin(a / 2)
-    return HalfTurn(a, C, S / (a / 2) if a else 1.0)
+    return HalfTurn(a, C, S / (a / 2))
 
 
 def translation(v: Vector, w: Vector, half: HalfTurn) -> list[float]:

@@ -350,8 +350,10 @@ class Simulator(Settings, Shown):
         """
         return False
 
-    def forces_in_c(self, step: StepData, near: Array) -> Array | None:
-        """Forces of single contacts of a step, shape (n_c, 4) [N, N m]; None if C leaves one open.
+    def forces_in_c(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
+        """Forces of single contacts of a step and their compliances; None if C leaves one open.
+
+        Their shapes are (n_c, 4) [N, N m] and (n_c,) [m/N].
 
         Parameters
         ----------

@@ -209,8 +209,11 @@ def _depths(
             x = points[of.name] @ of.R.T + of.t
             x = x @ kinematics.R[of.link].T + kinematics.t[of.link]
             x = (x - kinematics.t[inside.link]) @ kinematics.R[inside.link]
-            phi = inside.shape.signed_distance((x - inside.t) @ inside.R)[0]
-            depth = max(depth, -float(phi.min()))
+            x = (x - inside.t) @ inside.R
+            if len(points[inside.name]):  # no point is in it that is not in its ball
+                x = x[np.linalg.norm(x, axis=1) <= radius[inside.name]]
+            if len(x):
+                depth = max(depth, -float(inside.shape.signed_distance(x)[0].min()))
         found.append(depth)
     return found
 

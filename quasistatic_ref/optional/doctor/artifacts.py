@@ -118,7 +118,7 @@ def _moved(contacts: Contacts, x: int) -> Mask:
 
 def _sums(loads: Array) -> Array:
     """Sums over contacts, shape (steps,), in their order."""
-    return np.add.accumulate(np.pad(loads, ((0, 0), (1, 0))), axis=1)[:, -1]
+    return np.add.accumulate(loads, axis=1)[:, -1] if loads.shape[1] else np.zeros(len(loads))
 
 
 def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> Array:

@@ -5,12 +5,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.between import Said
-from quasistatic_ref.optional.doctor.start import Start, bodies, body, free_bases, least, table
+from quasistatic_ref.optional.doctor.start import (
+    Start,
+    bodies,
+    body,
+    free_bases,
+    least,
+    slices,
+    table,
+)
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
@@ -24,37 +32,45 @@ ROUNDING = 1e-6
 
 def few_points(start: Start) -> Iterator[Said]:
     """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
-    if not (start.small and start.g):
+    points = start.points
+    if not (start.small and start.g) or points is None:
         return
     for name in free_bases(start.system):
-        own = [pair for pair in start.pairs if name in bodies(start.system, pair)]
-        if all(pair.n_c == pair.candidates for pair in own):
+        own = [(p, at) for p, at in slices(start.pairs) if name in bodies(start.system, p)]
+        if all(pair.n_c == pair.candidates for pair, _ in own):
             continue
-        try:
-            kept, every = ([_bearing(start, p, name, most) for p in own] for most in (1, MOST))
-        except ContactError:
-            return  # the first step says it
+        each = [(pair, points.chosen(np.r_[at])) for pair, at in own]
+        kept = [_bearing(start, pair, name, nearest) for pair, nearest in each]
         centre = _centre(start, name)
         of_kept = np.concatenate(kept)
+        if _around(of_kept - centre, start):
+            continue
+        every = []
+        for pair, _ in own:
+            wider = replace(pair, k=max(pair.k, MOST))
+            try:
+                found = closest_points([wider], start.kinematics)
+            except ContactError:
+                return  # of a point that no step keeps
+            every.append(_bearing(start, pair, name, found))
         of_all = np.concatenate(every)
-        if _around(of_all - centre, start) and not _around(of_kept - centre, start):
+        if _around(of_all - centre, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
             lacks = int(np.argmax(more))
             yield Said(
-                f"raise k of {table(own[lacks])} to {len(every[lacks])}",
+                f"raise k of {table(own[lacks][0])} to {len(every[lacks])}",
                 f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
                 "its centre of mass is not over these: it tips",
                 {"points": len(of_all), "kept": len(of_kept)},
             )
 
 
-def _bearing(start: Start, pair: ContactPair, name: str, most: int) -> Array:
-    """The points of the k nearest, or of so many, that are level and bear a body, shape (N, 3).
+def _bearing(start: Start, pair: ContactPair, name: str, points: ClosestPoints) -> Array:
+    """Those of a pair's nearest points that are level and bear a body, shape (N, 3).
 
     None of a pair that is apart, as a body in a gripper is from the floor.
     """
     up = -start.gravity / start.g
-    points = closest_points([replace(pair, k=max(pair.k, most))], start.kinematics)
     above = 1 if body(start.system, pair.beta.link) == name else -1
     level = points.phi <= min(points.phi.min() + REPEATED, SUNK * least(pair))
     if not pair.has_cloud and level.sum() > 1:

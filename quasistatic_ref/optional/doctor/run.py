@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces, forces_near
 from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.between import TASK, TaskOfRun
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
@@ -37,6 +38,7 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
+        self._in_c: dict[int, tuple[Array, Array] | None] = {}
         self._steps: dict[int, StepData] = {}
 
     @cached_property
@@ -50,6 +52,16 @@ class Run(Start):
     def noted(self, name: str) -> NDArray[Any]:
         """What the recorder keeps of each step and the trajectory does not, shape (steps, ...)."""
         return self.recorder.noted(name)
+
+    @cached_property
+    def points(self) -> ClosestPoints:
+        """The contacts of the first step."""
+        return self.points_of(0)
+
+    def points_of(self, k: int) -> ClosestPoints:
+        """The contacts that step k has recorded, but for their ties."""
+        found = {name: self[name][k] for name in POINTS}
+        return ClosestPoints(**found, tie=np.zeros_like(found["point"]))
 
     @property
     def searched(self) -> bool:
@@ -71,7 +83,6 @@ class Run(Start):
         tau = self.noted("tau")[k]
         polyhedral = cone(simulator.cone).polyhedral
         kinematics = self.system.kinematics(q)
-        points = simulator.closest_points(kinematics)
         self._steps[k] = step = StepData(
             h=self.h,
             K_q=simulator.K_q,
@@ -79,7 +90,7 @@ class Run(Start):
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
             delta_q_bar_a=self.system.actuated_difference(q, self["q_bar_a"][k]),
-            contacts=contacts_of(self.system, self.pairs, points, kinematics),
+            contacts=contacts_of(self.system, self.pairs, self.points_of(k), kinematics),
             cone=simulator.cone if polyhedral else PYRAMID,
         )
         return step
@@ -93,8 +104,8 @@ class Run(Start):
             return np.asarray(self["wrench"][k])
         if "forces" in self.arrays:
             return np.asarray(self["forces"][k])
-        found = self._in_c(k)
-        return self._compliant(k).wrench if found is None else found
+        found = self.in_c(k)
+        return self._compliant(k).wrench if found is None else found[0]
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
@@ -104,13 +115,17 @@ class Run(Start):
 
     def _compliant(self, k: int) -> ContactForces:
         if k not in self._found:
-            found = self._in_c(k)
-            near = self["wrench"][k] if found is None else found
+            found = self.in_c(k)
+            near = self["wrench"][k] if found is None else found[0]
             self._found[k] = forces_near(self.step_data(k), (self["delta_q"][k], near))
         return self._found[k]
 
-    def _in_c(self, k: int) -> Array | None:
-        return self.simulator.forces_in_c(self.step_data(k), self["wrench"][k])
+    def in_c(self, k: int) -> tuple[Array, Array] | None:
+        """Forces and compliances, (n_c, 4) [N, N m] and (n_c,) [m/N]; None if C leaves one open."""
+        if k not in self._in_c:
+            wrench = self["wrench"][k]
+            self._in_c[k] = self.simulator.forces_in_c(self.step_data(k), wrench)
+        return self._in_c[k]
 
 
 def wrenches(step: StepData) -> Array | None:

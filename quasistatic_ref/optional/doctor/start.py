@@ -14,7 +14,6 @@ from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
@@ -94,7 +93,7 @@ class Start:
         for placed in clouds.values():
             if isinstance(placed.shape, PointCloud):
                 with suppress(ModelError):  # all of them in a plane
-                    yield replace(placed, name=HULL, shape=convex_hull(placed.shape.points))
+                    yield replace(placed, name=HULL, shape=placed.shape.hull)
 
     @property
     def sides(self) -> list[PlacedShape]:

@@ -329,7 +329,7 @@ class FastSimulator(Simulator):
             return False
         return in_c.decided(solution.step, solution.wrench) is not None
 
-    def forces_in_c(self, step: StepData, near: Array) -> Array | None:
+    def forces_in_c(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
         """As in the base, from `near`, shape (n_c, 4) [N, N m]."""
         return None if self.in_c is None or not self.by_c else self.in_c.decided(step, near)
 

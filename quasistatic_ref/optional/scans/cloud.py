@@ -34,10 +34,8 @@ def spacing(points: Array) -> float:
 def stray(points: Array) -> NDArray[np.bool_]:
     """Which points, shape (N, 3) [m], belong to no surface of the others, shape (N,)."""
     n = len(points)
-    tree = cKDTree(points)
-    reach = LINKED * spacing(points)
-    _, near = tree.query(points, k=min(LINKS, n), distance_upper_bound=reach)
-    of, place = np.nonzero(near < n)  # n where there is no further one
+    away, near = cKDTree(points).query(points, k=min(LINKS, n))
+    of, place = np.nonzero(away < LINKED * np.median(away[:, 1]))
     links = coo_matrix((np.ones(len(of)), (of, near[of, place])), shape=(n, n))
     _, group = connected_components(links, directed=False)
     few = np.bincount(group)[group] < SURFACE

@@ -83,6 +83,14 @@ class Forces:
         left = self.s.integers("code").nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
 
+    def compliance(self) -> Array:
+        """Of each contact in the last step of :meth:`in_c`, which has decided all, (n_c,) [m/N]."""
+        found = np.zeros(len(self._none))
+        for group, part in zip(self._groups, self.parts, strict=True):
+            if len(group.contacts):
+                found[group.contacts] = part.s["compliance"]
+        return found
+
     def wrench(self, step: StepData, near: tuple[Array, Array]) -> Array:
         """The same, shape (n_c, 4); what C leaves open comes from the core.
 
@@ -118,8 +126,8 @@ class ForcesOfSteps:
         with self._one_at_a_time:
             return self._of_steps_like(step).wrench(step, near)
 
-    def decided(self, step: StepData, near: Array) -> Array | None:
-        """The same, shape (n_c, 4) [N, N m]; None if C leaves a force of the step open.
+    def decided(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
+        """The same, shape (n_c, 4) [N, N m], and compliances, (n_c,) [m/N]; None if one is open.
 
         Parameters
         ----------
@@ -128,11 +136,13 @@ class ForcesOfSteps:
             As of :meth:`Forces.in_c` [N, N m].
         """
         with self._one_at_a_time:
-            wrench, left = self._of_steps_like(step).in_c(step, near)
-        if left:
-            return None
+            forces = self._of_steps_like(step)
+            wrench, left = forces.in_c(step, near)
+            if left:
+                return None
+            compliance = forces.compliance()
         check_forces(step, wrench)
-        return read_only(wrench)
+        return read_only(wrench), read_only(compliance)
 
     def _of_steps_like(self, step: StepData) -> Forces:
         of = coupled_by(step)
