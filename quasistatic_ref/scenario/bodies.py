@@ -29,39 +29,11 @@ from quasistatic_ref.scenario.scenario_table import (
     pose,
     value,
 )
-from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.arrays import Array, freeze_copies
+from quasistatic_ref.simulate.target import JointTrack, Wrenches
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.pivots import positive_definite
 
 MJCF_URDF: Slot[Callable[[Path, str, Sequence[Path]], str]] = Slot("mjcf.mjcf")
-
-
-@dataclass(frozen=True, eq=False)
-class Wrenches(Plain):
-    """An external wrench at the centre of mass of a body's root link, piecewise linear in time.
-
-    It is held before its first time, from the run's start, and after its last.
-
-    Parameters
-    ----------
-    body : str
-    times : ndarray, shape (w,)
-        [s].
-    values : ndarray, shape (w, 6)
-        Force [N] and torque [N m], world frame.
-    """
-
-    body: str
-    times: Array
-    values: Array
-
-    def __post_init__(self) -> None:
-        freeze_copies(self, "times", "values")
-
-    def force(self, system: System, t: float, q: Array) -> Array:
-        """Generalised force at time t, shape (n_v,)."""
-        wrench = piecewise_linear(self.times, self.values, t)
-        return system.load(q, self.body, wrench[:3], wrench[3:])
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,6 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
-    Wrenches,
     body_entry,
     joint_tracks,
     stiffness,
@@ -46,7 +45,7 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.target import Targets
+from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import cone
@@ -112,9 +111,7 @@ class Scenario(Settings, Plain, Shown):
     @property
     def force(self) -> Callable[[float, Array], Array] | None:
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
-        if not self.wrenches:
-            return None
-        return lambda t, q: total(w.force(self.system, t, q) for w in self.wrenches)
+        return Loads(self.system, self.wrenches) if self.wrenches else None
 
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with the scene where it starts; a run's findings have these, too.

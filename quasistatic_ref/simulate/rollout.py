@@ -16,7 +16,7 @@ from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import PACKED, Recorder
-from quasistatic_ref.simulate.target import Targets
+from quasistatic_ref.simulate.target import OF_WAYPOINTS
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
     Checked,
@@ -159,7 +159,7 @@ def rollout(
     if progress and (pace := PACE.found()) is not None:
         recorder.observers.append(pace(simulator.fast, steps - recorder.steps))
     # A function of the user's may take steps itself, or ask for the last one.
-    asks_user = any(callable(of) and type(of) is not Targets for of in (target, force))
+    asks_user = any(callable(of) and type(of) not in OF_WAYPOINTS for of in (target, force))
     bar = progress_bar(unit="step", total=steps, done=recorder.steps, shown=progress)
     last: StepResult | None = None
     with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt, bar:

@@ -11,7 +11,9 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.axis_joint import AxisJoint
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.step.ordered import total
 
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:
@@ -111,6 +113,56 @@ class Targets(Plain):
         for track in self.tracks:
             q_bar_a[:, track.joint.q] = track.over(t)
         return q_bar_a
+
+
+@dataclass(frozen=True, eq=False)
+class Wrenches(Plain):
+    """An external wrench at the centre of mass of a body's root link, piecewise linear in time.
+
+    It is held before its first time, from the run's start, and after its last.
+
+    Parameters
+    ----------
+    body : str
+    times : ndarray, shape (w,)
+        [s].
+    values : ndarray, shape (w, 6)
+        Force [N] and torque [N m], world frame.
+    """
+
+    body: str
+    times: Array
+    values: Array
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "times", "values")
+
+    def force(self, system: System, t: float, q: Array) -> Array:
+        """Generalised force at time t, shape (n_v,)."""
+        wrench = piecewise_linear(self.times, self.values, t)
+        return system.load(q, self.body, wrench[:3], wrench[3:])
+
+
+@dataclass(frozen=True, eq=False)
+class Loads:
+    """The generalised force of wrenches as a function of time and configuration.
+
+    Parameters
+    ----------
+    system : System
+    wrenches : sequence of Wrenches
+    """
+
+    system: System
+    wrenches: Sequence[Wrenches]
+
+    def __call__(self, t: float, q: Array) -> Array:
+        """The force of the step to time t [s] from q, shape (n_v,)."""
+        return total(wrench.force(self.system, t, q) for wrench in self.wrenches)
+
+
+OF_WAYPOINTS = (Targets, Loads)
+"""Functions that look at no step, so that a run may ask for several steps in a row."""
 
 
 def _interval(times: Array, t: float | Array) -> tuple[Indices, Array]:

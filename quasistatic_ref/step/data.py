@@ -198,8 +198,8 @@ class StepData(Plain, Shown):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
 
     def momentum(self, delta_q: Array) -> Array:
-        """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
-        return self.M_u @ delta_q[self.n_a :]
+        """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
+        return np.asarray((self.M_u @ delta_q[..., self.n_a :, None])[..., 0])
 
     @property
     def kept_M_u(self) -> Array:

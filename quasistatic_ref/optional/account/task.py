@@ -159,11 +159,15 @@ def through(task: Task) -> Iterator[Said]:
     if len(made) > MOST:
         return
     points = {placed.name: _points(placed) for placed in every}
+    radius = {
+        name: BALL * float(np.linalg.norm(own, axis=1).max(initial=0.0))
+        for name, own in points.items()
+    }
     said: dict[frozenset[str], Said] = {}
     q = task.trajectory["q"]
-    start = _depths(task, made, points, q[0])
+    start = _depths(task, made, points, radius, q[0])
     for k in np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist():
-        depths = _depths(task, made, points, q[k])
+        depths = _depths(task, made, points, radius, q[k])
         for pair, at_first, depth in zip(made, start, depths, strict=True):
             sizes = [float(s.shape.extent) or np.inf for s in pair]
             names = [side(system, s) for s in pair]
@@ -189,12 +193,12 @@ def _depths(
     task: Task,
     pairs: list[tuple[PlacedShape, PlacedShape]],
     points: dict[str, Array],
+    radius: dict[str, float],
     q: Array,
 ) -> list[float]:
     """How deep points of one shape are in the other [m], at most; negative where they are apart."""
     kinematics = task.system.kinematics(q)
     centre = {s.name: kinematics.R[s.link] @ s.t + kinematics.t[s.link] for s in chain(*pairs)}
-    radius = {name: BALL * np.linalg.norm(points[name], axis=1).max(initial=0.0) for name in centre}
     found = []
     for pair in pairs:
         a, b = (placed.name for placed in pair)

@@ -44,7 +44,11 @@ class Drag:
 
 
 def drags(
-    system: System, steps: Sequence[StepData], delta_q: Sequence[Array], wrench: Array, g: float
+    system: System,
+    steps: Sequence[StepData],
+    delta_q: Sequence[Array] | Array,
+    wrench: Array,
+    g: float,
 ) -> list[Drag]:
     """The drag on each floating base that is not actuated.
 
@@ -52,6 +56,7 @@ def drags(
     ----------
     system : System
     steps : sequence of StepData
+        One, whose M_u all of them have; or each.
     delta_q : sequence of ndarray, each of shape (n_v,)
     wrench : ndarray, shape (steps, n_c, 4)
         Of their contacts [N, N m]: those of this delta_q, or of steps with another M_u.
@@ -61,14 +66,17 @@ def drags(
     first = steps[0]
     bases = free_bases(system)
     end = max((base.v.stop for base in bases.values()), default=first.n_a) - first.n_a
-    each = zip(steps, delta_q, strict=True)
-    momentum = np.array([step.momentum(v)[:end] for step, v in each])  # without private rises
+    if len(steps) == 1:
+        momentum = first.momentum(np.asarray(delta_q))
+    else:
+        each = zip(steps, delta_q, strict=True)
+        momentum = np.array([step.momentum(v)[:end] for step, v in each])  # no private rises
     presses = _loads(wrench)
     rubs = first.contacts.mu_v * presses
     found = []
     for body, base in bases.items():
         x = base.v.start
-        own = _moved(first.contacts, x)
+        own = moved(first.contacts, x)
         drag = _quotient(_lengths(momentum[:, x - first.n_a : x - first.n_a + 3]), first.h**2)
         friction = _sums(rubs[:, own])
         rubbed = friction > BEARS * drag
@@ -106,7 +114,7 @@ def _loads(wrench: Array) -> Array:
     return np.where(f_n > BEARS * f_n.max(axis=1, initial=0.0, keepdims=True), f_n, 0.0)
 
 
-def _moved(contacts: Contacts, x: int) -> Mask:
+def moved(contacts: Contacts, x: int) -> Mask:
     """Whether the coordinate x, which translates a base, moves each contact, shape (n_c,).
 
     It moves the points of its body's contacts by one metre per metre, and others not at all: the

@@ -47,8 +47,8 @@ class Doctor(Observer):
         """
         system = recorder.system
         simulator = recorder.simulator
-        steps: Sequence[StepData] = [results[0].step] * len(results)
-        delta_q: Sequence[Array] = list(arrays["delta_q"])
+        steps: Sequence[StepData] = [results[0].step]
+        delta_q: Sequence[Array] | Array = arrays["delta_q"]
         if system.varying_mass is not None or simulator.extension is not None:
             steps = [result.step for result in results]
             delta_q = [result.solution.delta_q for result in results]
@@ -59,8 +59,8 @@ class Doctor(Observer):
         return {
             "gap": gap,
             "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
-            "drag": largest_share([x.share for x in found], len(steps)),
-            "pushed": largest_share(touched, len(steps)),
+            "drag": largest_share([x.share for x in found], len(delta_q)),
+            "pushed": largest_share(touched, len(delta_q)),
             "layer": boundary_layer(gap, arrays["wrench"]),
         }
 

@@ -160,10 +160,11 @@ class BlockStep(StepData):
         return np.concatenate([of_a, first + one]), np.concatenate([with_a, first + other])
 
     def momentum(self, delta_q: Array) -> Array:
-        """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
+        """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
+        moved = delta_q[..., self.n_a :]
         blocks = self.blocks
-        momentum: Array = blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)
-        return momentum.ravel()
+        momentum = blocks @ moved.reshape(*moved.shape[:-1], *blocks.shape[:-1], 1)
+        return momentum.reshape(moved.shape)
 
 
 def posed(kind: type[T], same: Mapping[str, object], own: Mapping[str, object]) -> T:

@@ -96,6 +96,19 @@ def test_proofs_on_the_rows_of_the_step_before_have_the_bits_of_the_long_way(few
     assert sum(few) == 39
 
 
+def test_wrenches_of_a_scenario_go_in_blocks_and_functions_of_a_user_by_themselves(few):
+    scenario = load_scenario("sphere_spin", ["record=light"], steps=40, fast=True)
+    run = scenario.run(progress=False)
+    assert few == [0, 1, 38]
+    few.clear()
+    force = scenario.force
+    alone = rollout(scenario.simulator(), scenario.system.q_start, scenario.targets, 40,
+                    force=lambda t, q: force(t, q), record="light", progress=False)  # fmt: skip
+    assert few == [0, *[1] * 39]
+    for key in ("q", "delta_q", "wrench"):
+        assert run[key].tobytes() == alone[key].tobytes()
+
+
 class Every(Observer):
     """Has a run stop at each step."""
 
