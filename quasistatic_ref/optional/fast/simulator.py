@@ -417,9 +417,10 @@ class FastSimulator(Simulator):
         """The contacts at those points, from d1, d2 (n_c, 3) [-], J (n_c, 4, ...) [m, rad]."""
         layout = self.layout
         listed = points.point.tolist()
-        if listed != self.named[0]:
-            self.named = listed, layout.contact_names(points.point)
-        name = self.named[1]
+        named = self.named  # another thread may read a result
+        if listed != named[0]:
+            self.named = named = listed, layout.contact_names(points.point)
+        name = named[1]
         if self.blocks is not None:
             return self.blocks.contacts(layout, name, points, d1, d2, J)
         own = {"name": name, "phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}

@@ -13,6 +13,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.certificate import Prover, claims_of
 from quasistatic_ref.optional.fast.compiled.forces import FastSolution
@@ -293,42 +294,92 @@ class Taken(Steps):
         }
 
     def _result(self, k: int) -> StepResult:
-        simulator = self._simulator
-        solver = self._solver
         record = self._records[k, ...]  # an array, whose fields are read in less time
-        step, points = simulator.step_of(record["scene"], record["delta_q_bar_a"])
-        seconds = dict(zip(LAPS, record["seconds"].tolist(), strict=True))
-        status = "not called" if self._proved else "optimal"
-        none: tuple[int | None, float | None] = None, None  # no backend was asked
-        iterations, solve_time = none if self._proved else self._said[k]
+        own = {
+            "q": record["q"], "q_start": self._records["q"][k - 1] if k else self._start,
+            "scene": self._simulator.scene, "simulator": self._simulator, "record": record,
+            "solver": self._solver, "said": None if self._proved else self._said[k],
+        }  # fmt: skip
+        return posed(FollowingResult, {}, own)
+
+
+class FollowingResult(StepResult):
+    """The result of such a step, whose parts become objects when they are asked for.
+
+    Attributes
+    ----------
+    simulator : FastSimulator
+    solver : FastSolver
+    record : ndarray, shape ()
+        What C has written of the step [of the notation].
+    said : (int or None, float or None) or None
+        Iterations and time [s] of the backend; None of a proved step, for which none was asked.
+    """
+
+    simulator: FastSimulator
+    solver: FastSolver
+    record: NDArray[np.void]
+    said: tuple[int | None, float | None] | None
+
+    @classmethod
+    def compared_as(cls) -> type:
+        """It is compared as :class:`~quasistatic_ref.simulate.result.StepResult`."""
+        return StepResult
+
+    @cached_property
+    def _posed(self) -> tuple[StepData, ClosestPoints]:
+        record = self.record
+        return self.simulator.step_of(record["scene"], record["delta_q_bar_a"])
+
+    @cached_property
+    def step(self) -> StepData:
+        """The problem of the step."""
+        return self._posed[0]
+
+    @cached_property
+    def points(self) -> ClosestPoints:
+        """Where the contacts were."""
+        return self._posed[1]
+
+    @cached_property
+    def seconds(self) -> dict[str, float]:
+        """Wall time of the parts [s]."""
+        return dict(zip(LAPS, self.record["seconds"].tolist(), strict=True))
+
+    @cached_property
+    def solution(self) -> FastSolution:
+        """What C has found."""
+        solver = self.solver
+        record = self.record
+        proved = self.said is None
+        iterations, solve_time = self.said or (None, None)
         statistics = SolverStatistics(
             solver.name,
-            status,
+            "not called" if proved else "optimal",
             iterations,
             solve_time,
-            simulator.accuracy,
+            self.simulator.accuracy,
             interface=solver.interface,
-            proof_time=seconds["proof"],
+            proof_time=self.seconds["proof"],
         )
         own = {
-            "delta_q": record["delta_q"], "lam": record["lam"], "step": step,
-            "backend": solver.name, "statistics": statistics, "in_c": simulator.in_c,
-            "net_impulse": record["net"] if self._proved else None,
-            "certificate": self._certificate(record, step) if self._proved else NOTHING_CLAIMED,
+            "delta_q": record["delta_q"], "lam": record["lam"], "step": self.step,
+            "backend": solver.name, "statistics": statistics, "in_c": self.simulator.in_c,
+            "net_impulse": record["net"] if proved else None,
+            "certificate": self._certificate() if proved else NOTHING_CLAIMED,
         }  # fmt: skip
-        solution = posed(FastSolution, NO_ROWS, own)
-        start = self._records["q"][k - 1] if k else self._start
-        return StepResult(record["q"], step, solution, points, seconds, start, simulator.scene)
+        return posed(FastSolution, NO_ROWS, own)
 
-    def _certificate(self, record: NDArray[np.void], step: StepData) -> Certificate:
+    def _certificate(self) -> Certificate:
         """As of :func:`~quasistatic_ref.certify.certificate.exact_certificate`."""
+        record = self.record
         working = record["lam"].nonzero()[0].tolist()
         unique, smooth, least_slack, least_multiplier = claims_of(record["claims"], record["least"])
         own = {
             "residuals": dict(zip(RESIDUALS, record["residuals"].tolist(), strict=True)),
-            "active": contact_rows(step, working), "multipliers_unique": unique,
+            "active": contact_rows(self.step, working), "multipliers_unique": unique,
             "differentiable": smooth, "smallest_inactive_slack": least_slack,
-            "smallest_active_multiplier": least_multiplier if working else None, "step": step,
+            "smallest_active_multiplier": least_multiplier if working else None, "step": self.step,
         }  # fmt: skip
         return posed(Certificate, PROVED, own)
 
