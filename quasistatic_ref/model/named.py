@@ -69,7 +69,7 @@ class Named:
         ModelError
             If there is no such name, or a value is not of its kind.
         """
-        placed = q + 0.0
+        placed = q.copy()
         for name, given in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
             own = self.q(name if joint is None else joint.name)
@@ -96,7 +96,7 @@ def _indices(known: Mapping[str, list[int]], name: str) -> Indices:
 
 def _pose(joint: Joint, name: str, given: Mapping[str, ArrayLike], before: Array) -> Array:
     """Entries of q of a joint with a quaternion; what the table leaves out stays."""
-    after = before + 0.0
+    after = before.copy()
     known = ("xyz", "rpy") if joint.lengths else ("rpy",)
     for key, value in given.items():
         if key not in known:

@@ -49,10 +49,10 @@ class TwistJoint(Joint):
     @classmethod
     def obstacle(cls, xyz: Array, rpy: Array, start: Array) -> str | None:
         """Why it cannot get to a pose, as of `at`, from the origin `start`, shape (3,) [m]."""
-        way = [*(xyz - start), *rpy[:2]]
+        way = [*(xyz - start), *rpy]
         if all(i in cls.twist or part == 0 for i, part in enumerate(way)):
             return None
-        held = ", ".join(AXES[i][0] for i in range(5) if i not in cls.twist)
+        held = ", ".join(axis for i, (axis, _) in enumerate(AXES) if i not in cls.twist)
         return (
             f"moves or turns by {held}, which this joint cannot; place shapes so in the URDF, or "
             'take base = "floating"'
