@@ -109,9 +109,7 @@ class Run(Start):
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
-        if not self.searched or CONTACT_FORCES.found() is None:
-            return None
-        return self._compliant(k)
+        return self._compliant(k) if self.searched and CONTACT_FORCES.found() else None
 
     def _compliant(self, k: int) -> ContactForces:
         if k not in self._found:
