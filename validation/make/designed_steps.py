@@ -23,7 +23,7 @@ from quasistatic_ref.tolerances import ACCURACY
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rational_kkt import exact, proved_optimum
 from tests.oracles.solution_truth import nearest_float, program, proof
-from validation.tools.scripts import script_options, show_page
+from validation.tools.scripts import rows_before, script_options, show_page
 
 FAMILIES = ("any step", "equal groups with own rows", "ties in integers", "divided, with own rows")
 OUTCOMES = ("same optimum", "no solution", "ill-posed", "wrong")
@@ -85,9 +85,9 @@ def counts_before(out: Path | None, first: int) -> list[Counter[str]]:
     """The counts of each family on the page of the steps before the first; else none."""
     if not first or out is None:
         return [Counter() for _ in FAMILIES]
-    rows = [line.split(" | ") for line in out.read_text().splitlines()]
-    kept = {row[0][2:]: [int(cell.strip(" |")) for cell in row[2:]] for row in rows[-4:]}
-    found = [Counter(dict(zip(OUTCOMES, kept[family], strict=True))) for family in FAMILIES]
+    rows = rows_before(out)
+    kept = [map(int, rows[family][1:]) for family in FAMILIES]
+    found = [Counter(dict(zip(OUTCOMES, counts, strict=True))) for counts in kept]
     assert sum(count.total() for count in found) == first
     return found
 

@@ -29,7 +29,7 @@ from quasistatic_ref import QuasistaticError
 from quasistatic_ref.lab import processes
 from tests.errors.readers import FAMILIES, Reader
 from tests.oracles.bombs import BOMBS, PLACES, outside
-from validation.tools.scripts import ROOT, script_options, show_page
+from validation.tools.scripts import ROOT, rows_before, script_options, show_page
 
 SECONDS = 10.0
 """Of the processor, of a process and its children, that a file may take [s]."""
@@ -240,16 +240,6 @@ def opened_elsewhere(log: Path) -> dict[int, str]:
     return found
 
 
-def rows_before(out: Path | None) -> dict[str, Row]:
-    """The rows of a page of before."""
-    found = {}
-    for line in out.read_text().splitlines() if out and out.exists() else ():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("| ") and cells[1].isdigit():
-            found[cells[0]] = Row(*map(int, cells[1:5]), *map(float, cells[5:7]))
-    return found
-
-
 def table(title: str, rows: dict[str, Row]) -> str:
     """A table of the page, with a last row of all."""
     every = Row()
@@ -269,8 +259,11 @@ def main() -> int:
     if options.worker:
         read(first, first + options.count, options.worker)
         return 0
-    rows = rows_before(options.out)
-    rows.pop("all", None)
+    rows = {
+        name: Row(*map(int, cells[:4]), *map(float, cells[4:]))
+        for name, cells in rows_before(options.out).items()
+        if name != "all"
+    }
     parts = [(first, first + options.count)] if first >= 0 else []
     if first <= 0:
         with tempfile.TemporaryDirectory() as folder:

@@ -35,7 +35,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.study.store.rows import MACHINE_DEPENDENT
 from quasistatic_ref.lab.study.store.store import STORE, contents
-from validation.tools.scripts import script_options, show_page
+from validation.tools.scripts import rows_before, script_options, show_page
 
 COLUMNS = ("killed", "interrupted", "ended before", "resumed", "second ones refused", "lost")
 MOST = 5
@@ -207,23 +207,16 @@ def of_command(name: str, count: int, seed: int, folder: Path) -> Iterator[Count
         shutil.rmtree(folders.out, ignore_errors=True)
 
 
-def rows_before(out: Path | None) -> dict[str, Counter[str]]:
-    """The rows of a page of before."""
-    found = {}
-    for line in out.read_text().splitlines() if out and out.exists() else ():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("| ") and cells[1].isdigit():
-            found[cells[0]] = Counter(dict(zip(COLUMNS, map(int, cells[1:]), strict=True)))
-    return found
-
-
 def main() -> int:
     """Kill all; exit status 1 if something was lost."""
     tqdm.monitor_interval = 0  # which is a thread
     tqdm.set_lock(RLock())  # its own is shared by copies: one that is killed would hold it for ever
     names = ("run", "run --sweep", "study run", "vectors generate", "demo")
     options = script_options(__doc__, count=500, only="", out=Path)
-    rows = rows_before(options.out)
+    rows = {
+        name: Counter(dict(zip(COLUMNS, map(int, cells), strict=True)))
+        for name, cells in rows_before(options.out).items()
+    }
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "inputs").mkdir()
         inputs(Path(folder) / "inputs")
