@@ -14,7 +14,6 @@ Exit status 1 if fewer than 55 are named, if one of the three has a finding, or 
 another one than that of a large drag, which is no mistake.
 """
 
-import argparse
 import shutil
 import sys
 import tempfile
@@ -25,6 +24,7 @@ import numpy as np
 
 from quasistatic_ref import InputError, RunFailed, load_scenario
 from quasistatic_ref.simulate.finding import Finding
+from validation.tools.scripts import script_options, show_page
 
 HERE = Path(__file__).parent / "mistakes"
 SCENES = ("grasp", "push", "turn")
@@ -85,18 +85,12 @@ def is_named(mistake, findings):
     )
 
 
-def main(arguments=None):
-    """Run them, and print a row of each."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seen", action="store_true")
-    parser.add_argument("--held-out", action="store_true")
-    parser.add_argument("--out", type=Path)
-    options = parser.parse_args(arguments)
+def main():
+    """Run them, and write the page."""
+    options = script_options(__doc__, out=Path)
     rows = ["| scene | mistake | held out | named | first finding |", "|---|---|---|---|---|"]
     right = {False: [], True: []}
     for one in mistakes():
-        if (options.seen and one["held_out"]) or (options.held_out and not one["held_out"]):
-            continue
         findings = findings_after(one["scene"], one["edits"])
         good = is_named(one, findings)
         right[one["held_out"]].append(good)
@@ -104,26 +98,23 @@ def main(arguments=None):
         words = "yes" if good else "**no**"
         held = "yes" if one["held_out"] else ""
         rows.append(f"| {one['scene']} | {one['what']} | {held} | {words} | {sentence} |")
-        print(rows[-1], flush=True)
+        print(rows[-1], file=sys.stderr, flush=True)
     plain = {scene: findings_after(scene) for scene in SCENES}
     changed = {one["what"]: findings_after(one["scene"], one["edits"]) for one in healthy_scenes()}
     slow = [what for what, findings in changed.items() if [x.name for x in findings] == ["drag"]]
     wrong = {what: x for what, x in {**plain, **changed}.items() if x and what not in slow}
-    counts = [f"{sum(x)} of {len(x)} {name}" for name, x in
-              (("seen", right[False]), ("held out", right[True])) if x]  # fmt: skip
+    seen, held_out = (f"{sum(x)} of {len(x)}" for x in right.values())
     summary = (
-        f"Named in the first sentence: {' and '.join(counts)}. Of the {len(plain) + len(changed)} "
-        f"scenes without a mistake {len(wrong)} have a finding, but for {len(slow)} of which is "
-        f"said that their drag is large: {'; '.join(slow)}."
+        f"Named in the first sentence: {seen} seen and {held_out} held out. Of the "
+        f"{len(plain) + len(changed)} scenes without a mistake {len(wrong)} have a finding, but "
+        f"for {len(slow)} of which is said that their drag is large: {'; '.join(slow)}."
     )
-    print(summary)
     for what, findings in wrong.items():
-        print(what, *findings, sep="\n  ")
-    if options.out is not None:
-        made = "Written by `python -m validation.make.mistakes --out FILE`."
-        first = "At their first run, 19 of the 20 that were held out were named."
-        page = ["# Scenes with one mistake each", "", made, "", f"{summary} {first}", "", *rows]
-        options.out.write_text("\n".join(page) + "\n", "utf-8")
+        print(what, *findings, sep="\n  ", file=sys.stderr)
+    made = "Written by `python -m validation.make.mistakes --out FILE`."
+    first = "At their first run, 19 of the 20 that were held out were named."
+    page = ["# Scenes with one mistake each", "", made, "", f"{summary} {first}", "", *rows]
+    show_page("\n".join(page), options.out)
     every = right[False] + right[True]
     missed = len(every) - sum(every)
     return 0 if not wrong and missed <= len(mistakes()) - NEEDED else 1
