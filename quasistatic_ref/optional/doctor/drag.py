@@ -77,7 +77,7 @@ def _without_doing(run: Run, k: int) -> list[Drag]:
         return []
     step = run.step_data(k)
     lighter = step.replace(M_u=step.M_u / SLOWER)
-    found = _surely_small(run, k, lighter) if run.simulator.fast else None
+    found = None if run.in_c(k) is None else _surely_small(run, k, lighter)
     if found is not None:
         return found
     wrench: Array | None = wrenches(lighter)
