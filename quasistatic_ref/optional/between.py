@@ -120,6 +120,10 @@ class FloatBound(Protocol):
 class LargeSteps(Protocol):
     """Large steps of one kind."""
 
+    @property
+    def entry(self) -> Indices:
+        """Where the entries of a sparse A are in the columns of their blocks, (m, w)."""
+
     def matrices(self) -> tuple[csc_matrix, csc_matrix, csc_matrix]:
         """H in natural units, its upper triangle, and a matrix with the pattern of A."""
 

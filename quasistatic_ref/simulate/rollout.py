@@ -166,7 +166,7 @@ def rollout(
         asked = _Asked(recorder, q_bar_a_at, force_at, interrupt)
         while (k := recorder.steps) < steps:
             if k % COLD_EVERY == 0:
-                start_cold(simulator)
+                simulator.start_cold()
             one = asks_user or any(observer.alone() for observer in recorder.observers)
             most = 1 if one else min(PACKED, COLD_EVERY - k % COLD_EVERY, steps - k)
             try:
@@ -243,9 +243,3 @@ class _Asked:
     def _ask(self, k: int, q: Array) -> None:
         t = (self._first + k + 1) * self._recorder.h
         self.known.append((self._target(t, q, self._last), self._force(t, q, self._last)))
-
-
-def start_cold(simulator: Simulator) -> None:
-    """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
-    if simulator.solver is not None and simulator.solver.remembers:
-        simulator.solver = None

@@ -323,6 +323,11 @@ class Simulator(Settings, Shown):
         """
         return ()
 
+    def start_cold(self) -> None:
+        """Forget what the solver keeps of earlier steps, if answers depend on it."""
+        if self.solver is not None and self.solver.remembers:
+            self.solver = None
+
     def recalls(self, step: StepData, lam: Array) -> bool:
         """Whether the next step is taken as after this one, which had the multipliers lam, (m,).
 

@@ -104,7 +104,7 @@ def costs(scene: Scene, steps: int, repeat: int, *, large: bool = False) -> dict
 
 
 def first_steps(scene: Scene) -> Array:
-    """Times of proved first steps, shape (FIRSTS,), that the plain path does not compare [s].
+    """Times of proved first steps, shape (FIRSTS,), that are compared with nothing [s].
 
     Of the processor, since each of them runs once.
     """
@@ -112,6 +112,7 @@ def first_steps(scene: Scene) -> Array:
     for _ in range(FIRSTS):
         simulator: Any = scene.simulator(PROVED, True)
         simulator.compares = False
+        simulator.follows_alike = True
         jobs.append({FIRST: partial(simulator.step, scene.q, scene.goals[0], scene.force)})
     return in_turn(jobs, clock=time.process_time)[FIRST]
 

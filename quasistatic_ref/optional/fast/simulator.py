@@ -1,6 +1,7 @@
 """The simulator of `fast`: the same steps, with their data from compiled code."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from operator import itemgetter
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.errors import QuasistaticError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.coordinates import with_shape
@@ -21,7 +22,7 @@ from quasistatic_ref.optional.fast.backends import (
     fast_backend,
     sparse_from,
 )
-from quasistatic_ref.optional.fast.compiled.certificate import LARGEST
+from quasistatic_ref.optional.fast.compiled.certificate import LARGEST, Prover
 from quasistatic_ref.optional.fast.compiled.forces import ForcesOfSteps, knows, with_forces
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
@@ -36,6 +37,7 @@ from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
 from quasistatic_ref.optional.fast.compiled.screws import Screws
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.posed import Constants, constants, posed
 from quasistatic_ref.optional.fast.proofs import SMALL
 from quasistatic_ref.optional.fast.rechecked import WHOLE, is_next
@@ -99,30 +101,32 @@ class FastSimulator(Simulator):
 
     Attributes
     ----------
-    spare : Solver or None
-        A second solver, Clarabel's, once it was needed.
+    pressed : ndarray, shape (m,), or None
+        Multipliers of the last proved step of a run [N s]: the next is sought on their rows.
     compares : bool
         Whether the next step is the first, which is compared.
     by_c : bool
         Whether compiled code takes the steps.
     follows : bool
         Whether steps that follow on another may be taken in few calls. Of those that are proved, a
-        step is sought on the rows that the step before has pressed, and the backend, cold, is asked
-        only if that fails: lam then depends on no other step but through its own lam.
+        step is sought on the rows that the step before has pressed, the first on none; the backend,
+        cold, is asked only if that fails: lam then depends on no other step but through its lam.
+        What they have in common is formed when the simulator is made.
     """
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
         system = self.system
         layout = self.layout
-        ordinary = self.extension is None and self.law == CONVEX
+        self.has_rows = cone(self.cone).polyhedral
+        ordinary = self.extension is None and self.law == CONVEX and self.has_rows
         entries = entries_of_J(system, self.pairs, ordinary)
         self.default_backend = default_backend(self.cone, self.certify, entries)
         least = sparse_from(self.backend, self.cone)
         block_columns = BLOCK_COLUMNS.found() if 0 < least <= entries.every else None
         self.blocks: BlockColumns | None = None
+        self.geometry = ContactGeometry(layout, system.column_map)
         if block_columns is None:
-            self.geometry = ContactGeometry(layout, system.column_map)
             columns = every_column(self.geometry)
             M_u = system.M_u(system.q_start)
         else:
@@ -144,32 +148,40 @@ class FastSimulator(Simulator):
         self.screws = Screws(system, self.poses)
         compiled = library()
         self.form = compiled.step_data
-        self.reach = compiled.reach
-        self.has_rows = cone(self.cone).polyhedral
+        self.squared_distances = compiled.squared_distances
         self.compares = True
         self.by_c = True
         self.named: tuple[list[int], tuple[str, ...]] = [], ()
         self.fitted: Solver | None = None
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
-        ordinary = self.extension is None and self.law == CONVEX and self.has_rows
-        forms_forces = ordinary and system.n_v <= LARGEST
-        self.in_c = ForcesOfSteps() if forms_forces else None
+        self.in_c = ForcesOfSteps() if ordinary and system.n_v <= LARGEST else None
         self.surely_within = SURELY * self.limits.reach**2
         self.onward: Onward | None = None
-        self.never = False  # H cannot be written in fixed point
+        self.pressed: Array | None = None
+        self.never = False  # H cannot be written in fixed point, or the backend needs a guard
         self.follows_alike = False  # as far as a step that was compared
         self.left_open: bytes | None = None  # where a step starts that is left to Python
         proved = self.certify == CERTIFY[0] and self.backend == self.default_backend
         self.follows = (
             ordinary
-            and self.blocks is None
+            and (self.blocks is None or proved)
             and self.screws.known
             and system.varying_mass is None
             and self.h > 1 / FACTOR_LIMIT
-            and np.vdot(mu, mu) < FACTOR_LIMIT / 2  # C looks at the multipliers
+            and bool(np.vdot(mu, mu) < FACTOR_LIMIT / 2)  # C looks at the multipliers
             and (entries.coordinates <= SMALL if proved else self.certify == OFF)
         )
+        if self.follows and proved:
+            with suppress(QuasistaticError):  # the step from the start may have no data
+                self.poses.move(system.q_start)
+                self.onward_from(system.q_start[: system.n_q_a], np.zeros(system.n_v))
+
+    def start_cold(self) -> None:
+        """As in the base; what proved steps have in common is kept."""
+        self.pressed = None
+        if not self.follows or self.certify == OFF:
+            super().start_cold()
 
     @arguments_checked
     @by_one_thread
@@ -226,7 +238,7 @@ class FastSimulator(Simulator):
             solution = with_forces(solution, self.in_c)
         q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
         self.poses.move(q_next)
-        if not self.reach(self.numbers.address) <= self.surely_within:
+        if not self.squared_distances(self.numbers.address) <= self.surely_within:
             limits.check_reach(step, self.system.links, self.poses.kinematics().t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
@@ -237,32 +249,25 @@ class FastSimulator(Simulator):
             return self.taken(q, given, most)
         taken = self.taken(q, given, 1)
         of = given(0, q)
-        solver = self.solver
-        if not taken or of is None or not isinstance(solver, FastSolver):
+        if not taken or of is None:
             return taken
         first = taken[0]
         plain = self.step_in_python(q, *of)
-        self.follows_alike = proved_bits(first) == proved_bits(plain)
-        self.follows = self.follows_alike
+        self.follows = self.follows_alike = proved_bits(first) == proved_bits(plain)
         if not self.follows:
             return [plain]
-        solver.pressed = first.solution.lam
+        self.pressed = first.solution.lam
         return taken
 
     def taken(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
         """The same, none of them compared."""
-        solver = self.solver
-        if not (self.follows and self.extension is None and isinstance(solver, FastSolver)):
-            return ()
-        if self.certify == OFF and (solver.adapter.NEAR or solver.unsafe):
-            return ()
-        if self.certify != OFF and solver.pressed is None:
+        if not self.follows or self.extension is not None:
             return ()
         of = given(0, q)
         onward = self.onward
-        old = onward is None or not onward.fits(solver, self.constant.H)
+        old = onward is None or not onward.fits(self.solver)
         if of is not None and old and not self.never:
-            onward = self.onward_from(solver, *of)
+            onward = self.onward_from(*of)
         if of is None or onward is None:
             return ()
         most = min(most, 1 + LARGEST_RECORDS // onward.record.itemsize)
@@ -273,10 +278,7 @@ class FastSimulator(Simulator):
         while of is not None:
             code = onward.take(*of)
             if code == REGROUPED:
-                again = self.onward_from(solver, *of)
-                if again is None:
-                    break
-                onward = again
+                onward = self.onward_from(*of) or onward
                 onward.begin(records[count:])
                 code = onward.take(*of)
             if code != DONE:
@@ -284,39 +286,39 @@ class FastSimulator(Simulator):
                 break
             start = records["q"][count]
             if self.certify != OFF:
-                solver.pressed = records["lam"][count]
+                self.pressed = records["lam"][count]
             count += 1
             if count == most or (self.certify != OFF and is_next(WHOLE)):  # an error may follow
                 break
             of = given(count, read_only(records["q"][count - 1].copy()))
         return Taken(onward, self, q, records[:count])
 
-    def onward_from(self, solver: FastSolver, q_bar_a: Array, force: Array) -> Onward | None:
+    def onward_from(self, q_bar_a: Array, force: Array) -> Onward | None:
         """What takes steps like that from the poses that are there, if anything does."""
         self.contacts.find(self.poses)
         step, form, _ = self.posed_step(q_bar_a, force)
-        both = without_warnings(DenseStepInBothUnits, step, self.hessian, form)
-        self.hessian = both.hessian
-        if solver.hessian is not both.hessian:
-            solver.write_program(both)
-        program = self.program
-        if program is None or not program.fits(solver, step):
-            self.program = program = natural_program(self.numbers, solver, step)
-        prover = None if self.certify == OFF else solver.proofs.prover_of(both)
-        self.never = program is None or (prover is None and self.certify != OFF)
+        solver = self.fitting_solver(step)
         self.onward = None
-        if program is not None and not self.never:
-            self.onward = Onward(self, solver, program, step, prover)
+        by: Prover | NaturalProgram | None = None
+        if isinstance(solver, FastSolver | SparseSolver):
+            both = self.in_both_units(step, form, solver)
+            if self.certify != OFF:
+                by = solver.proofs.prover_of(both)
+            elif isinstance(solver, FastSolver) and not (solver.adapter.NEAR or solver.unsafe):
+                if solver.hessian is not self.hessian:
+                    solver.write_program(both)
+                self.units(solver, step)
+                by = self.program
+            if by is not None:
+                self.onward = Onward(self, solver, step, by)
+        self.never = by is None
         return self.onward
 
     def recalls(self, step: StepData, lam: Array) -> bool:
         """As in the base."""
-        solver = self.fitting_solver(step)
         recalls = self.by_c and self.follows and self.certify != OFF
-        if recalls and isinstance(solver, FastSolver):
-            solver.pressed = lam
-            return True
-        return False
+        self.pressed = lam if recalls else None
+        return recalls
 
     def records_forces(self, solution: StepSolution) -> bool:
         """As in the base: where steps are proved, and C decides the forces of the first.
@@ -461,23 +463,26 @@ class FastSimulator(Simulator):
             self.fitted = solver = self.fitting_solver(step)
         accuracy = self.accuracy
         certify = self.certify
-        both: StepInBothUnits
-        if isinstance(solver, SparseSolver):
-            both = without_warnings(solver.from_blocks, step, form)
+        both = self.in_both_units(step, form, solver)
+        if not (self.follows and certify != OFF and isinstance(solver, NativeSolver)):
             return without_warnings(solved, both, solver, accuracy, certify)
+        solver.forget()
+        solution = without_warnings(solved, both, solver, accuracy, certify)
+        self.pressed = solution.lam
+        return solution
+
+    def in_both_units(self, step: StepData, form: StandardForm, solver: Solver) -> StepInBothUnits:
+        """The step whose matrices are there, in both units, with what H gives of them kept."""
+        if isinstance(solver, SparseSolver):
+            return without_warnings(solver.from_blocks, step, form)
         units = None
         hessian = self.hessian
         if isinstance(solver, FastSolver):
             units = self.units(solver, step)
-            hessian = solver.hessian
+            hessian = solver.hessian or hessian
         both = without_warnings(DenseStepInBothUnits, step, hessian, form, units)
         self.hessian = both.hessian
-        if not (self.follows and certify != OFF and isinstance(solver, FastSolver)):
-            return without_warnings(solved, both, solver, accuracy, certify)
-        solver.forget()
-        solution = without_warnings(solved, both, solver, accuracy, certify)
-        solver.pressed = solution.lam
-        return solution
+        return both
 
     def units(self, solver: FastSolver, step: StepData) -> Units | None:
         """The natural units in which the program of the step is written; None if it is not."""

@@ -91,8 +91,6 @@ class FastSolver(NativeSolver):
         Of its steps that are certified.
     written : Units or None
         Natural units of the step whose g, A and b compiled code has written into the program.
-    pressed : ndarray, shape (m,), or None
-        Multipliers of the last proved step of a run [N s]: the next is sought on their rows.
     """
 
     def __init__(self, template: StepData, name: str) -> None:
@@ -100,7 +98,6 @@ class FastSolver(NativeSolver):
         self.prover = GuessProver()
         self.proofs = self.prover.proofs
         self.written: Units | None = None
-        self.pressed: Array | None = None
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""

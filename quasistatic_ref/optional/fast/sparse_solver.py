@@ -79,6 +79,11 @@ class SparseSolver(NativeSolver):
     name : str
         Of a backend whose adapter takes sparse matrices.
 
+    Attributes
+    ----------
+    proofs : Proofs
+        Of its steps that are certified.
+
     Raises
     ------
     BackendError
@@ -94,6 +99,7 @@ class SparseSolver(NativeSolver):
             raise BackendError(problem, field="backend", value=name)
         super().__init__(template, name)
         self.prover = SparseProver(self.kind)
+        self.proofs = self.prover.proofs
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""

@@ -38,6 +38,8 @@ class LargeSteps:
     Attributes
     ----------
     pattern : Pattern
+    entry : ndarray of int
+        Of the pattern.
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
     P : scipy.sparse.csc_matrix, shape (n_v, n_v)
@@ -59,6 +61,7 @@ class LargeSteps:
         natural.data *= S[H.indices] * np.repeat(S, np.diff(H.indptr))
         self.P = triu(natural, format="csc")
         self.bound = FloatBound(natural)
+        self.entry = self.pattern.entry
 
     def matrices(self) -> tuple[csc_matrix, csc_matrix, csc_matrix]:
         """H in natural units, its upper triangle, and a matrix with the pattern of A."""

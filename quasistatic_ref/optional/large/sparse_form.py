@@ -26,6 +26,8 @@ class Pattern:
     ----------
     A : scipy.sparse.csc_matrix, shape (m, n_v)
         Its places alone, all entries zero; :func:`sparse_form` gives each step entries of its own.
+    entry : ndarray of int
+        Where they are among the entries of all rows in the columns of their blocks, (m, w).
     H : scipy.sparse.csc_matrix, shape (n_v, n_v)
     """
 

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.runs.saved_files import SavedSteps, first_step, ru
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Recorder, programs
 from quasistatic_ref.simulate.result import StepArrays
-from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, SAVE_EVERY, start_cold
+from quasistatic_ref.simulate.rollout import BEGUN_OR_RESUMED, SAVE_EVERY
 from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
@@ -85,7 +85,7 @@ def _taken_over(
         if callable(function) and needed_arguments(function, name) == 3:
             problem = "cannot be asked again: the results of saved steps are not kept"
             raise InputError(problem, field=name)
-    start_cold(recorder.simulator)
+    recorder.simulator.start_cold()
     for part, extra in list(saved.parts()):
         again = _posed_again(part, recorder, given["target"][1], given["force"][1], cold)
         recorder.take(part | again, extra)

@@ -60,7 +60,7 @@ PATIENCE = 120.0
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
     "step_data": ctypes.c_double,
-    "reach": ctypes.c_double,
+    "squared_distances": ctypes.c_double,
     "half_turns": ctypes.c_int,
     "sums": None,
     "turns": ctypes.c_int,

@@ -23,9 +23,11 @@ from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.rechecked import WHOLE, check, is_due
 from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.simulate.recorder import SECONDS
 from quasistatic_ref.simulate.result import StepArrays, StepResult, Steps
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 
@@ -39,7 +41,7 @@ RESIDUALS = tuple(Residuals.__dataclass_fields__)
 PROVED = {"kind": "exact", "error_bound": 0.0, "gap": None}
 """What all certificates of proofs say."""
 NO_ROWS = {"lam_extra": read_only(np.zeros(0)), "alone": True}
-SHARED = ("J", "phi", "tau", "g", "A", "b", "delta_q_bar_a")
+SHARED = ("J", "phi", "tau", "g", "b", "delta_q_bar_a")
 """What the scene writes where the proofs read it."""
 
 
@@ -50,15 +52,12 @@ class Onward:
     ----------
     simulator : FastSimulator
         At the poses of the step.
-    solver : FastSolver
-        That has solved the step before.
-    program : NaturalProgram
-        Into which its steps are written.
+    solver : FastSolver or SparseSolver
     step : StepData
         One of the steps.
-    prover : Prover or None
-        That of these steps, on the rows that the step before has pressed; without it the backend
-        answers, and nothing is claimed.
+    by : Prover or NaturalProgram
+        What proves these steps, on the rows that the step before has pressed; or into what they are
+        written, if the backend answers, and nothing is claimed.
 
     Attributes
     ----------
@@ -71,13 +70,12 @@ class Onward:
     def __init__(
         self,
         simulator: FastSimulator,
-        solver: FastSolver,
-        program: NaturalProgram,
+        solver: FastSolver | SparseSolver,
         step: StepData,
-        prover: Prover | None,
+        by: Prover | NaturalProgram,
     ) -> None:
         self.solver = solver
-        self.prover = prover
+        self.prover = by if isinstance(by, Prover) else None
         self._simulator = simulator
         self._option_set = solver.option_sets(simulator.accuracy)[0]
         self.said: list[tuple[int | None, float | None]] = []
@@ -90,43 +88,41 @@ class Onward:
         self._groups_proved = compiled.groups_proved
         numbers = simulator.numbers
         screws = simulator.screws
-        natural = solver.program
         n = step.n_v
         m = step.m
         self._s = s = Structure("onward.c", "Onward")
         self._address = s.address
-        self._hessian = hessian = program.hessian
-        norm = hessian.norm
-        row, column = (stride // 8 for stride in natural.A.strides)
+        self._hessian = solver.hessian
         screws.changes.put({"delta_q": numbers["delta_q_bar_a"]})
         self._target = screws.target
         self._force = numbers["force"]
         self._links = simulator.system.links
         s.put(
             {
-                "n": n, "m": m, "row": row, "column": column,
-                "change": screws.changes.address, "sum": screws.sums.address,
+                "n": n, "m": m, "change": screws.changes.address, "sum": screws.sums.address,
                 "pairs": simulator.contacts.address, "scene": numbers.address,
-                "program": program.address,
                 "penetration": np.array([simulator.limits.penetration]),
-                "coordinate": hessian.coordinate, "units": program.units,
-                "H": hessian.natural_H, "f": natural.f, "b": natural.b,
-                "A": natural.A.ravel(order="K"), "g": numbers["g"],
-                "unit": norm.unit, "L": norm.L, "inverse": norm.inverse,
                 "residuals": np.zeros(4), "clock": np.zeros(1), "seconds": np.zeros(len(LAPS)),
                 "reach": np.array([simulator.surely_within]),
                 "x": np.zeros(n), "y": np.zeros(m), "delta_q": np.zeros(n), "lam": np.zeros(m),
             }
         )  # fmt: skip
-        if prover is not None:
-            self._share(prover, step)
+        if isinstance(by, Prover):
+            self._share(by, step)
+        else:
+            s.put(
+                {
+                    "program": by.address, "units": by.units,
+                    "coordinate": by.hessian.coordinate,
+                }
+            )  # fmt: skip
         screws.sums.put({"delta_q": s["delta_q"]})
         kept: dict[str, NDArray[np.generic]] = {
             "scene": numbers.written, "delta_q_bar_a": numbers["delta_q_bar_a"],
             "delta_q": s["delta_q"], "lam": s["lam"], "q": screws.sums["q_next"],
         }  # fmt: skip
-        if prover is not None:
-            claims = {name: prover.s[name] for name in ("net", "least", "claims")}
+        if isinstance(by, Prover):
+            claims = {name: by.s[name] for name in ("net", "least", "claims")}
             kept |= {"residuals": s["residuals"], **claims}
         kept["seconds"] = s["seconds"]  # C adds the last lap at the end of a record
         self.record = np.dtype(
@@ -144,26 +140,29 @@ class Onward:
     def _share(self, prover: Prover, step: StepData) -> None:
         """Have proofs read what C writes of a step, and the record what they find."""
         s = self._s
-        proofs = self.solver.proofs
-        self._first = proofs.parts[0]
-        group = np.zeros(step.n_v, np.int64)
-        for i, part in enumerate(proofs.parts):
-            group[part.group.coordinates] = i
-        prover.s.share(self._simulator.numbers, SHARED)
+        numbers = self._simulator.numbers
+        solver = self.solver
+        self._first = solver.proofs.parts[0]
+        prover.s.share(numbers, SHARED)
+        if isinstance(solver, SparseSolver):
+            entry = solver.kind.entry
+        else:
+            entry = np.zeros(0, np.int64)
+            prover.s.share(numbers, ("A",))
         prover.s["mu"][:, 1:] = step.contacts.mu
-        s.share(prover.s, ("frame", "pressure", "delta_q", "lam"))
+        s.share(prover.s, ("frame", "pressure", "delta_q", "lam", "group"))
         s.put(
             {
-                "groups": len(proofs.parts), "group": group,
-                "squared": np.zeros(2 * len(proofs.parts)),
-                "moves": np.asarray(step.contacts.J.any(axis=1), np.int64),
+                "groups": len(prover.proofs), "entries": len(entry), "entry": entry,
+                "entries_of_A": prover.s["A"],
+                "moves": np.asarray(step.contacts.kept_J.any(axis=1), np.int64),
             }
         )  # fmt: skip
 
-    def fits(self, solver: FastSolver, H: Array) -> bool:
-        """Whether it takes the steps of a solver whose H, shape (n_v, n_v), is the same array."""
-        hessian = self._hessian
-        return solver is self.solver and solver.hessian is hessian and hessian.H is H
+    def fits(self, solver: Solver | None) -> bool:
+        """Whether it takes the steps of a solver: of one that is asked, with the H that it had."""
+        own = self.solver
+        return solver is own and (self.prover is not None or own.hessian is self._hessian)
 
     def begin(self, records: NDArray[np.void]) -> None:
         """Begin from the last step, and write the next ones into `records`, shape (steps,) [-]."""
@@ -171,7 +170,8 @@ class Onward:
         s.point("record", records)
         self.said = []
         if self.prover is not None:
-            s["pressure"][:] = self.solver.pressed
+            pressed = self._simulator.pressed
+            s["pressure"][:] = 0.0 if pressed is None else pressed
             self.prover.s["gap"][:] = 0.0
 
     def take(self, q_bar_a: Array, force: Array) -> int:
@@ -283,10 +283,13 @@ class Taken(Steps):
         kind = "exact" if self._proved else NOTHING_CLAIMED.kind
         worst = records["residuals"].max(axis=1) if self._proved else np.nan
         count = len(records)
+        columns = self[0].step.contacts.kept_columns
+        of_all = records["delta_q"]
+        own = of_all[:, None] if columns is None else np.pad(of_all, ((0, 0), (0, 1)))[:, columns]
         return {
             **{name: scene[name] for name in names},
             **{name: records[name] for name in ("delta_q", "lam", "q")},
-            "motion": (scene["J"] @ records["delta_q"][:, None, :, None])[..., 0],
+            "motion": (scene["J"] @ own[..., None])[..., 0],
             "certificate": np.full(count, kind),
             "worst_residual": np.full(count, worst),
             "digits": np.full(count, np.nan),
@@ -309,7 +312,7 @@ class FollowingResult(StepResult):
     Attributes
     ----------
     simulator : FastSimulator
-    solver : FastSolver
+    solver : FastSolver or SparseSolver
     record : ndarray, shape ()
         What C has written of the step [of the notation].
     said : (int or None, float or None) or None
@@ -317,7 +320,7 @@ class FollowingResult(StepResult):
     """
 
     simulator: FastSimulator
-    solver: FastSolver
+    solver: FastSolver | SparseSolver
     record: NDArray[np.void]
     said: tuple[int | None, float | None] | None
 

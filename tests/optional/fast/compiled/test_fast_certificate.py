@@ -9,11 +9,10 @@ from operator import mul
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.optional.fast.compiled import certificate, library
+from quasistatic_ref.optional.fast.compiled import library
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
@@ -125,18 +124,3 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
     assert (found is not None) == shown
     if shown:
         assert not differing_fields(found, form_optimum(exact_form(step), list(truth.working_set)))
-
-
-def test_a_run_is_proved_by_compiled_code(monkeypatch):
-    proved = []
-    plain = certificate.Prover.optimum
-
-    def counted(self, *arguments):
-        found = plain(self, *arguments)
-        proved.append(found is not None)
-        return found
-
-    monkeypatch.setattr(certificate.Prover, "optimum", counted)
-    run = load_scenario("peg_in_hole", ["steps=40", "record=light"], fast=True).run(progress=False)
-    assert (run["certificate"] == "exact").all()
-    assert proved == [True, True]  # the first, and the first that follows, which is compared

@@ -6,15 +6,15 @@
 #include <string.h>
 #include <time.h>
 
+#include "proof.h"
 #include "scene.h"
-#include "solids.h"
 
 /* What becomes of a step: Python has to take it, or to say sines, or which groups there are. */
 enum { TO_PYTHON, DONE, REGROUPED, SINES };
 
 enum { DISTANCES, ROWS, SOLVE, PROOF, INTEGRATE, LAPS };
 
-struct Natural;
+struct Pairs;
 struct Screws;
 
 int turns(struct Screws *s);
@@ -22,31 +22,30 @@ void changes(struct Screws *s);
 int half_turns(struct Screws *s);
 void sums(struct Screws *s);
 double step_data(Scene *s);
-double reach(const Scene *s);
+double squared_distances(const Scene *s);
+int closest_points(struct Pairs *s);
 int natural_program(struct Natural *s);
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    /* Coordinates, rows, groups; from row to row, and from column to column, of the program's A. */
-    int64_t n, m, groups, row, column;
-    /* How many arrays a record holds. */
-    int64_t pieces;
+    /* Coordinates, rows, groups. */
+    int64_t n, m, groups;
+    /* Entries of A that the proofs keep without its zeros, if they do; how many arrays a record holds. */
+    int64_t entries, pieces;
     struct Screws *change, *sum;
-    Pairs *pairs;
+    struct Pairs *pairs;
     Scene *scene;
+    /* Of a step that a backend answers, otherwise zero: its program, of which it has the units. */
     struct Natural *program;
+    const double *coordinate, *units;
     /* How far contacts may be in penetration [m]. */
     const double *penetration;
-    /* Of a step that is to be proved, otherwise zeros: whether each coordinate moves each contact, and its
-       group, both as the proofs have them; n, d1, d2 and spin of each contact as four rows of four; the
-       multipliers by which the next step begins. */
-    const int64_t *moves, *group;
-    double *frame, *pressure;
-    /* The program in natural units, and these units. */
-    const double *coordinate, *units, *H, *f, *A, *b;
-    /* certify/norm.EnergyNorm of H. */
-    const double *unit, *L, *inverse, *g;
-    double *squared; /* of the displacement and of the load of each group */
+    /* Of a step that is to be proved, otherwise zeros: the proofs of its groups; whether each coordinate
+       moves each contact, as these have it; where each entry of A is in the scene; n, d1, d2 and spin of
+       each contact as four rows of four; the multipliers by which the next step begins. */
+    Proof *const *group;
+    const int64_t *moves, *entry;
+    double *entries_of_A, *frame, *pressure;
     double *residuals;
     /* A backend's answer; the solution in SI units. */
     const double *x, *y;
@@ -79,7 +78,7 @@ static void lap(Onward *s, int part)
 static int moves_alike(const Onward *s)
 {
     const Scene *of = s->scene;
-    int64_t n = s->n;
+    int64_t n = of->kept;
     for (int64_t c = 0; c < of->n_c; c++)
         for (int64_t v = 0; v < n; v++) {
             const double *J = of->J + 4 * n * c + v;
@@ -101,10 +100,12 @@ int step_posed(Onward *s)
     if (!closest_points(s->pairs))
         return TO_PYTHON;
     lap(s, DISTANCES);
-    if (!(step_data(s->scene) >= -*s->penetration) || !natural_program(s->program))
+    if (!(step_data(s->scene) >= -*s->penetration) || (s->program && !natural_program(s->program)))
         return TO_PYTHON;
     if (s->moves && !moves_alike(s))
         return REGROUPED;
+    for (int64_t i = 0; i < s->entries; i++)
+        s->entries_of_A[i] = of->A[s->entry[i]];
     for (int64_t c = 0; s->frame && c < of->n_c; c++) {
         memcpy(s->frame + 16 * c, of->n + 3 * c, 3 * sizeof(double));
         memcpy(s->frame + 16 * c + 4, of->d1 + 3 * c, 3 * sizeof(double));
@@ -130,7 +131,7 @@ int step_led(Onward *s)
 /* Whether all points are within reach, once the poses at q (+) delta_q are there. */
 int step_within(Onward *s)
 {
-    int within = reach(s->scene) <= *s->reach;
+    int within = squared_distances(s->scene) <= *s->reach;
     lap(s, INTEGRATE);
     s->record[-1] = s->seconds[INTEGRATE];
     return within;
@@ -157,59 +158,46 @@ int step_answered(Onward *s)
 
 static double larger_of(double x, double y) { return x > y ? x : y; }
 
-/* certify/residuals.optimality_residuals in natural units, x being where Eq. (9) is judged and y its
-   multipliers; 0 if one is not finite. */
-static int judged(const Onward *s)
+/* certify/residuals.optimality_residuals of a group in its natural units; 0 if one is not finite, or if,
+   as far as float64 shows, its displacement may be absurdly long: more than `times` what its load would
+   move it. */
+static int judged(const Proof *p, double times, double *most)
 {
-    int64_t n = s->n;
-    double length = s->units[0], size = s->units[1], *most = s->residuals, known = 0.0;
-    for (int i = 0; i < 4; i++)
-        most[i] = 0.0;
+    int64_t n = p->n_v, n_a = p->n_a, n_u = n - n_a;
+    double length = p->units[0], size = p->units[1], known = 0.0, moved = 0.0, load = 0.0, off = 0.0;
     for (int64_t v = 0; v < n; v++) {
-        double balance = s->f[v];
-        for (int64_t j = 0; j < n; j++)
-            balance += s->H[n * v + j] * (s->delta_q[j] / (size * s->coordinate[j]));
-        for (int64_t r = 0; r < s->m; r++)
-            if (s->lam[r] != 0.0)
-                balance -= s->A[r * s->row + v * s->column] * (s->lam[r] / (size / length));
+        double balance = -p->g[v], size_of_H = 0.0;
+        for (int64_t j = v < n_a ? 0 : n_a; j < (v < n_a ? n_a : n); j++) {
+            double H = v < n_a ? *p->h * p->K_q[n_a * v + j] : p->M_u[n_u * (v - n_a) + j - n_a] / *p->h;
+            balance += H * p->delta_q[j];
+            size_of_H += fabs(H * p->delta_q[j]);
+        }
+        for (int64_t r = 0; r < p->rows; r++)
+            if (p->lam[r] != 0.0)
+                balance -= p->A[n * r + v] * p->lam[r];
+        balance *= p->coordinate[v] / size;
         most[0] = larger_of(most[0], fabs(balance));
         known += fabs(balance);
+        /* Upper and lower bounds, but for their rounding; no square of a displacement vanishes. */
+        moved += fabs(p->delta_q[v]) * size_of_H + (p->delta_q[v] != 0.0 ? 0x1p-900 : 0.0);
+        for (int64_t j = 0; j < n; j++) {
+            double term = p->g[v] * p->inverse[n * v + j] * p->g[j];
+            load += term;
+            off += fabs(term);
+        }
     }
-    for (int64_t r = 0; r < s->m; r++) {
-        double slack = -s->b[r], y = s->lam[r] / (size / length);
+    for (int64_t r = 0; r < p->rows; r++) {
+        double slack = -p->b[r], y = p->lam[r] * (length / size);
         for (int64_t v = 0; v < n; v++)
-            slack += s->A[r * s->row + v * s->column] * (s->delta_q[v] / (size * s->coordinate[v]));
+            slack += p->A[n * r + v] * p->delta_q[v];
+        slack /= size * length;
         most[1] = larger_of(most[1], -slack);
         most[2] = larger_of(most[2], -y);
         most[3] = larger_of(most[3], fabs(slack * y));
         known += fabs(slack) + fabs(slack * y);
     }
-    return isfinite(known);
-}
-
-/* optional/fast/proofs: whether the displacement of a group may be absurdly long, as far as float64
-   shows: more than `times` what its load would move it. */
-static int may_be_long(const Onward *s, double times)
-{
-    int64_t n = s->n;
-    for (int64_t i = 0; i < 2 * s->groups; i++)
-        s->squared[i] = 0.0;
-    for (int64_t i = 0; i < n; i++) {
-        double moved = 0.0, load = 0.0;
-        for (int64_t j = i; j < n; j++)
-            moved += s->L[n * j + i] * (s->delta_q[j] / s->unit[j]);
-        for (int64_t j = 0; j <= i; j++)
-            load += s->inverse[n * i + j] * (s->g[j] * s->unit[j]);
-        /* No square of a displacement vanishes. */
-        s->squared[2 * s->group[i]] += moved * moved + (s->delta_q[i] != 0.0 ? 0x1p-900 : 0.0);
-        s->squared[2 * s->group[i] + 1] += load * load;
-    }
-    for (int64_t i = 0; i < 2 * s->groups; i += 2) {
-        double moved = s->squared[i], load = s->squared[i + 1];
-        if (moved != 0.0 && !(load > 0x1p-860 && moved <= times * times * load))
-            return 1;
-    }
-    return 0;
+    load -= 0x1p-40 * off;
+    return isfinite(known) && (moved == 0.0 || (load > 0x1p-860 && moved <= times * times * load));
 }
 
 /* The same after a proof. */
@@ -219,7 +207,12 @@ int step_proved(Onward *s)
     lap(s, PROOF);
     for (int64_t r = 0; r < s->m; r++)
         lengths += s->lam[r] * s->lam[r];
-    if (!judged(s) || may_be_long(s, ILL_POSED / 8) || !(lengths < 0x1p199))
+    for (int i = 0; i < 4; i++)
+        s->residuals[i] = 0.0;
+    for (int64_t i = 0; i < s->groups; i++)
+        if (!judged(s->group[i], ILL_POSED / 8, s->residuals))
+            return TO_PYTHON;
+    if (!(lengths < 0x1p199))
         return TO_PYTHON;
     return led(s);
 }

@@ -121,7 +121,7 @@ double step_data(Scene *s)
 }
 
 /* The squared distances of all links' origins from that of the world, added up. */
-double reach(const Scene *s)
+double squared_distances(const Scene *s)
 {
     double sum = 0.0;
     for (int64_t i = 0; i < s->links; i++)

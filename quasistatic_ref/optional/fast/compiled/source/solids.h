@@ -33,7 +33,7 @@ typedef struct {
 } Cloud;
 
 /* structure.py reads this: 64-bit integers, then pointers. */
-typedef struct {
+typedef struct Pairs {
     int64_t pairs;
     const double *const *R, *const *t; /* of the links: R by columns, as pinocchio keeps it */
     /* Of each pair: its cloud, or both solids; zeros where it is another, or Python measures it. The
