@@ -193,6 +193,19 @@ def test_a_sheet_that_comes_and_goes_needs_no_new_list(solid, top, away, rng):
     assert made == 1
 
 
+@pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cylinder"])
+def test_the_far_end_of_a_stick_is_seen_once_it_has_turned_round(name, rng):
+    """One end is the first list; both turn about a vertical line midway, beside the solid."""
+    ends = np.repeat([[-0.1, 0.0, 0.0], [0.1, 0.0, 0.0]], in_c.WIDTH, axis=0)
+    pairs = one_pair(SHAPES[name], ends + rng.uniform(-1e-3, 1e-3, size=ends.shape), 5)
+    tracker = PosedPairs(pairs, 3)
+    for angle in np.linspace(0, np.pi, 37):
+        R, t = poses((0, 0, 0), (0.5, 0, 0))
+        R[2] = Rotation.from_rotvec([0, 0, angle]).as_matrix()
+        found = same_bits(tracker, pairs, R, t)
+        assert (found.point.min() >= in_c.WIDTH) == (angle > np.pi / 2)
+
+
 def test_points_that_are_as_high_but_for_rounding_are_all_looked_at(rng):
     """A sheet in the plane of a half-space: each slide along it rounds heights anew."""
     solid = HalfSpace(np.array([1.0, 2.0, 2.0]), 1.0)

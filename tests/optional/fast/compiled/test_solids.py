@@ -66,3 +66,13 @@ def test_a_ball_as_deep_under_two_faces_is_left_to_the_plain_path(solid, place, 
         if not expected:
             with pytest.raises(ContactError, match="as deep in each other"):
                 pair_closest_points(pair, R, t)
+
+
+@needs_compiler
+def test_solids_that_are_too_far_away_are_left_to_the_plain_path():
+    from validation.make.solid_pairs import pair_of
+
+    balls = PosedPairs([pair_of(Sphere(1.0), Sphere(1.0), 1)], 2)
+    R = np.tile(np.eye(3), (2, 1, 1))
+    for far, expected in ((0.5e15, 1), (2e15, 0)):
+        assert len(balls.decided(R, np.array([[0.0, 0.0, 0.0], [far, 0.0, 0.0]]))[1]) == expected
