@@ -33,6 +33,11 @@ def units(H, g, A, b):
 DECIDED = {
     "rows of one length": ([3.0, 0.0], [[1.0, 0.0]], [-1.0]),
     "an even number of rows": ([3.0, 0.0], [[1.0, 0.0], [0.0, 5.0]], [-1.0, -1.0]),
+    "rows of many lengths": (
+        [3.0, 0.0],
+        [[2.0**k, 0.0] for k in (6, 0, 10, 2, 8, 1, 4)],
+        [-1.0] * 7,
+    ),
     "rows of zeros beside others": ([3.0, 0.0], [[0.0, 0.0], [0.0, 7.0], [0.0, 0.0]], [0.0] * 3),
     "rows of zeros alone": ([3.0, 0.0], [[0.0, 0.0]], [-1.0]),
     "penetration": ([1e-3, 0.0], [[4.0, 0.0]], [9.0]),
@@ -43,6 +48,7 @@ OPEN = {
     "a row whose length is between two powers": ([3.0, 0.0], [[1.0, 1.0]], [-1.0]),
     "a load between two powers": ([1.0, 1.0], [[1.0, 0.0]], [-1.0]),
     "a load next to that": ([HALF, 1e-13], [[1.0, 0.0]], [-1.0]),
+    "a load whose square vanishes": ([1e-200, 0.0], [[4.0, 0.0]], [-1.0]),
     "a push out between two powers": ([0.0, 0.0], [[1.0, 0.0]], [HALF]),
     "a number that is none": ([np.nan, 0.0], [[1.0, 0.0]], [-1.0]),
     "an infinite gap": ([1.0, 0.0], [[1.0, 0.0]], [-np.inf]),

@@ -2,6 +2,7 @@
 
 import pickle
 import time
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -24,6 +25,8 @@ pytestmark = needs_compiler
 UNCERTIFIED = ["solver.certify=off", "record=light"]
 ROUNDING = 1e-13
 """Of residuals: sums of 100 products near one, in two orders."""
+ALIKE = 10
+"""Largest ratio of the residuals of a run in all [-], in these two orders."""
 
 
 def long_way(simulator):
@@ -79,6 +82,7 @@ def test_runs_of_which_nothing_is_claimed_have_the_bits_of_the_long_way(few, nam
 def test_proofs_on_the_rows_of_the_step_before_have_the_bits_of_the_long_way(few, name):
     scenario = load_scenario(name, ["record=light"], fast=True)
     ways = scenario.simulator(), long_way(scenario.simulator())
+    residuals = Counter[str](), Counter[str]()
     for one, other in zip(*(results(scenario, way, 40) for way in ways), strict=True):
         mine = one.solution
         its = other.solution
@@ -95,6 +99,10 @@ def test_proofs_on_the_rows_of_the_step_before_have_the_bits_of_the_long_way(few
             assert getattr(mine.certificate, claim) == getattr(its.certificate, claim)
         assert [*mine.certificate.residuals] == [*its.certificate.residuals]
         assert max(mine.certificate.residuals.values()) < ROUNDING
+        for own, solution in zip(residuals, (mine, its), strict=True):
+            own.update(solution.certificate.residuals)
+    for name, expected in residuals[1].items():
+        assert expected / ALIKE <= residuals[0][name] <= ALIKE * expected, name
     assert few == [1] * 40  # the first from no rows
 
 
