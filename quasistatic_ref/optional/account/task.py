@@ -82,6 +82,11 @@ class Task:
                 found.setdefault(self.accounts[i].table, []).append(i)
         return found
 
+    @cached_property
+    def grips(self) -> dict[str, Mask]:
+        """Of each of :attr:`tables`, whether two contacts that touch face each other, (steps,)."""
+        return {table: _grips(self, pairs) for table, pairs in self.tables.items()}
+
     def idle(self, table: str) -> bool:
         """Whether no pair of a table ever touched."""
         return not any(self.accounts[i].touches.any() for i in self.tables[table])
@@ -257,8 +262,7 @@ def idle(task: Task) -> Iterator[Said]:
 def lost(task: Task) -> Iterator[Said]:
     """Grips, contacts from opposite sides, along which what they hold slips by much."""
     for table, pairs in task.tables.items():
-        grips = _grips(task, pairs)
-        slips = {i: _slip(task.accounts[i], grips) for i in pairs}
+        slips = {i: _slip(task.accounts[i], task.grips[table]) for i in pairs}
         worst = max(pairs, key=lambda i: float(slips[i].sum()) / task.size(i))
         way = float(slips[worst].sum())
         if not task.finished or way <= SLIPPED * task.size(worst):
@@ -280,7 +284,6 @@ def lost(task: Task) -> Iterator[Said]:
 
 
 def _grips(task: Task, pairs: list[int]) -> Mask:
-    """Whether two contacts of some pairs that touch face each other, shape (steps,)."""
     names = {task.accounts[i].name for i in pairs}
     own = np.flatnonzero([name in names for name in task.trajectory.pair_names])
     touching = {task.accounts[i].name: task.accounts[i].touches for i in pairs}
@@ -343,8 +346,8 @@ def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     """Whether what a contact pushes has not moved, though the target is far inside of it."""
     name = task.trajectory.pair_names[contact]
     i = next(i for i, account in enumerate(task.accounts) if account.name == name)
-    pairs = task.tables.get(task.accounts[i].table)
-    if pairs is None or unit != "m" or _grips(task, pairs)[-1]:
+    table = task.accounts[i].table
+    if table not in task.tables or unit != "m" or task.grips[table][-1]:
         return False
     pair = task.pairs[i]
     link = pair.alpha.link if task.free[pair.alpha.link] else pair.beta.link
