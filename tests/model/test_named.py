@@ -36,15 +36,16 @@ def test_each_entry_stands_under_the_name_that_tables_give_it():
 
 
 def test_a_trajectory_and_targets_have_the_same_names():
-    q = np.arange(3.0 * SYSTEM.n_q).reshape(3, SYSTEM.n_q)
+    q = np.arange(4.0 * SYSTEM.n_q).reshape(4, SYSTEM.n_q)
     start = SYSTEM.joint("block/base").q.start
     np.testing.assert_array_equal(SYSTEM.of(q, "block.z"), q[:, start + 2])
-    assert SYSTEM.of(q, "block").shape == (3, 7)
+    assert SYSTEM.of(q, "block").shape == (4, 7)
     np.testing.assert_array_equal(
         SYSTEM.of(q[:, : SYSTEM.n_q_a], "rail"), SYSTEM.of(q, "rail/slide")
     )
-    with pytest.raises(ModelError, match="q: cannot hold block: the last axis must have"):
-        SYSTEM.of(q[:, : SYSTEM.n_q_a], "block")
+    for name in ("block", "block.x"):  # x is the first that is not actuated
+        with pytest.raises(ModelError, match=f"q: cannot hold {name}: the last axis must have"):
+            SYSTEM.of(q[:, : SYSTEM.n_q_a], name)
     with pytest.raises(ModelError, match="did you mean 'block"):
         SYSTEM.of(q, "blok.z")
 

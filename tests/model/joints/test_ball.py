@@ -163,6 +163,15 @@ def test_an_axis_means_nothing_to_a_ball():
     assert other.joints == System([Body("arm", HANGING)]).joints
 
 
+def test_a_hinge_beside_a_ball_keeps_its_limits():
+    both = robot(
+        link("hook"), BOB, link("a"), joint("ball", "hook", "bob", "ball"),
+        joint("swing", "hook", "a"),
+    )  # fmt: skip
+    limits = {joint.name: joint.limits for joint in System([Body("arm", both)]).joints}
+    assert limits == {"arm/ball": None, "arm/swing": (-1.0, 1.0)}
+
+
 def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import ModelError
+from quasistatic_ref.model.readers import text
 from quasistatic_ref.model.readers.clouds import point_cloud
 from tests.tolerances import FILE_FLOAT32
 
@@ -281,3 +282,16 @@ def test_more_points_or_text_than_a_cloud_may_have_are_refused(tmp_path, name, c
     path.write_bytes(content)
     with pytest.raises(ModelError, match=f"{name}: {says}"):
         point_cloud(path)
+
+
+def test_a_text_of_points_has_at_most_so_many_letters_and_lines_and_takes_its_share(monkeypatch):
+    spent = []
+    for name, value in (("spend", spent.append), ("LARGEST_TEXT", 8), ("MOST_POINTS", 4)):
+        monkeypatch.setattr(text, name, value)
+    assert text.point_lines("1\n2\n3\n4\n") == ["1", "2", "3", "4"]
+    text.check_points(1, "points")
+    assert spent == [text.SECONDS, text.SECONDS / 4]
+    with pytest.raises(ModelError, match="is a text of more than"):
+        text.point_lines("1\n2\n3\n4 \n")
+    with pytest.raises(ModelError, match="holds more than 4 lines"):
+        text.point_lines("\n" * 5)

@@ -87,6 +87,12 @@ def test_blocks_of_M_u_have_the_entries_and_couplings_of_the_whole():
     assert sorted(zip(*map(np.ndarray.tolist, step.coupled()), strict=True)) == sorted(
         map(tuple, below_the_diagonal.tolist())
     )
+    for delta_q in (rng.normal(size=20), rng.normal(size=(4, 5, 20))):
+        expected = delta_q[..., 2:] @ step.M_u  # which is symmetric
+        np.testing.assert_allclose(step.momentum(delta_q), expected, rtol=1e-12)
+    h = 0.25
+    of_bodies = constants(h, np.eye(0), 0, blocks, np.zeros(0, dtype=np.int64))
+    np.testing.assert_array_equal(of_bodies.H, blocks / h)  # Eq. (13)
 
 
 def test_the_mass_matrix_of_another_configuration_is_checked():

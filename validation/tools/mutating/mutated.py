@@ -90,7 +90,7 @@ certify/norm.py
 model/coordinates.py
     system
 model/system.py model/mass.py
-    SYSTEM mass_in_blocks
+    named SYSTEM mass_in_blocks
 contact/jacobian.py
     CONTACT
 contact/pairs.py
@@ -162,7 +162,7 @@ model/readers/text.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
 model/urdf/urdf_tree.py model/urdf/urdf_xml.py
     URDF
 model/urdf/urdf.py
-    URDF system
+    URDF ball system
 model/urdf/urdf_shapes.py
     URDF python_mistakes
 optional/show/model_words.py
@@ -194,7 +194,7 @@ solve/solver.py solve/prover.py solve/through_cvxpy.py optional/qpsolvers/throug
 optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sizes float_bound
 step/arrays.py optional/fast/posed.py
-    SYSTEM mass_in_blocks DATA
+    posed_data SYSTEM mass_in_blocks DATA
 step/pivots.py
     pivots SYSTEM mass_in_blocks DATA
 step/contacts.py
