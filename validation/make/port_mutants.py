@@ -242,7 +242,7 @@ class Port:
                 seen.other, seen.trouble = True, "error"
             else:
                 seen.other = seen.other or differs(q, self._right[q.id], given[q.id])
-                one = self._verdict(q, given[q.id])
+                one = self.judged(q, given[q.id])
                 side = seen.failed if one.verdict.verdict == FAILED else seen.right
                 side.setdefault(q.layer, []).append(one)
         return seen
@@ -251,12 +251,13 @@ class Port:
         new = [q for q in questions if q.id not in self._right]
         self._right |= replies(self.program, new)
         for q in new:
-            self._judged[q.id] = self._verdict(q, self._right[q.id])
+            self._judged[q.id] = self.judged(q, self._right[q.id])
             if self._judged[q.id].verdict.verdict == FAILED:
                 self.false_alarms.append(f"{q.id}: {self._judged[q.id].verdict.reason}")
 
     @np.errstate(all="ignore")
-    def _verdict(self, q: Question, line: str) -> Failed:
+    def judged(self, q: Question, line: str) -> Failed:
+        """A line that answers a question, as ``vectors check`` judges it."""
         case = Case(q.id, "", q.case)
         output = json.loads(line)["output"]
         return answer_judged(q.layer, case, q.record, output, Answers(), None, self.scope)
@@ -268,14 +269,20 @@ def _limit_process() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
+def started(program: Program) -> "subprocess.Popen[str]":
+    """A program that reads cases and writes answers, a line each."""
+    return subprocess.Popen(
+        [program.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        text=True, env=program.environment, preexec_fn=_limit_process,
+    )  # fmt: skip
+
+
 def replies(program: Program, questions: Sequence[Question]) -> dict[str, str]:
     """The line of each answer by id; fewer if the program ended early."""
     lines = (json.dumps({"id": q.id, "layer": q.layer, "input": q.case}) for q in questions)
-    done = subprocess.run(
-        [program.path], input="".join(f"{line}\n" for line in lines), capture_output=True,
-        text=True, env=program.environment, preexec_fn=_limit_process, check=False,
-    )  # fmt: skip
-    answers = done.stdout.splitlines()[1:]  # the first line says what the program is
+    with started(program) as process:
+        said, _ = process.communicate("".join(f"{line}\n" for line in lines))
+    answers = said.splitlines()[1:]  # the first line says what the program is
     return {q.id: line for q, line in zip(questions, answers, strict=False) if line.endswith("}")}
 
 

@@ -1,10 +1,12 @@
 """What ``compare`` says of whole runs of programs with a mistake that no rule was written for.
 
-Run ``python -m validation.make.port_runs --out FILE`` (half an hour). Of the mutants of
-``port_mutants`` that are kept apart 25 are drawn, by a hash of their names. Each takes 30 steps of
-the scenes, one after the other, until ``compare`` sees a wrong step. What it says is held against
-the place that was changed: the layer against the first that fails in ``vectors check``, a classic
-mistake against ``validation/ports/causes.toml``.
+Run ``python -m validation.make.port_runs --records FILE --out FILE`` (half an hour; name a port for
+it alone). Of the mutants of ``port_mutants`` that are kept apart, and that the committed vectors
+find wrong, 25 are drawn by a hash of their names. Each takes the steps of the scenes in
+``validation/scenes``, one after the other, until ``compare`` sees a wrong step. What it says is
+held against what the mutant does: the layer against the first that fails in ``vectors check``; a
+cause is right if the plain program with it ends every third step of all scenes where the mutant
+does. The records have what is known of each, and a second run goes on from there.
 """
 
 import json
@@ -13,43 +15,47 @@ import tempfile
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.oracle.comparison import Comparison, comparison_of_run
+from quasistatic_ref.lab.commands.compare import SHOWN
+from quasistatic_ref.lab.oracle.causes import Cause, Taken, ends_there, program_that_ends
+from quasistatic_ref.lab.oracle.comparison import DIGITS, comparison_of_run
 from quasistatic_ref.lab.oracle.run_table import OtherRun
-from quasistatic_ref.lab.oracle.scene_case import states_by
+from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from validation.make.port_mutants import (
     EACH,
     Port,
     Program,
-    Question,
-    Trial,
-    causes,
+    committed_questions,
     part_of,
     replies,
-    trial_of,
+    started,
 )
-from validation.tools.scripts import script_options, show_page
+from validation.tools.scripts import ROOT, script_options, show_page
 
-SCENES = ("two_finger_pinch", "block_push", "door", "arm_push", "sphere_spin")
-STEPS = 30
+SCENES = ("hinged", "gripped", "pushed", "keys", "solids")
 DRAWN = {"go": 13, "cpp": 12}
 """Mutants of each port."""
 PARTS = 6
 """Every sixth change is drawn from; of an odd part, so that it is kept apart."""
+EVERY = 3
+"""Which steps a cause is held against."""
+NEAR = 1e-6
+"""How far from the mutant it may end there, over the largest entry of the displacement [-]."""
 
 LAYERS = ("right", "among others", "wrong")
 CAUSES = {
-    "right": "a classic mistake, right",
-    "wrong": "a classic mistake, wrong",
-    "line": "lines of the plain program",
+    "right": "right",
+    "wrong": "wrong",
     "none": "none",
 }
 
@@ -61,67 +67,109 @@ class RunsOutcome(NamedTuple):
     ----------
     outcome : str
         ``same``: each step as the reference takes it; ``ends``: no step at all; ``wrong``.
+    fails : str
+        The first layer that fails in ``vectors check``.
     layer, cause : str
         Of ``LAYERS`` and ``CAUSES``; empty if there is no wrong step.
     """
 
     outcome: str
+    fails: str
     layer: str = ""
     cause: str = ""
+
+
+@cache
+def scene(name: str) -> Scenario:
+    """One of the scenes for comparisons."""
+    return load_scenario(ROOT / "validation" / "scenes" / f"{name}.toml")
+
+
+@cache
+def right_replies(port: Port, layer: str) -> dict[str, str]:
+    """What the port answers without a mistake."""
+    return replies(port.program, port.within(committed_questions(layer)))
+
+
+def first_failure(port: Port, program: Program) -> str:
+    """The first layer in which ``vectors check`` finds a mutant wrong; "" if none."""
+    for layer in port.scope.layers:
+        right = right_replies(port, layer)
+        asked = port.within(committed_questions(layer))
+        given = replies(program, asked)
+        for q in asked:
+            line = given.get(q.id, "")
+            if line == right[q.id]:
+                continue
+            if '"output"' not in line or port.judged(q, line).verdict.verdict == FAILED:
+                return layer
+    return ""
 
 
 def run_of(program: Program, scenario: Scenario) -> OtherRun | None:
     """The run of a scene by a program, as far as it goes; None if it takes no step."""
     q = [scenario.system.q_start]
+    with started(program) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdout.readline()  # what the program is
 
-    def answer(case: Json) -> Json:
-        line = replies(program, [Question("step/run", "step", case, {})]).get("step/run", "{}")
-        found = json.loads(line).get("output", {})
-        q.append(scenario.system.normalised(np.array(found["q_next"], dtype=np.float64)))
-        return found
+        def answer(case: Json) -> Json:
+            asked = {"id": "run", "layer": "step", "input": case}
+            print(json.dumps(asked), file=process.stdin, flush=True)
+            found = json.loads(process.stdout.readline())["output"]
+            q.append(scenario.system.normalised(np.array(found["q_next"], dtype=np.float64)))
+            return found
 
-    with suppress(QuasistaticError, KeyError, TypeError, ValueError):  # it ends, or q is none
-        states_by(scenario, answer, STEPS)
+        with suppress(QuasistaticError, KeyError, TypeError, ValueError, OSError):  # it ends
+            states_by(scenario, answer, scenario.steps)
+        with suppress(OSError):
+            process.stdin.close()
+        process.kill()
     return OtherRun(0, np.array(q), 0.0) if len(q) > 1 else None
 
 
-def runs_outcome(trial: Trial, program: Program) -> RunsOutcome:
-    """What `compare` says of the runs of a mutant that has been checked."""
-    runs = 0
-    for name in SCENES:
-        scenario = load_scenario(name, steps=STEPS)
-        run = run_of(program, scenario)
-        if run is None:
+def runs_outcome(fails: str, program: Program) -> RunsOutcome:
+    """What `compare` says of the runs of a mutant, of which a layer fails in ``vectors check``."""
+    runs = {name: run for name in SCENES if (run := run_of(program, scene(name))) is not None}
+    for name, run in runs.items():
+        found = comparison_of_run(scene(name), run)
+        if found.first is None:
             continue
-        runs += 1
-        found = comparison_of_run(scenario, run)
-        if found.first is not None:
-            return RunsOutcome("wrong", _layer(trial, found), _cause(trial, found))
-    return RunsOutcome("same" if runs else "ends")
+        layers = {layer.partition(" ")[0] for layer in found.layers}
+        known = "wrong" if fails not in layers else "among others"
+        cause = "none"
+        if found.causes:
+            holds = any(_is_right(one, runs) for one in found.causes[:SHOWN])
+            cause = "right" if holds else "wrong"
+        return RunsOutcome("wrong", fails, "right" if layers == {fails} else known, cause)
+    return RunsOutcome("same" if runs else "ends", fails)
 
 
-def _layer(trial: Trial, found: Comparison) -> str:
-    layers = {layer.partition(" ")[0] for layer in found.layers}
-    if trial.check.layer not in layers:
-        return "wrong"
-    return "right" if len(layers) == 1 else "among others"
-
-
-def _cause(trial: Trial, found: Comparison) -> str:
-    names = [cause.name for cause in found.causes if cause.name]
-    if not names:
-        return "line" if found.causes else "none"
-    return "right" if any(causes()[n].search(trial.where) for n in names) else "wrong"
+def _is_right(cause: Cause, runs: dict[str, OtherRun]) -> bool:
+    """Whether the plain program with a mistake ends where the mutant does, in all its runs."""
+    made = program_that_ends(cause.changed)
+    for name, run in runs.items():
+        cases = SceneCases(scene(name))
+        system = scene(name).system
+        for k in range(0, len(run.q) - 1, EVERY):
+            moved = np.abs(system.difference(run.q[k], run.q[k + 1])).max(initial=0.0)
+            if not ends_there(
+                system, made, Taken(cases.at(k, run.q[k]), run.q[k + 1], NEAR * moved)
+            ):
+                return False
+    return True
 
 
 HEAD = f"""# Whole runs of programs with a mistake
 
 Made by `python -m validation.make.port_runs`. Of the [mutants of the ports](port_mutants.md) that
-are kept apart {sum(DRAWN.values())} are drawn. Each takes the first {STEPS} steps of these scenes,
-{", ".join(SCENES)},
-until `quasistatic-ref compare` sees a wrong step. The layer is right if it is the first that fails
-in `vectors check`; a classic mistake, if it is made in the place that was changed. Lines are those
-of the plain program with which it would end so, too.
+are kept apart, and that the committed vectors find wrong, {sum(DRAWN.values())} are drawn. Each
+takes the steps of [the scenes for comparisons](../scenes/README.md), one scene after the other,
+until `quasistatic-ref compare` sees a step of fewer than {DIGITS:g} digits. The layer is right if
+it is the first that fails in `vectors check`. A cause is right if one of the first {SHOWN}, which
+are printed, is what the mutant does: the plain program with it ends every third step of all scenes
+where the mutant does.
 """
 
 
@@ -130,8 +178,11 @@ def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
     yield HEAD
     outcomes = Counter(one.outcome for one in found)
     yield f"Of {len(found)} mutants {outcomes['wrong']} are found; {outcomes['same']} take each"
-    yield f"step as the reference does, and {outcomes['ends']} none. What a mistake is about has to"
-    yield "be in the scene, and to move something."
+    yield f"step as the reference does, and {outcomes['ends']} none."
+    still = Counter(one.fails for one in found if one.outcome == "same")
+    if still:
+        words = ", ".join(f"{layer} ({count})" for layer, count in still.most_common())
+        yield f"Those that move nothing fail `vectors check` in: {words}."
     yield ""
     count = Counter((one.cause, one.layer) for one in found)
     rows = [(words, *(count[cause, layer] for layer in LAYERS)) for cause, words in CAUSES.items()]
@@ -141,20 +192,28 @@ def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
 
 def main() -> int:
     """Draw, run and compare; write the page."""
-    options = script_options(__doc__, out=Path)
-    found = []
+    options = script_options(__doc__, ("go", "cpp"), out=Path, records=Path)
+    done: dict[str, RunsOutcome | None] = {}
+    if options.records and options.records.exists():
+        for name, values in map(json.loads, options.records.read_text("utf-8").splitlines()):
+            done[name] = RunsOutcome(*values) if values else None
     with tempfile.TemporaryDirectory() as folder:
-        for name, count in DRAWN.items():
+        for name in options.names or DRAWN:
             port = Port(name, Path(folder))
-            before = len(found)
+            kept = 0
             for change, program in port.mutants(2 * EACH, lambda c: part_of(c.name, PARTS) == 1):
-                trial = trial_of(port, change, program, cases=0)
-                if program is not None and trial.outcome == "other":
-                    found.append(runs_outcome(trial, program))
-                    print(change.name, *found[-1], sep=", ", file=sys.stderr, flush=True)
-                if len(found) == before + count:
+                if change.name not in done:
+                    fails = first_failure(port, program) if program is not None else ""
+                    one = runs_outcome(fails, program) if fails and program is not None else None
+                    done[change.name] = one
+                    print(one or "not wrong", file=sys.stderr, flush=True)
+                    if options.records:
+                        with options.records.open("a") as file:
+                            file.write(json.dumps([change.name, one]) + "\n")
+                kept += done[change.name] is not None
+                if kept == DRAWN[name]:
                     break
-    show_page("\n".join(page(found)), options.out)
+    show_page("\n".join(page([one for one in done.values() if one is not None])), options.out)
     return 0
 
 

@@ -51,7 +51,8 @@ def record(found: Comparison, scenario: Scenario) -> dict[str, Any]:
                  "digits": found.first.digits, "coordinate": _largest(found, scenario),
                  "off": float(off[np.abs(off).argmax()]), "contact": found.contact or None,
                  "layers": list(found.layers),
-                 "causes": [cause._asdict() for cause in found.causes]}  # fmt: skip
+                 "causes": [{"layer": c.layer, "name": c.name, "sentence": c.sentence}
+                            for c in found.causes]}  # fmt: skip
     return {"steps": found.steps, "digits": found.digits, "resolution": found.resolution,
             "first": first, "failed": found.failed or None}  # fmt: skip
 

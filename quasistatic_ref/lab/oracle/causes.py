@@ -17,6 +17,7 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.oracle.one_line_bugs import bugs_of
 from quasistatic_ref.lab.vectors.check.patched import (
     Program,
+    patched_texts,
     program,
     program_of,
     text_of_file,
@@ -36,7 +37,9 @@ LAYERS = {
 """By file of the plain program; the functions below are of other layers."""
 OBJECTIVE = "step (H and g)"
 FUNCTIONS = {
-    "tangents": "step (tangents)", "loads": OBJECTIVE, "objective": OBJECTIVE,
+    "rotation": "distance", "frame": "distance", "unit": "distance",
+    "quaternion_product": "integrate", "tangents": "step (tangents)",
+    "loads": OBJECTIVE, "objective": OBJECTIVE,
     "difference": OBJECTIVE, "way": OBJECTIVE, "cramer_solution": OBJECTIVE,
     "pose_in_world": "step (contacts)", "contacts_of": "step (contacts)",
 }  # fmt: skip
@@ -44,6 +47,8 @@ FUNCTIONS = {
 
 LOOP = "for _ in range(1000):"
 """In the place of loops that a bug may keep from ending."""
+FORCES = "forces(H, g, A, b, contacts, cone, h)"
+"""What no motion follows from, and takes a third of a step."""
 
 
 class Taken(NamedTuple):
@@ -73,11 +78,14 @@ class Cause(NamedTuple):
     name : str
         A classic mistake's; "" of a bug of one line.
     sentence : str
+    changed : dict of str to str
+        By file of the plain program, its text with the mistake.
     """
 
     layer: str
     name: str
     sentence: str
+    changed: dict[str, str]
 
 
 def layer_of(file: str, line: str) -> str:
@@ -108,7 +116,7 @@ def causes(
     """
 
     def explains(made: Program) -> bool:
-        return all(_ends(system, made, one) for one in (*wrong, *right))
+        return all(ends_there(system, made, one) for one in (*wrong, *right))
 
     say("trying classic mistakes")
     found = []
@@ -118,7 +126,8 @@ def causes(
                 file, *lines = patch.splitlines()
                 first = next(line[2:] for line in lines if line.startswith("- "))
                 layer = layer_of(file.partition(":")[0], first)
-                found.append(Cause(layer, mistake.name, mistake.sentence))
+                texts = patched_texts(patch)
+                found.append(Cause(layer, mistake.name, mistake.sentence, texts))
                 break
     if found:
         return found
@@ -128,22 +137,24 @@ def causes(
         say(f"trying bugs of one line in {name}.py of the plain program")
         file = f"{name}.py"
         for bug in bugs_of(file, text_of_file(file), run.get(file, frozenset())):
-            if (file, bug.old) not in known and explains(_program_that_ends({file: bug.text})):
+            if (file, bug.old) not in known and explains(program_that_ends({file: bug.text})):
                 known.add((file, bug.old))
                 layer = FUNCTIONS.get(bug.function, LAYERS[name])
                 sentence = f"as if, in {file} of the plain program, {bug.old!r} were {bug.new!r}"
-                found.append(Cause(layer, "", sentence))
+                found.append(Cause(layer, "", sentence, {file: bug.text}))
+        if found:
+            break
     return found
 
 
-def _program_that_ends(changed: dict[str, str]) -> Program:
+def program_that_ends(changed: dict[str, str]) -> Program:
     """The plain program with other texts, whose loops end whatever the bug."""
-    texts = {file: text_of_file(file) for file in ("distance.py", "optimum.py")} | changed
-    bounded = {file: text.replace("while True:", LOOP) for file, text in texts.items()}
-    return program_of(bounded)
+    texts = {f: text_of_file(f) for f in ("distance.py", "optimum.py", "step.py")} | changed
+    shorter = {f: t.replace("while True:", LOOP).replace(FORCES, "0") for f, t in texts.items()}
+    return program_of(shorter)
 
 
-def _ends(system: System, made: Program, one: Taken) -> bool:
+def ends_there(system: System, made: Program, one: Taken) -> bool:
     """Whether a program ends a step where the other one did."""
     try:
         with np.errstate(all="ignore"):

@@ -117,10 +117,10 @@ def comparison_of_run(
     failed = ""
     for i, (q, q_next) in enumerate(zip(run.q[:-1], run.q[1:], strict=True)):
         k = run.first + i
-        t = k * scenario.h
+        t = (k + 1) * scenario.h
         force = 0.0 if scenario.force is None else scenario.force(t, q)
         try:
-            result = simulator.step(q, scenario.targets(t + scenario.h), force)
+            result = simulator.step(q, scenario.targets(t), force)
         except StepNotSolved as error:
             failed = f"step {k}: {error}"
             break
@@ -172,9 +172,7 @@ def _beside(scenario: Scenario, k: int, result: StepResult, q_next: Array) -> St
 def _taken_step(
     scenario: Scenario, cases: SceneCases, one: StepOff, run: OtherRun, is_wrong: bool
 ) -> Taken:
-    q = run.q[one.k - run.first]
-    t = one.k * scenario.h
-    case = cases.at(t, q, scenario.targets(t + scenario.h))
+    case = cases.at(one.k, run.q[one.k - run.first])
     off = float(np.abs(one.off).max(initial=0.0))
     moved = float(np.abs(one.delta_q).max(initial=0.0))
     allowed = max(ROUNDED * run.resolution, MATCH * off if is_wrong else 4 * off + EXACT * moved)

@@ -2,7 +2,8 @@
 
 A sum becomes a difference or loses a term, a product loses a factor or becomes a quotient, a matrix
 is transposed or is not, the arguments of a product that does not commute change places, a name
-gives way to its like (alpha and beta, R and Rp), an index or a constant to its neighbour.
+gives way to its like (alpha and beta, R and Rp), an index or a constant to its neighbour. Of three
+numbers that a line assigns or returns, one has the other sign, is 0, or is another one of them.
 """
 
 import ast
@@ -36,6 +37,19 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.LtE: (ast.GtE, ast.Lt),
     ast.GtE: (ast.LtE, ast.Gt),
 }
+
+
+ENTRIES = tuple(
+    f" * [{', '.join(str(factor if i == j else 1) for j in range(3))}]"
+    for factor in (-1, 0)
+    for i in range(3)
+) + tuple(
+    f"[..., [{', '.join(str(i if k == j else k) for k in range(3))}]]"
+    for j in range(3)
+    for i in range(3)
+    if i != j
+)
+"""What is done to an array of three numbers by which one of them is wrong."""
 
 
 class Bug(NamedTuple):
@@ -77,6 +91,7 @@ def bugs_of(file: str, text: str, lines: frozenset[int]) -> Iterator[Bug]:
         in_slices = {
             part for n in ast.walk(function) if isinstance(n, ast.Slice) for part in ast.walk(n)
         }
+        values = {n.value for n in ast.walk(function) if isinstance(n, ast.Assign | ast.Return)}
         for node in ast.walk(function):
             if node in in_slices:
                 continue
@@ -84,9 +99,14 @@ def bugs_of(file: str, text: str, lines: frozenset[int]) -> Iterator[Bug]:
             if number not in lines or not isinstance(node, ast.expr) or node.end_lineno != number:
                 continue
             row = rows[number - 1]
-            for other in changed_expressions(node, names):
-                new = f"{row[: node.col_offset]}{expression_text(other, row, node)}"
-                new += row[node.end_col_offset :]
+            texts = [
+                expression_text(other, row, node) for other in changed_expressions(node, names)
+            ]
+            if node in values:
+                own = row[node.col_offset : node.end_col_offset]
+                texts += [f"np.array({own}){done}" for done in ENTRIES]
+            for text_of_node in texts:
+                new = f"{row[: node.col_offset]}{text_of_node}{row[node.end_col_offset :]}"
                 whole = "\n".join([*rows[: number - 1], new, *rows[number:]]) + "\n"
                 yield Bug(file, function.name, row.strip(), new.strip(), whole)
 
@@ -122,6 +142,7 @@ def changed_expressions(node: ast.expr, names: list[str]) -> Iterator[ast.expr]:
             if isinstance(operator, ast.MatMult) and not is_transpose(left):
                 yield ast.BinOp(ast.Attribute(left, "T"), operator, right)
             if isinstance(operator, ast.MatMult):
+                yield ast.BinOp(right, operator, left)
                 yield right
                 yield ast.UnaryOp(ast.USub(), node)
         case ast.UnaryOp(ast.USub(), operand):

@@ -14,7 +14,7 @@ from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.shapes import placed_shape as shapes
+from quasistatic_ref.shapes import placed_shape as solids
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.simulate.law import CONVEX
@@ -23,6 +23,8 @@ from quasistatic_ref.step.data import Array
 
 KINDS = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
 """Joints that cases have."""
+CORNERED = ("capsule", "cylinder", "cone", "convex")
+"""Solids whose corners and edges are candidates of scenes, but not of cases."""
 
 
 class SceneCases:
@@ -36,7 +38,7 @@ class SceneCases:
     ------
     InputError
         If it has what cases do not: balls as joints, friction of joints, Coulomb's law, second-
-        order cones.
+        order cones, several contacts of a pair of solids one of which is of CORNERED.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -52,9 +54,14 @@ class SceneCases:
             raise InputError(f"has a joint of kind {min(kinds)}", field="scene")
         self._levers = {w.body: _lever(system, w.body, bodies) for w in scenario.wrenches}
         placed = {s.name: s for pair in scenario.pairs for s in (pair.alpha, pair.beta)}
+        shapes = {name: _shape(system, one) for name, one in placed.items()}
+        for pair in scenario.pairs:
+            kinds = {shapes[side.name]["shape"]["kind"] for side in (pair.alpha, pair.beta)}
+            if pair.k > 1 and "cloud" not in kinds and (found := kinds & {*CORNERED}):
+                raise InputError(f"has {pair.k} contacts of a {min(found)}", field=pair.name)
         self._fixed = {
             "mechanism": {"bodies": bodies},
-            "shapes": {name: _shape(system, one) for name, one in placed.items()},
+            "shapes": shapes,
             "pairs": [
                 {"name": p.name, "alpha": p.alpha.name, "beta": p.beta.name, "k": p.k,
                  "mu_v": p.mu_v, "mu_omega": p.mu_omega, "rows": p.rows}
@@ -66,10 +73,11 @@ class SceneCases:
             "h": scenario.h,
         }  # fmt: skip
 
-    def at(self, t: float, q: Array, q_bar_a: Array) -> Json:
-        """The case of the step from q, shape (n_q,), at t [s] towards q_bar_a, shape (n_q_a,)."""
+    def at(self, k: int, q: Array) -> Json:
+        """The case of step k from q, shape (n_q,); target and wrenches are those at its end."""
         scenario = self._scenario
-        case = {**self._fixed, "q": q.tolist(), "q_bar_a": q_bar_a.tolist()}
+        t = (k + 1) * scenario.h
+        case = {**self._fixed, "q": q.tolist(), "q_bar_a": scenario.targets(t).tolist()}
         case["wrenches"] = [self._wrench(w, t, q) for w in scenario.wrenches]
         if scenario.gravity_acts.any():
             acts = np.append(scenario.gravity_acts, np.zeros(scenario.system.n_u)) * 1.0
@@ -107,9 +115,7 @@ def states_by(scenario: Scenario, answer: Callable[[Json], Json], steps: int) ->
     cases = SceneCases(scenario)
     q = [scenario.system.q_start]
     for k in range(steps):
-        t = k * scenario.h
-        case = cases.at(t, q[-1], scenario.targets(t + scenario.h))
-        q.append(scenario.system.normalised(answer(case)["q_next"]))
+        q.append(scenario.system.normalised(answer(cases.at(k, q[-1]))["q_next"]))
     return np.array(q)
 
 
@@ -194,18 +200,18 @@ def shape_record(shape: Shape) -> Json:
         If the format has none such.
     """
     match shape:
-        case shapes.Sphere():
+        case solids.Sphere():
             return {"kind": "sphere", "radius": shape.radius}
-        case shapes.Box():
+        case solids.Box():
             return {"kind": "box", "size": (2 * shape.half_extents).tolist()}
-        case shapes.Capsule() | shapes.Cylinder() | shapes.Cone():
+        case solids.Capsule() | solids.Cylinder() | solids.Cone():
             kind = type(shape).__name__.lower()
             return {"kind": kind, "radius": shape.radius, "length": 2 * shape.half_length}
-        case shapes.Ellipsoid():
+        case solids.Ellipsoid():
             return {"kind": "ellipsoid", "half_axes": shape.half_axes.tolist()}
-        case shapes.HalfSpace():
+        case solids.HalfSpace():
             return {"kind": "halfspace", "normal": shape.normal.tolist(), "offset": shape.offset}
-        case shapes.PointCloud():
+        case solids.PointCloud():
             return {"kind": "cloud", "points": shape.points.tolist()}
         case ConvexMesh():
             return {"kind": "convex", "vertices": shape.vertices.tolist()}

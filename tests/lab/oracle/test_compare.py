@@ -8,16 +8,20 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.oracle import causes
 from quasistatic_ref.lab.oracle import comparison as comparison_of_runs
 from quasistatic_ref.lab.oracle.comparison import comparison_of_run
+from quasistatic_ref.lab.oracle.one_line_bugs import bugs_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
-from quasistatic_ref.lab.oracle.scene_case import states_by
+from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.extras import marked_parameters
 from tests.quoted import ROOT, flat, printed_blocks
 
 PUSHED = "block_push"
+SCENES = ROOT / "validation" / "scenes"
+OF_SCENES = [SCENES / f"{n}.toml" for n in ("hinged", "gripped", "pushed", "keys", "solids")]
 
 
 def table(path, scenario, q, first=0):
@@ -41,7 +45,7 @@ def comparison(tmp_path, scene, patch, steps):
     return comparison_of_run(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
 
 
-OF_ALL_KINDS = marked_parameters(["bunny_grasp", "stack", "panda_push"], {"panda_push": "robots"})
+OF_ALL_KINDS = marked_parameters([*OF_SCENES, "panda_push"], {"panda_push": "robots"})
 
 
 @pytest.mark.parametrize("name", OF_ALL_KINDS)
@@ -53,13 +57,14 @@ def test_the_plain_program_takes_the_step_of_a_scenario(name):
 
 
 def test_the_packages_own_run_is_right_from_npz_and_from_a_table(tmp_path, capsys):
-    scenario = qr.load_scenario(PUSHED, steps=5)
+    scene = str(SCENES / "pushed.toml")  # whose targets and wrenches change with time
+    scenario = qr.load_scenario(scene, steps=5)
     trajectory = scenario.run(progress=False)
     run = str(trajectory.save(tmp_path / "run.npz"))
-    assert main(["compare", PUSHED, run, "--quiet"]) == 0
+    assert main(["compare", scene, run, "--quiet"]) == 0
     assert "5 steps, each as the reference takes it" in capsys.readouterr().out
     path = table(tmp_path / "run.csv", scenario, trajectory.q[1:], first=1)
-    assert main(["compare", PUSHED, str(path), "--json"]) == 0
+    assert main(["compare", scene, str(path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["steps"] == 5
 
 
@@ -79,6 +84,12 @@ def test_a_bug_of_one_line_is_found_in_its_layer(tmp_path, monkeypatch):
     assert found.contact.startswith("push(")
     assert any("'slip = v_beta - v_alpha' were 'slip = v_beta'" in cause.sentence
                for cause in found.causes)  # fmt: skip
+
+
+def test_one_of_three_numbers_is_a_bug_of_a_line():
+    text = "def turned(n):\n    d = n\n    return d\n"
+    lines = {bug.new for bug in bugs_of("rows.py", text, frozenset({2}))}
+    assert {"d = np.array(n) * [1, -1, 1]", "d = np.array(n)[..., [1, 1, 2]]"} <= lines
 
 
 def test_what_nothing_explains_has_a_layer_by_its_forces_alone(tmp_path, monkeypatch):
@@ -123,3 +134,9 @@ def test_a_scene_that_cases_cannot_hold_is_compared_without_causes():
     q[2:, 0] += 1e-3
     found = comparison_of_run(scenario, OtherRun(0, q, 0.0))
     assert (found.first.k, found.causes) == (1, ())
+
+
+def test_corners_that_cases_lack_are_refused():
+    scenario = qr.load_scenario(SCENES / "keys.toml", ["contacts.capsule.k=2"])
+    with pytest.raises(InputError, match="has 2 contacts of a capsule"):
+        SceneCases(scenario)
