@@ -53,11 +53,7 @@ NEAR = 1e-6
 """How far from the mutant it may end there, over the largest entry of the displacement [-]."""
 
 LAYERS = ("right", "among others", "wrong")
-CAUSES = {
-    "right": "right",
-    "wrong": "wrong",
-    "none": "none",
-}
+CAUSES = ("right", "wrong", "none")
 
 
 class RunsOutcome(NamedTuple):
@@ -163,12 +159,12 @@ def _is_right(cause: Cause, runs: dict[str, OtherRun]) -> bool:
 
 HEAD = f"""# Whole runs of programs with a mistake
 
-Made by `python -m validation.make.port_runs`. Of the [mutants of the ports](port_mutants.md) that
-are kept apart, and that the committed vectors find wrong, {sum(DRAWN.values())} are drawn. Each
-takes the steps of [the scenes for comparisons](../scenes/README.md), one scene after the other,
-until `quasistatic-ref compare` sees a step of fewer than {DIGITS:g} digits. The layer is right if
-it is the first that fails in `vectors check`. A cause is right if one of the first {SHOWN}, which
-are printed, is what the mutant does: the plain program with it ends every third step of all scenes
+Made by `python -m validation.make.port_runs`: [mutants of the ports](port_mutants.md) are drawn
+from those that are kept apart and that the committed vectors find wrong. Each takes the steps of
+[the scenes for comparisons](../scenes/README.md), one scene after the other, until
+`quasistatic-ref compare` sees a step of fewer than {DIGITS:g} digits. The layer is right if it is
+the first that fails in `vectors check`. A cause is right if one of the first {SHOWN}, which are
+printed, is what the mutant does: the plain program with it ends every third step of all scenes
 where the mutant does.
 """
 
@@ -177,15 +173,16 @@ def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
     outcomes = Counter(one.outcome for one in found)
-    yield f"Of {len(found)} mutants {outcomes['wrong']} are found; {outcomes['same']} take each"
-    yield f"step as the reference does, and {outcomes['ends']} none."
+    yield f"Of {len(found)} mutants {outcomes['wrong']} take a step that compare finds wrong;"
+    yield f"{outcomes['same']} take each as the reference does,"
+    yield f"{outcomes['ends']} end before a step."
     still = Counter(one.fails for one in found if one.outcome == "same")
     if still:
         words = ", ".join(f"{layer} ({count})" for layer, count in still.most_common())
         yield f"Those that move nothing fail `vectors check` in: {words}."
     yield ""
     count = Counter((one.cause, one.layer) for one in found)
-    rows = [(words, *(count[cause, layer] for layer in LAYERS)) for cause, words in CAUSES.items()]
+    rows = [(cause, *(count[cause, layer] for layer in LAYERS)) for cause in CAUSES]
     rows.append(("all", *(sum(row[1 + i] for row in rows) for i in range(len(LAYERS)))))
     yield from markdown_table(("cause", *(f"layer {layer}" for layer in LAYERS)), rows)
 
