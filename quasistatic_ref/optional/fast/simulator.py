@@ -303,7 +303,7 @@ class FastSimulator(Simulator):
         if isinstance(solver, FastSolver | SparseSolver):
             both = self.in_both_units(step, form, solver)
             if self.certify != OFF:
-                by = solver.proofs.prover_of(both)
+                by = solver.prover.proofs.prover_of(both)
             elif isinstance(solver, FastSolver) and not (solver.adapter.NEAR or solver.unsafe):
                 if solver.hessian is not self.hessian:
                     solver.write_program(both)

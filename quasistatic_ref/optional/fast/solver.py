@@ -87,16 +87,15 @@ class FastSolver(NativeSolver):
 
     Attributes
     ----------
-    proofs : Proofs
-        Of its steps that are certified.
     written : Units or None
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
+    prover: GuessProver
+
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
         self.prover = GuessProver()
-        self.proofs = self.prover.proofs
         self.written: Units | None = None
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:

@@ -79,11 +79,6 @@ class SparseSolver(NativeSolver):
     name : str
         Of a backend whose adapter takes sparse matrices.
 
-    Attributes
-    ----------
-    proofs : Proofs
-        Of its steps that are certified.
-
     Raises
     ------
     BackendError
@@ -92,6 +87,8 @@ class SparseSolver(NativeSolver):
         If the step is not in blocks.
     """
 
+    prover: SparseProver
+
     def __init__(self, template: StepData, name: str) -> None:
         able = [entry.name for entry in BACKENDS.values() if entry.sparse]
         if name not in able:
@@ -99,7 +96,6 @@ class SparseSolver(NativeSolver):
             raise BackendError(problem, field="backend", value=name)
         super().__init__(template, name)
         self.prover = SparseProver(self.kind)
-        self.proofs = self.prover.proofs
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""

@@ -142,7 +142,7 @@ class Onward:
         s = self._s
         numbers = self._simulator.numbers
         solver = self.solver
-        self._first = solver.proofs.parts[0]
+        self._first = solver.prover.proofs.parts[0]
         prover.s.share(numbers, SHARED)
         if isinstance(solver, SparseSolver):
             entry = solver.kind.entry
