@@ -101,7 +101,7 @@ optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoi
 optional/ellipsoid/scaled_blocks.py
     ENCLOSED
 contact/distance.py
-    PAIRS flat_on_flat
+    PAIRS flat_on_flat point_ties
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
