@@ -96,7 +96,7 @@ contact/jacobian.py
 contact/pairs.py
     jacobian
 optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
-    CURVED
+    CURVED depth_ties
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
 optional/ellipsoid/scaled_blocks.py
     ENCLOSED
