@@ -95,7 +95,7 @@ def hashes_in(where: Environment, names: Sequence[str], steps: int | None) -> li
 
 def oldest_numpy(folder: str) -> str:
     """The oldest NumPy that the package supports, fetched into a folder."""
-    (floor,) = (re.match(r"numpy>=([\d.]+)", r) for r in requires("quasistatic-ref") or []
+    (floor,) = (re.search(r">=([\d.]+)", r) for r in requires("quasistatic-ref") or []
                 if r.startswith("numpy"))  # fmt: skip
     assert floor is not None
     home = Path(folder) / "oldest"

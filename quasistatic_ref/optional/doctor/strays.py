@@ -26,9 +26,10 @@ def strays(start: Start) -> Iterator[Said]:
     if stray is None:
         return
     for shape, name in clouds.values():
-        if shape not in KNOWN:
-            KNOWN[shape] = shape.points[stray(shape.points)]
-        found = KNOWN[shape]
+        found = KNOWN.get(shape)
+        if found is None:
+            found = shape.points[stray(shape.points)]
+            KNOWN[shape] = found
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
             more = ["..."] if len(found) > SHOWN else []

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import QuasistaticError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
@@ -91,8 +90,7 @@ class FastSimulator(Simulator):
     The numbers are right by construction, and not checked one by one. Those of the first step (of
     a sparse one only q+) are compared with those of the plain path, which takes all steps if they
     differ; and the first proved step that is taken in few calls, with one that is not. If the
-    default backend, named or not, fails at a step that is not certified in full, Clarabel solves
-    the step.
+    default backend, named or not, fails at a step that is not proved, Clarabel solves the step.
 
     Parameters
     ----------
@@ -110,8 +108,8 @@ class FastSimulator(Simulator):
     follows : bool
         Whether steps that follow on another may be taken in few calls. Of those that are proved, a
         step is sought on the rows that the step before has pressed, the first on none; the backend,
-        cold, is asked only if that fails: lam then depends on no other step but through its lam.
-        What they have in common is formed when the simulator is made.
+        cold, is asked only if that fails: lam depends on no other step but through its lam. What
+        they have in common is formed when the simulator is made.
     """
 
     def prepare(self) -> None:
@@ -125,7 +123,6 @@ class FastSimulator(Simulator):
         least = sparse_from(self.backend, self.cone)
         block_columns = BLOCK_COLUMNS.found() if 0 < least <= entries.every else None
         self.blocks: BlockColumns | None = None
-        self.geometry = ContactGeometry(layout, system.column_map)
         if block_columns is None:
             columns = every_column(self.geometry)
             M_u = system.M_u(system.q_start)
@@ -182,6 +179,8 @@ class FastSimulator(Simulator):
         self.pressed = None
         if not self.follows or self.certify == OFF:
             super().start_cold()
+        elif self.onward is not None:
+            self.onward.forget()
 
     @arguments_checked
     @by_one_thread
@@ -253,8 +252,9 @@ class FastSimulator(Simulator):
             return taken
         first = taken[0]
         plain = self.step_in_python(q, *of)
-        self.follows = self.follows_alike = proved_bits(first) == proved_bits(plain)
-        if not self.follows:
+        self.follows_alike = proved_bits(first) == proved_bits(plain)
+        if not self.follows_alike:
+            self.follows = False
             return [plain]
         self.pressed = first.solution.lam
         return taken

@@ -164,6 +164,11 @@ class Onward:
         own = self.solver
         return solver is own and (self.prover is not None or own.hessian is self._hessian)
 
+    def forget(self) -> None:
+        """Begin the next proof with its answer alone."""
+        if self.prover is not None:
+            self.prover.forget()
+
     def begin(self, records: NDArray[np.void]) -> None:
         """Begin from the last step, and write the next ones into `records`, shape (steps,) [-]."""
         s = self._s
@@ -392,4 +397,9 @@ def proved_bits(result: StepResult) -> object:
     one = result.solution
     certificate = one.certificate
     claims = certificate.kind, certificate.multipliers_unique, certificate.differentiable
-    return bits([result.q, one.delta_q, one.net_impulse, claims, result.points]), result.step
+    step = result.step
+    contacts = step.contacts
+    of_step = [getattr(step, name) for name in step.kept() if name != "contacts"]
+    of_contacts = [getattr(contacts, name) for name in contacts.kept()]  # of J the blocks, if kept
+    same = [result.q, one.delta_q, one.net_impulse, claims, result.points, of_step, of_contacts]
+    return bits(same)
