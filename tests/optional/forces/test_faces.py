@@ -1,0 +1,126 @@
+"""Faces of the pyramid on which contact forces are sought: guessed in floats, found exactly."""
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from quasistatic_ref import contact_forces, solve_step
+from quasistatic_ref.certify.rational import dyadic
+from quasistatic_ref.lab.scenes.loads import loaded_pile
+from quasistatic_ref.optional.forces import eliminated, face_guess, forces
+from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
+from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
+from quasistatic_ref.optional.forces.of_group import group_compliance
+from quasistatic_ref.step.cones import cone_matrix
+from tests.closeness import assert_within
+from tests.optional.forces.test_forces import POLYHEDRAL, block, walled_block
+from tests.oracles.random_steps import mixed_step
+from tests.tolerances import ROUNDING
+from validation.make import forces as checks
+
+
+@pytest.mark.parametrize("step", [block(push=1.0), walled_block()])
+def test_where_newtons_method_does_not_end_the_definition_decides(step, monkeypatch):
+    quick = contact_forces(step).wrench
+    monkeypatch.setattr(forces, "eliminated_optimum", lambda *_: None)
+    assert contact_forces(step).wrench.tobytes() == quick.tobytes()
+
+
+def never(*_):
+    raise AssertionError("what faces decide was left to the definition")
+
+
+@pytest.mark.parametrize("cone", [*POLYHEDRAL, "facets-12"])
+def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
+    """In small whole numbers, where many points lie on two faces; and by Lawson and Hanson's nnls.
+
+    In exact numbers the conditions of :class:`Face` are those of the optimum.
+    """
+    rng = np.random.default_rng(0)
+    C = rows_of(cone, len(cone_matrix(cone)))
+    for z in rng.integers(-3, 4, (200, 4)):
+        found = face(cone, len(C), nearest_face(cone, len(C), dyadic(z)))
+        assert min(found.integers[:-4] @ z) >= 0
+        s = (found.integers[-4:] @ z / found.denominator).astype(float)
+        assert_within(s, C.T @ nnls(C.T, -z)[0], ROUNDING)
+
+
+def wrong_guess(step, wrench):
+    """The contacts whose face is guessed wrong, from forces."""
+    c = group_compliance(step)
+    program = eliminated.EliminatedStep(step, c)
+    return program.wrong_faces(program.candidate(guessed_faces(step, c, wrench)))
+
+
+def test_faces_are_guessed_in_floats(monkeypatch):
+    """Mostly right from the start, and not only where c is so small that faces do not depend on it.
+
+    A guess that is wrong once is left to the definition here. From no forces it is as right.
+    """
+    left = []
+    defined = forces.defined_optimum
+    monkeypatch.setattr(forces, "defined_optimum", lambda *of: left.append(of) or defined(*of))
+    monkeypatch.setattr(eliminated, "PROOFS", 1)
+    contact_forces(walled_block())
+    for _, step in checks.random_steps(20):
+        contact_forces(step)
+        contact_forces(step, 1e-3)
+        left += wrong_guess(step, np.zeros((step.contacts.n_c, 4)))
+    assert len(left) <= 2
+
+
+STARTS = {
+    "sticks": (block(push=1.0), 2),
+    "slides": (block(push=9.0), 2),
+    "at a wall": (walled_block(), 2),
+    "in a wall": (walled_block(-1e-4), 3),
+    "at random": (mixed_step(0), 3),
+}
+
+
+@pytest.mark.parametrize(("step", "solves"), STARTS.values(), ids=STARTS)
+def test_the_forces_without_compliance_show_on_which_faces_to_start(step, solves, monkeypatch):
+    """They are solved for once, and once more at the end; from other faces it takes more."""
+    wrench = solve_step(step).wrench
+    zero = face_guess._Energy.zero
+    solved = []
+    monkeypatch.setattr(
+        face_guess._Energy, "zero", lambda self, at: solved.append(at) or zero(self, at)
+    )
+    assert wrong_guess(step, wrench) == []
+    assert len(solved) == solves
+
+
+@pytest.mark.parametrize("cone", [*POLYHEDRAL, "facets-12"])
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
+def test_nearest_points_in_floats_are_those_of_scipy(cone, scale):
+    rng = np.random.default_rng(2)
+    C = rows_of(cone, len(cone_matrix(cone)))
+    for z in scale * rng.standard_normal((100, 4)) * 10.0 ** rng.uniform(-3, 0, 4):
+        rows = list(nearest_rows(C, z))
+        lam = np.linalg.lstsq(C[rows].T, -z)[0]
+        assert lam.min(initial=0.0) >= 0
+        near = C.T @ nnls(C.T, -z)[0]
+        assert_within(C[rows].T @ lam, near, 1e-12 * np.abs(z).max())
+
+
+def test_faces_of_a_pile_are_guessed_that_is_heavy_above():
+    """Ten boxes, 1000 times as heavy as each other: no face is wrong, from no forces either."""
+    step = loaded_pile(10.0 ** np.linspace(0, 3, 10), 1e-3, spring=1e4, press=3.0).step
+    for wrench in (solve_step(step, "daqp", fast=True).wrench, np.zeros((step.contacts.n_c, 4))):
+        assert wrong_guess(step, wrench) == []
+
+
+def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
+    """Where float64 does not suffice, no contact is guessed to bear a load."""
+
+    def singular(*_):
+        raise np.linalg.LinAlgError
+
+    monkeypatch.setattr(forces, "defined_optimum", never)
+    steps = dict(checks.random_steps(12))
+    for name in ("random 6", "random 9", "random 13"):
+        quick = contact_forces(steps[name]).wrench
+        with monkeypatch.context() as patch:
+            patch.setattr(face_guess._Energy, "zero", singular)
+            assert contact_forces(steps[name]).wrench.tobytes() == quick.tobytes()
