@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepData, StepIllPosed, StepInfeasible, contact_forces, verify
+from quasistatic_ref import (
+    Extra,
+    StepData,
+    StepIllPosed,
+    StepInfeasible,
+    contact_forces,
+    load_scenario,
+    verify,
+)
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.plain import bits
@@ -35,6 +43,12 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
         assert faults(step) == [], seed
         several += len(groups(step)) > 1
     assert several > 12
+
+
+def test_a_step_of_a_scenario_has_the_optimum_of_its_groups():
+    step = load_scenario("block_incline", steps=2).run(progress=False).step_data(1)
+    assert len(groups(step)) == 2
+    assert faults(step) == []
 
 
 def test_inertia_couples_the_coordinates_after_the_actuated_ones():

@@ -86,6 +86,8 @@ def counts_before(out: Path | None, first: int) -> list[Counter[str]]:
     if not first or out is None:
         return [Counter() for _ in FAMILIES]
     rows = rows_before(out)
+    if not {*FAMILIES} <= {*rows}:
+        sys.exit(f"{out}: holds no counts of the steps before {first}; leave out --first")
     kept = [map(int, rows[family][1:]) for family in FAMILIES]
     found = [Counter(dict(zip(OUTCOMES, counts, strict=True))) for counts in kept]
     assert sum(count.total() for count in found) == first

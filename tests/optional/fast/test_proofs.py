@@ -132,6 +132,11 @@ def test_both_speeds_have_the_optimum_in_fractions():
     assert set(words) == {"same optimum", "no solution"}
 
 
+def test_steps_after_those_of_no_page_are_refused(tmp_path):
+    with pytest.raises(SystemExit, match="holds no counts of the steps before 40"):
+        designed_steps.counts_before(tmp_path / "none.md", 40)
+
+
 def test_what_is_kept_for_a_step_refuses_numbers_of_another_shape():
     kept = Structure("groups.c", "Step")
     kept.put({"b": np.zeros(2)})

@@ -1,11 +1,10 @@
 """Many runs of one scenario at once: a grid of values, a trajectory a run, and one table."""
 
 import csv
-import hashlib
 import io
 import math
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from itertools import product
@@ -15,9 +14,18 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError, RunFailed
-from quasistatic_ref.formats.files import json_text, text_written, writable_folder
-from quasistatic_ref.lab.parallel import results, workers
+from quasistatic_ref.formats.files import (
+    bytes_read,
+    json_text,
+    text_of,
+    text_written,
+    writable_folder,
+)
+from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.lab.parallel import InThisProcess, results, workers
+from quasistatic_ref.lab.study.store.store import STORE
 from quasistatic_ref.optional.account.words import measures
+from quasistatic_ref.optional.runs.saved_files import Lock, fingerprint, run_settings
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
@@ -47,7 +55,7 @@ def simulate_many(
     """Run a scenario with every combination of some values, several runs at a time.
 
     A run that ends early is a result, too. What was run is in the folder: the same call, after an
-    interruption, makes the runs that are missing.
+    interruption, makes the runs that are missing, and those whose files are spoilt.
 
     Parameters
     ----------
@@ -57,8 +65,9 @@ def simulate_many(
         Dotted field of the scenario -> its values [the field's unit]; of several fields with the
         same values, their names with commas between.
     folder : str or Path
-        For ``runs.csv``, one line a run, and ``runs/*.npz``, one light trajectory a run, named by
-        the scenario's text, the values and the settings.
+        For ``runs.csv``, one line a run, also after an interruption, and ``runs/*.npz``, one light
+        trajectory a run, named by all that decides its numbers: the scenario, the values, the
+        settings, robots, shapes and versions.
     settings : sequence of str
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
     workers : int, optional
@@ -76,7 +85,8 @@ def simulate_many(
     Raises
     ------
     InputError
-        If a field, a value or any of the scenarios is unusable: before anything is written.
+        If a field, a value or any of the scenarios is unusable, or the folder holds other runs, or
+        another sweep writes into it: before anything is written.
     """
     grid = {name: _value_list(name, values) for name, values in variations.items()}
     count = math.prod(map(len, grid.values()))
@@ -85,28 +95,45 @@ def simulate_many(
         raise InputError(problem, field="variations", value=count if grid else 0)
     if workers is not None and workers < 1:
         raise InputError("must be at least 1", field="workers", value=workers)
-    is_file = str(scenario).endswith(".toml")
-    source = str(Path(scenario).resolve()) if is_file else str(scenario)
+    path = scenario_path(scenario)
+    source = str(path.resolve()) if path == Path(scenario) else str(scenario)
     points = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]
     changes = [_changes(point, settings) for point in points]
     with _executor(workers, scheduler) as (executor, slots):
-        for _ in executor.map(check_scenario, [source] * count, changes):
-            pass  # an error of any of them is raised here
-        text = Path(source).read_text("utf-8") if is_file else source
-        files = [_file(Path(source).stem, text, own) for own in changes]
-        folder = writable_folder(folder)
-        writable_folder(folder / RUNS)
-        todo = [
-            (file, source, own)
-            for file, own in zip(files, changes, strict=True)
-            if not (folder / file).exists()
-        ]
-        with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
-            for file, trajectory in results(executor, slots, run_of, todo):
-                trajectory.save(folder / file)
-                bar.update()
-    rows = [_row(folder, file, point) for file, point in zip(files, points, strict=True)]
-    text_written(folder / TABLE, _table(rows))
+        # An error of any of the scenarios is raised here.
+        digests = list(executor.map(run_digest, [source] * count, changes))
+        files = [_file(path.stem, digest, list(grid)) for digest in digests]
+        folder = Path(folder)
+        with Lock(folder):
+            _check_folder(folder, {*files})
+            writable_folder(folder / RUNS)
+            # Workers of a scheduler may not see the folder.
+            reader = executor if scheduler is None else InThisProcess()
+            kept = [(file, folder) for file in files if (folder / file).exists()]
+            found: dict[str, Row] = {}
+            with progress_bar(total=count, unit="run", shown=progress) as bar:
+                for file, row in results(reader, slots, row_of_kept, kept):
+                    if row is not None:
+                        found[file] = row
+                        bar.update()
+                todo = [
+                    (file, source, own)
+                    for file, own in zip(files, changes, strict=True)
+                    if file not in found
+                ]
+                try:
+                    for file, trajectory, row in results(executor, slots, run_of, todo):
+                        trajectory.save(folder / file)
+                        found[file] = row
+                        bar.update()
+                finally:  # what is done so far, if it is interrupted
+                    rows = [
+                        {"run": file, "values": point, **found[file]}
+                        for file, point in zip(files, points, strict=True)
+                        if file in found
+                    ]
+                    if rows:
+                        text_written(folder / TABLE, _table(rows))
     return rows
 
 
@@ -171,13 +198,15 @@ def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executo
             yield pool, jobs or os.cpu_count() or 1
 
 
-def check_scenario(scenario: str, changes: Sequence[str]) -> None:
-    """Refuse what cannot be run; InputError as :func:`.load_scenario` has it."""
-    load_scenario(scenario, changes).simulator()
+def run_digest(scenario: str, changes: Sequence[str]) -> str:
+    """SHA-256 of what decides the bits of a run; InputError as :func:`.load_scenario` has it."""
+    loaded = load_scenario(scenario, changes)
+    decisive = run_settings(loaded.simulator(), loaded.system.q_start, loaded.record)
+    return fingerprint((loaded.path.read_bytes(), tuple(changes), tuple(decisive.items())))
 
 
-def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory]:
-    """The name of a file, and what is to be kept in it: a run, or the part of it that succeeded.
+def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Trajectory, Row]:
+    """The name of a file; a run, or the part of it that succeeded, to be kept in it; its row.
 
     Raises
     ------
@@ -185,23 +214,52 @@ def run_of(file: str, scenario: str, changes: Sequence[str]) -> tuple[str, Traje
         If the user ended it.
     """
     try:
-        return file, load_scenario(scenario, changes).run(progress=False)
+        trajectory = load_scenario(scenario, changes).run(progress=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
             raise KeyboardInterrupt from None
-        return file, failure.trajectory
+        trajectory = failure.trajectory
+    return file, trajectory, _row(trajectory)
 
 
-def _file(name: str, text: str, changes: Sequence[str]) -> str:
-    """Where the trajectory of a run is kept, in the folder of the table."""
-    digest = hashlib.sha256(json_text([text, *changes]).encode()).hexdigest()
-    return f"{RUNS}/{name}_{digest[:12]}.npz"
+def row_of_kept(file: str, folder: Path) -> tuple[str, Row | None]:
+    """The name of a file, and the row of the run in it; None if it is spoilt."""
+    try:
+        return file, _row(trajectory_read(folder / file))
+    except InputError:
+        return file, None
 
 
-def _row(folder: Path, file: str, point: Mapping[str, Any]) -> Row:
-    trajectory = trajectory_read(folder / file)
+def _file(name: str, digest: str, fields: Sequence[str]) -> str:
+    """Where the trajectory of a run is kept, in the folder of the table with these fields."""
+    return f"{RUNS}/{name}_{fingerprint((digest, *fields))[:12]}.npz"
+
+
+def _check_folder(folder: Path, files: Set[str]) -> None:
+    """Refuse a folder that holds what these runs would replace or stand beside."""
+    if (folder / STORE).exists():
+        problem = "holds a study, or a sweep of an earlier version; choose another folder"
+        raise InputError(problem, file=folder)
+    others = {f"{RUNS}/{path.name}" for path in (folder / RUNS).glob("*.npz")}
+    if (table := folder / TABLE).exists():
+        text = text_of(bytes_read(table), table)
+        try:
+            others |= {line[0] for line in list(csv.reader(io.StringIO(text)))[1:]}
+        except (csv.Error, IndexError):  # a cell without end, an empty line
+            raise InputError("is no table of a sweep; remove it", file=table) from None
+    others -= files
+    if others:
+        problem = (
+            "holds runs that this sweep does not have: of another scenario, of other fields, "
+            "values or settings, or from before a file of the scene, or a version, changed; choose "
+            "another folder, or remove this one"
+        )
+        raise InputError(problem, file=folder, value=min(others))
+
+
+def _row(trajectory: Trajectory) -> Row:
     outcome = DONE if trajectory.failed is None else ENDED_EARLY
-    own = {"run": file, "values": point, "outcome": outcome, "reason": trajectory.failed}
+    own = {"outcome": outcome, "reason": trajectory.failed}
     return own | {"measures": outcomes(trajectory)}
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.parts import Report
-from quasistatic_ref.lab.study.measuring.many import TABLE
+from quasistatic_ref.lab.study.measuring.many import RUNS, TABLE
 from quasistatic_ref.lab.study.report.solver_report import solver_report
 from quasistatic_ref.lab.study.report.sweep_report import sweep_report
 from quasistatic_ref.lab.study.store.store import UNREADABLE, contents
@@ -31,6 +31,9 @@ def study_report(folder: str | Path, out: str | Path | None = None) -> Report:
     """
     if (table := Path(folder) / TABLE).exists():
         return sweep_report(table)
+    if (Path(folder) / RUNS).is_dir():
+        problem = f"holds runs without {TABLE}; run the sweep again, which makes what is missing"
+        raise InputError(problem, file=folder)
     found = contents(folder)
     if not found.rows:
         raise InputError("holds no rows yet; run the study first", file=folder)

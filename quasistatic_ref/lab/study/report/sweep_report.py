@@ -13,7 +13,9 @@ from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Tabl
 from quasistatic_ref.lab.study.measuring.many import DONE, LAYER
 from quasistatic_ref.lab.study.report.words import sentences
 
-UNIT = "[the scenario's unit]"
+OTHER = "the scenario's unit"
+UNITS = {"h": "s", "mu_omega": "m", "mu_v": "-", "steps": "-"}
+"""Of fields that are well known by their last names."""
 Columns = Mapping[str, Sequence[str]]
 Points = list[tuple[Any, ...]]
 
@@ -83,7 +85,10 @@ def _has_words(values: Sequence[str]) -> bool:
 
 def _with_unit(name: str, values: Sequence[str]) -> str:
     """A parameter with its unit; one of words has none."""
-    return name if _has_words(values) else f"{name} {UNIT}"
+    if _has_words(values):
+        return name
+    units = {UNITS.get(field.split(".")[-1], OTHER) for field in name.split(",")}
+    return f"{name} [{units.pop() if len(units) == 1 else OTHER}]"
 
 
 def _number(text: str) -> float | None:

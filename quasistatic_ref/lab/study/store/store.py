@@ -196,6 +196,11 @@ def contents(folder: str | Path, every: bool = False) -> Contents:
                 for name, columns, lines in (
                     _unpacked_tables if path.name == PACKED else _stored_tables
                 )(path):
+                    if name == "study":
+                        lines = list(lines)
+                        if any("sweep" in line for line in lines):  # its kind
+                            problem = "is a sweep of an earlier version; run it again, in another"
+                            raise InputError(f"{problem} folder", file=path)
                     insert_lines(tables, name, columns, lines)
             return _contents(tables, every)
         except UNREADABLE as error:

@@ -6,10 +6,13 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, load_scenario, trajectory_read
+from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
-from tests.scenes import PUSH, written_scenario
+from quasistatic_ref.lab.study.store.store import STORE
+from quasistatic_ref.optional.runs import saved_files
+from quasistatic_ref.optional.runs.saved_files import Lock
+from tests.scenes import BALL, PUSH, written_scenario
 
 SLOPE = ["block_incline", "--set", "steps=2", "--sweep", "contacts.rough.mu_v=0:0.9:2", "--quiet"]
 
@@ -44,14 +47,108 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     assert table(tmp_path) == lines
 
 
-def test_a_scenario_file_that_has_changed_is_run_again(tmp_path):
-    path = written_scenario(tmp_path)
-    files = []
-    for text in (PUSH, PUSH.replace("mu_v = 0.3", "mu_v = 0.4")):
-        path.write_text(text)
-        rows = simulate_many(path, {"h": [0.01]}, tmp_path / "map", workers=1, progress=False)
-        files += [row["run"] for row in rows]
-    assert len(set(files)) == 2
+def swept(path, folder, **values):
+    given = values or {"h": [0.01]}
+    return simulate_many(path, given, folder, workers=1, progress=False)
+
+
+def content(folder):
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def version_changed(path, monkeypatch):
+    monkeypatch.setattr(saved_files, "__version__", "0.0")
+
+
+CLOUD = "x,y,z\n0,0,-0.05\n-0.05,0,0\n"
+"""Of the ball: on the floor, and at the plate."""
+WITH_CLOUD = PUSH.replace('urdf = "ball.urdf"', 'urdf = "ball.urdf"\ncloud = "ball.csv"')
+
+CHANGES = {
+    "the scenario": lambda path, _: path.write_text(WITH_CLOUD.replace("= 0.3", "= 0.4")),
+    "a robot": lambda path, _: (path.parent / "ball.urdf").write_text(BALL.replace("0.3", "0.4")),
+    "a cloud": lambda path, _: (path.parent / "ball.csv").write_text(f"{CLOUD}0,0,0.05\n"),
+    "the version": version_changed,
+}
+
+
+@pytest.mark.parametrize("name", ["push.toml", "push"])
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_runs_of_a_scene_that_has_changed_are_kept_and_refused(tmp_path, monkeypatch, change, name):
+    path = written_scenario(tmp_path, WITH_CLOUD, name)
+    (tmp_path / "ball.csv").write_text(CLOUD)
+    first = swept(path, tmp_path / "map")
+    kept = content(tmp_path / "map")
+    assert swept(path, tmp_path / "map") == first
+    change(path, monkeypatch)
+    with pytest.raises(InputError, match="changed; choose another folder, or remove this one"):
+        swept(path, tmp_path / "map")
+    assert content(tmp_path / "map") == kept
+    assert {row["run"] for row in swept(path, tmp_path / "new")}.isdisjoint(
+        row["run"] for row in first
+    )
+
+
+OTHERS = {
+    "another scenario": ("sphere_spin", {"h": [0.01, 0.02], "steps": [1]}),
+    "a field less": ("block_incline", {"h": [0.01, 0.02]}),
+    "a value less": ("block_incline", {"h": [0.01], "steps": [1]}),
+}
+
+
+@pytest.mark.parametrize(("scenario", "values"), OTHERS.values(), ids=OTHERS)
+def test_a_folder_of_other_runs_is_refused_before_anything_is_written(tmp_path, scenario, values):
+    swept("block_incline", tmp_path, h=[0.01, 0.02], steps=[1])
+    for path in (tmp_path / "runs").iterdir():
+        path.unlink()  # the table alone is enough
+    kept = content(tmp_path)
+    with pytest.raises(InputError, match="holds runs that this sweep does not have"):
+        swept(scenario, tmp_path, **values)
+    assert content(tmp_path) == kept
+
+
+@pytest.mark.parametrize("file", [STORE, TABLE])
+def test_a_folder_of_something_else_is_refused(tmp_path, file):
+    (tmp_path / file).write_text("run\n\n")
+    with pytest.raises(InputError, match=r"choose another folder|is no table of a sweep"):
+        swept("block_incline", tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == [file]
+
+
+def test_a_folder_that_another_sweep_writes_into_is_refused(tmp_path):
+    with Lock(tmp_path), pytest.raises(InputError, match="is being written by another run"):
+        swept("block_incline", tmp_path)
+
+
+def test_more_values_add_runs_and_a_spoilt_one_is_made_again(tmp_path):
+    first = swept("block_incline", tmp_path, h=[0.01], steps=[2])
+    file = tmp_path / first[0]["run"]
+    good = file.read_bytes()
+    file.write_bytes(good[:100])
+    both = swept("block_incline", tmp_path, h=[0.02, 0.01], steps=[2])
+    assert both[1] == first[0]
+    assert file.read_bytes() == good
+    assert [line["run"] for line in table(tmp_path)] == [row["run"] for row in both]
+
+
+def test_an_interrupted_sweep_has_a_table_of_what_is_done(tmp_path, monkeypatch, capsys):
+    whole = swept("block_incline", tmp_path / "whole", h=[0.01, 0.02], steps=[2])
+    run = Scenario.run
+
+    def interrupted(scenario, **more):
+        if scenario.h == 0.02:
+            raise KeyboardInterrupt
+        return run(scenario, **more)
+
+    monkeypatch.setattr(Scenario, "run", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        swept("block_incline", tmp_path / "map", h=[0.01, 0.02], steps=[2])
+    assert table(tmp_path / "map") == table(tmp_path / "whole")[:1]
+    (tmp_path / "map" / TABLE).unlink()  # as after a kill
+    assert main(["study", "report", str(tmp_path / "map")]) == 2
+    assert "holds runs without runs.csv; run the sweep again" in capsys.readouterr().err
+    monkeypatch.undo()
+    assert swept("block_incline", tmp_path / "map", h=[0.01, 0.02], steps=[2]) == whole
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3])
@@ -112,7 +209,7 @@ def test_fields_that_are_named_together_have_the_same_values(tmp_path, capsys):
         alone = load_scenario("block_incline", settings, fast=True).run(progress=False)
         np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
     assert main(["study", "report", str(tmp_path)]) == 0
-    assert f"| {both} [the scenario's unit] |" in (tmp_path / "report" / "report.md").read_text()
+    assert f"| {both} [-] |" in (tmp_path / "report" / "report.md").read_text()
     capsys.readouterr()
 
 

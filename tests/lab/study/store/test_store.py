@@ -130,6 +130,14 @@ def test_what_no_study_has_written_is_refused(folder, statement):
     assert "\n" not in str(refused.value)
 
 
+def test_a_sweep_of_an_earlier_version_is_named_as_one(folder):
+    change(folder, "CREATE TABLE old AS SELECT 'sweep' AS kind, NULL AS time_limit, '{}' AS facts")
+    change(folder, "DROP TABLE study")
+    change(folder, "ALTER TABLE old RENAME TO study")
+    with pytest.raises(InputError, match="is a sweep of an earlier version; run it again"):
+        contents(folder)
+
+
 @pytest.mark.parametrize(
     "number",
     ["residuals_gap = 9e999", "seconds_call = 9e999", "residuals_primal = -9e999"],
