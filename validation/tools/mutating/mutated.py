@@ -59,7 +59,7 @@ optional/forces/forces.py optional/forces/faces.py
 optional/forces/eliminated.py optional/forces/face_guess.py
 optional/forces/of_group.py
 optional/ellipsoid/forces.py
-    forces ellipsoid/enclosure
+    forces guessed_faces ellipsoid/enclosure
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
