@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
-from functools import cached_property, wraps
+from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
@@ -252,11 +252,7 @@ class Simulator(Settings, Shown):
         system = self.system
         # H of Eq. (13): refused where it leaves float64's range
         hessian(self.h, self.K_q, system.M_u(system.q_start))
-
-    @cached_property
-    def geometry(self) -> ContactGeometry:
-        """How J is formed; made when it is asked for."""
-        return ContactGeometry(self.layout, self.system.column_map)
+        self.geometry = ContactGeometry(self.layout, system.column_map)
 
     def __reduce__(self) -> tuple[object, ...]:
         given = {"backend": self.named_backend, "extension": self.extension}

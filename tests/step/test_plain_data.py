@@ -37,7 +37,9 @@ def test_a_copy_is_equal_and_of_the_same_class_and_hash(things, trip):
 
 def locked_arrays(data):
     """Names of the arrays that cannot be written, but for those that a copy forms when read."""
-    for key, value in vars(data).items():
+    names = data.kept() if isinstance(data, Plain) else vars(data)
+    for key in names:
+        value = getattr(data, key)
         if isinstance(value, Plain):
             yield from locked_arrays(value)
         elif isinstance(value, np.ndarray) and not value.flags.writeable:

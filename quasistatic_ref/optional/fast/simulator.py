@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import QuasistaticError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
@@ -123,6 +124,7 @@ class FastSimulator(Simulator):
         least = sparse_from(self.backend, self.cone)
         block_columns = BLOCK_COLUMNS.found() if 0 < least <= entries.every else None
         self.blocks: BlockColumns | None = None
+        self.geometry = ContactGeometry(layout, system.column_map)
         if block_columns is None:
             columns = every_column(self.geometry)
             M_u = system.M_u(system.q_start)
@@ -133,9 +135,7 @@ class FastSimulator(Simulator):
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, layout.rows, self.cone)
         self.same = self.constant.fields()
         mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
-        self.friction = {
-            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
-        }  # fmt: skip
+        self.friction = dict(mu_v=layout.mu_v, mu_omega=layout.mu_omega, rows=layout.rows, mu=mu)
         self.poses = Poses(system)
         self.down = tuple(self.gravity.tolist())
         self.numbers = Scene(self.poses, columns, self.constant, mu, self.gravity_factor)
