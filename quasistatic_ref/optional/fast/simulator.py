@@ -135,7 +135,8 @@ class FastSimulator(Simulator):
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, layout.rows, self.cone)
         self.same = self.constant.fields()
         mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
-        self.friction = dict(mu_v=layout.mu_v, mu_omega=layout.mu_omega, rows=layout.rows, mu=mu)
+        self.friction = {"mu_v": layout.mu_v, "mu_omega": layout.mu_omega,
+                         "rows": layout.rows, "mu": mu}  # fmt: skip
         self.poses = Poses(system)
         self.down = tuple(self.gravity.tolist())
         self.numbers = Scene(self.poses, columns, self.constant, mu, self.gravity_factor)
@@ -349,10 +350,9 @@ class FastSimulator(Simulator):
             If the force has another shape.
         """
         numbers = self.numbers
-        given = self.given
-        if np.shape(force) != given.shape:
+        if np.shape(force) != self.given.shape:
             force = checked_force(self.system, force)
-        given[:] = force
+        self.given[:] = force
         delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         self.target[:] = delta_q_bar_a
         delta_q_bar_a.setflags(write=False)
