@@ -1,18 +1,14 @@
 """Points of a cloud that are no part of its surface."""
 
 from collections.abc import Iterator
-from weakref import WeakKeyDictionary
 
 from quasistatic_ref.optional.between import STRAY, Said
 from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.data import Array
 
 FEWEST, MOST = 50, 200_000
 """Points of a cloud that is looked at: fewer have no surface, more take a second."""
 SHOWN = 3
-KNOWN: WeakKeyDictionary[PointCloud, Array] = WeakKeyDictionary()
-"""The stray points of clouds that were looked at, each of shape (n, 3) [m]."""
 
 
 def strays(start: Start) -> Iterator[Said]:
@@ -26,10 +22,7 @@ def strays(start: Start) -> Iterator[Said]:
     if stray is None:
         return
     for shape, name in clouds.values():
-        found = KNOWN.get(shape)
-        if found is None:
-            found = shape.points[stray(shape.points)]
-            KNOWN[shape] = found
+        found = shape.points[stray(shape.points)]
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
             more = ["..."] if len(found) > SHOWN else []

@@ -236,7 +236,7 @@ def _file(name: str, digest: str, fields: Sequence[str]) -> str:
 
 
 def _check_folder(folder: Path, files: Set[str]) -> None:
-    """Refuse a folder that holds what these runs would replace or stand beside."""
+    """Refuse a folder that holds a study, or runs that are not of this sweep."""
     if (folder / STORE).exists():
         problem = "holds a study, or a sweep of an earlier version; choose another folder"
         raise InputError(problem, file=folder)

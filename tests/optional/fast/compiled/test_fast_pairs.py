@@ -195,7 +195,7 @@ def test_a_sheet_that_comes_and_goes_needs_no_new_list(solid, top, away, rng):
 
 @pytest.mark.parametrize("name", ["sphere", "box", "capsule", "cylinder"])
 def test_the_far_end_of_a_stick_is_seen_once_it_has_turned_round(name, rng):
-    """One end is the first list; both turn about a vertical line midway, beside the solid."""
+    """One end is in the first list. The stick turns about a vertical axis; the other comes near."""
     ends = np.repeat([[-0.1, 0.0, 0.0], [0.1, 0.0, 0.0]], in_c.WIDTH, axis=0)
     pairs = one_pair(SHAPES[name], ends + rng.uniform(-1e-3, 1e-3, size=ends.shape), 5)
     tracker = PosedPairs(pairs, 3)
@@ -207,7 +207,7 @@ def test_the_far_end_of_a_stick_is_seen_once_it_has_turned_round(name, rng):
 
 
 def test_points_that_are_as_high_but_for_rounding_are_all_looked_at(rng):
-    """A sheet in the plane of a half-space: each slide along it rounds heights anew."""
+    """Points in the plane of a half-space have heights of rounding errors, which motion changes."""
     solid = HalfSpace(np.array([1.0, 2.0, 2.0]), 1.0)
     along = np.array([[2.0, 1.0, -2.0], [-2.0, 2.0, -1.0], [1.0, 2.0, 2.0]]) / 3
     pairs = one_pair(solid, sheet(20, 1 / 512) @ along, 5)
