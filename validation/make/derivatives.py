@@ -15,8 +15,8 @@ from quasistatic_ref.lab.vectors.layers import layer
 from validation.tools.scripts import script_options, show_page
 
 LAYERS = ("derivative",)
-NO_CLAIM = ("LimitExceeded", "the answer says it has none")
-"""In the words of a finding: a body is too deep, or there is a verdict in the place of numbers."""
+NO_CLAIM = ("LimitExceeded", "StepIllPosed", "the answer says it has none")
+"""In the words of a finding: a step is refused, or there is a verdict in the place of numbers."""
 PAGE = """# The package's derivatives challenged
 
 Made by `python -m validation.make.derivatives`: {count:,} cases that `vectors challenge` makes of

@@ -62,7 +62,7 @@ def main() -> None:
     """Write both."""
     out = script_options(__doc__, out=Path("moving_figures")).out
     grasps(out / "grasp.gif")
-    steps = range(0, len(sliding_block.PUSHES) + 1, 2)
+    steps = range(0, sum(sliding_block.STEPS) + 1, 2)
     film(out / "sliding_block.gif", (4.6, 2.6), 1, len(steps),
          lambda row, frame: sliding_block.drawn(row[0], steps[frame]))  # fmt: skip
 

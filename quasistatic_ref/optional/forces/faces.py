@@ -109,8 +109,8 @@ def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Integers, int] | No
     (ndarray, int) or None
         Integers, shape (R + 4, 4), and their denominator.
     """
-    if np.linalg.matrix_rank(rows_of(name, count)[list(rows)]) < len(rows):
-        return None
+    if rows and np.linalg.matrix_rank(rows_of(name, count)[list(rows)]) < len(rows):
+        return None  # older NumPys know no rank of no rows
     found = face(name, count, rows)
     return found.integers, found.denominator
 
