@@ -1,7 +1,8 @@
 """Every committed result made again, and what changed: ``python -m validation.tools.release``.
 
-Each result is a command and the paths that it writes. The commands run one after the other (an hour
-or two on two cores in all; name results to make only those, ``--list`` shows them), and then git
+Each result is a command and the paths that it writes. The commands run one after the other: most
+take minutes, and mutations, prover_mutants, port_mutants, challenges, scans, solid_pairs and forces
+hours, a day on two cores in all. Name results to make only those; ``--list`` shows them. Then git
 says what differs from the last commit: nothing, or only what depends on the machine (times), is
 what a release wants.
 
