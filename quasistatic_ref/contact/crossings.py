@@ -13,6 +13,7 @@ import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
+from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
@@ -21,8 +22,6 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
 
-FACE_COSINE = cos_sin(FACING)[0]
-"""Least cosine of the angle between the pair's normal and that of a face whose edges count [-]."""
 EDGE_COSINE = cos_sin(FACING)[1]
 """Largest cosine of the angle between the pair's normal and an edge that counts by itself [-]."""
 UP = np.array([0.0, 0.0, 1.0])
@@ -136,7 +135,7 @@ def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
     # The normal of the side, radial and along the axis.
     side = np.array([2 * shape.half_length, shape.radius - above])
     radial = norm(way[:2])
-    if side[0] * radial + side[1] * way[2] < FACE_COSINE * norm(side):
+    if side[0] * radial + side[1] * way[2] < TURNED * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)
     outward = way * [1.0, 1.0, 0.0] / radial
     tip = shape.half_length * UP
@@ -147,7 +146,7 @@ def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
 def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[Array, Indices]:
     """The ends of edges (S, 2, 3) [m] of a box or a convex mesh, and their numbers."""
     on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
-    facing = on & (dot(flat.normals, way) >= FACE_COSINE)
+    facing = on & (dot(flat.normals, way) >= TURNED)
     ends = flat.vertices[flat.edges]
     along = ends[:, 1] - ends[:, 0]
     level = np.abs(dot(along, way)) <= EDGE_COSINE * norm(along)

@@ -30,6 +30,7 @@ from quasistatic_ref.step.ordered import dot, product
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
 
 TURNED = cos_sin(FACING)[0]
+"""Least cosine of the angle between the pair's normal and that of a face or corner that bears."""
 
 
 class Surface(NamedTuple):

@@ -2,11 +2,17 @@
 
 import numpy as np
 
-from .distance import closest_points, corners, transformed
+from .distance import closest_points, corners, points_on, swapped, transformed
 from .rotation import AXES, unit
 
 OVER, SKEW = 1e-9, 1e-6
 """How far off a face a point is on it, over the box's size; sine between edges that cross [-]."""
+
+FACING = 0.9689124217106447
+"""cos 0.25, the least between the normals of the pair and of a contact, or of a face that bears."""
+
+FILLED = 1e6
+"""Distance of what fills the number of contacts [m]."""
 
 REPEATED = 1e-9
 """[m], and [-] of normals: candidates that differ by less are one."""
@@ -19,7 +25,7 @@ def selection(case):
         order = np.argsort(phi, kind="stable")
         if "normals" in case:
             n = np.array(case["normals"][g])
-            order = order[n[order] @ n[-1] >= np.cos(0.25)]
+            order = order[n[order] @ n[-1] >= FACING]
         filling = range(len(phi), 2 * len(phi) - len(order))
         indices = [*order.tolist(), *filling][: case["k"]]
         found.append(indices)
@@ -51,7 +57,7 @@ def touching_edges(shape, pose, x, n):
     x = (x - pose[1]) @ pose[0]
     n = n @ pose[0]
     on = sides @ x >= np.abs(sides) @ size / 2 - OVER * max(size)
-    facing = on & (sides @ n >= np.cos(0.25))
+    facing = on & (sides @ n >= FACING)
     along = ends[:, 1] - ends[:, 0]
     level = np.abs(along @ n) <= np.sin(0.25) * np.linalg.norm(along, axis=1)
     return np.flatnonzero(facing.any(axis=1) | on.all(axis=1) & level).tolist()
@@ -82,36 +88,77 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
     return found
 
 
+def ways(solid, n):
+    """Along which a corner may bear on a box, the last one first: n, and the face about it."""
+    if solid["kind"] != "box":
+        return []
+    i = int(np.argmax(np.abs(n)))
+    face = np.sign(n[i]) * AXES[i]
+    return [n, face] if face @ n >= FACING else [n]
+
+
+def bearing(box, x, way):
+    """How far points are beyond a box along a way, and which bear there: their foot is on it."""
+    half = np.array(box["size"]) / 2
+    near = 2 * OVER * max(half)
+    gap = x @ way - np.abs(way) @ half
+    foot, _ = points_on(box, x - gap[:, None] * way)
+    return gap, (gap <= near) & (foot <= near)
+
+
+def corners_on(solid, pose, x, n):
+    """phi, alpha, beta and n of corners x of another solid on this one; n is the pair's."""
+    at = (x - pose[1]) @ pose[0]
+    phi, normal = points_on(solid, at)
+    for way in ways(solid, n @ pose[0]):
+        gap, bears = bearing(solid, at, way)
+        phi = np.where(bears, gap, phi)
+        normal = np.where(bears[:, None], way, normal)
+    normal = normal @ pose[0].T
+    return phi, x - phi[:, None] * normal, x, normal
+
+
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
     """phi, alpha, beta, n and index of all candidates, and which come after all others."""
+    nearest = closest_points(alpha, pose_alpha, beta, pose_beta)
+    found = [nearest]
+    _, _, _, way = nearest
     clouds = "cloud" in (alpha["kind"], beta["kind"])
-    parts = []
     if k > 1 and not clouds:
-        for shape, swap in ((alpha, True), (beta, False)):
-            points = {"kind": "cloud", "points": corners(shape)}
-            if len(points["points"]):
-                pair = (points, pose_alpha, beta, pose_beta)
-                parts.append(pair if swap else (alpha, pose_alpha, points, pose_beta))
-    parts.append((alpha, pose_alpha, beta, pose_beta))
-    found = [closest_points(*part) for part in parts]
+        if len(corners(beta)):
+            x = transformed(pose_beta, corners(beta))
+            found.insert(0, corners_on(alpha, pose_alpha, x, way))
+        if len(corners(alpha)):
+            x = transformed(pose_alpha, corners(alpha))
+            found.insert(0, swapped(corners_on(beta, pose_beta, x, -way)))
     phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
     a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
     late = np.zeros(len(phi), dtype=bool)
     index = np.arange(len(phi))
+    if clouds or k == 1:
+        return phi, a, b, n, index, late
     last = len(phi) - 1
-    if k > 1 and not clouds:
-        crossed = crossings(
-            alpha, pose_alpha, beta, pose_beta, (phi[last], a[last], b[last], n[last])
-        )
-        if crossed:
-            *edge, own, on_a, on_b, normal = zip(*crossed, strict=True)
-            index = np.insert(index, last, crossing_index(last, k, *map(np.array, edge)))
-            phi = np.insert(phi, last, own)
-            a = np.insert(a, last, on_a, axis=0)
-            b = np.insert(b, last, on_b, axis=0)
-            n = np.insert(n, last, normal, axis=0)
-        late, _ = lateness(phi, a, n, k, REPEATED, last)
-    return phi, a, b, n, index, late
+    number = most_candidates(alpha, beta, last)
+    crossed = crossings(alpha, pose_alpha, beta, pose_beta, nearest)
+    if crossed:
+        *edge, own, on_a, on_b, normal = zip(*crossed, strict=True)
+        index = np.insert(index, last, crossing_index(last, k, *map(np.array, edge)))
+        phi = np.insert(phi, last, own)
+        a = np.insert(a, last, on_a, axis=0)
+        b = np.insert(b, last, on_b, axis=0)
+        n = np.insert(n, last, normal, axis=0)
+    about = np.flatnonzero(n @ way >= FACING)
+    late, _ = lateness(phi[about], a[about], n[about], k, REPEATED, np.sum(about < last))
+    filling = np.arange(max(0, min(k, number) - len(about)))
+    kept = np.append(about, 0 * filling + len(phi) - 1)
+    phi = np.append(phi[about], 0.0 * filling + FILLED)
+    index = np.append(index[about], last + 1 + filling)
+    return phi, a[kept], b[kept], n[kept], index, np.append(late, filling >= 0)
+
+
+def most_candidates(alpha, beta, last):
+    """How many there are at most, of two solids with `last` corners."""
+    return last + 9 if alpha["kind"] == beta["kind"] == "box" else last + 1
 
 
 def crossing_index(last, k, i, j):

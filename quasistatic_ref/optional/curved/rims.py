@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.crossings import (
-    FACE_COSINE,
     RIMS,
     ROUND,
     UP,
@@ -21,6 +20,7 @@ from quasistatic_ref.contact.crossings import (
     line,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Shape
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import crossed, dot, product, rotated
@@ -94,7 +94,7 @@ def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:
         straight = Edges(rotated(body.R, ends) + body.t, number, ROUND)
     else:
         straight = edges(body, x, n)
-    rims = [(z, i) for z, i in _rim_heights(shape) if np.sign(z) * way[2] >= FACE_COSINE]
+    rims = [(z, i) for z, i in _rim_heights(shape) if np.sign(z) * way[2] >= TURNED]
     centre = np.array([[0.0, 0.0, z] for z, _ in rims]).reshape(-1, 3)
     return Curves(
         straight,

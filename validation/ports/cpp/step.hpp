@@ -11,24 +11,30 @@ struct Candidate {
 
 inline std::vector<Candidate> candidates(const json& alpha, const Pose& at, const json& beta, const Pose& bt, int k) {
   std::vector<Candidate> found;
-  auto take = [&](const Distance& d) {
-    bool repeats = false;
-    for (const Candidate& e : found)
-      repeats |= std::abs(e.d.phi - d.phi) <= 1e-9 && norm(e.d.alpha - d.alpha) <= 1e-9 && norm(e.d.n - d.n) <= 1e-9;
-    found.push_back({d, int(found.size()), repeats});
-  };
   if (alpha["kind"] == "cloud" || beta["kind"] == "cloud") {
     for (const Distance& d : distances(alpha, at, beta, bt)) found.push_back({d, int(found.size()), false});
     return found;
   }
   Distance closest = distance(alpha, at, beta, bt);
   if (k == 1) return {{closest, 0, false}};
+  int number = 0;
+  auto take = [&](const Distance& d) {
+    int index = number++;
+    if (dot(d.n, closest.n) < std::cos(0.25)) return;
+    bool repeats = false;
+    for (const Candidate& e : found)
+      repeats |= std::abs(e.d.phi - d.phi) <= 1e-9 && norm(e.d.alpha - d.alpha) <= 1e-9 && norm(e.d.n - d.n) <= 1e-9;
+    found.push_back({d, index, repeats});
+  };
   for (Vec x : corners(alpha)) take(distance({{"kind", "sphere"}, {"radius", 0.}}, {identity, at * x}, beta, bt));
   for (Vec x : corners(beta)) take(distance(alpha, at, {{"kind", "sphere"}, {"radius", 0.}}, {identity, bt * x}));
   int nearer = 0;
   for (const Candidate& c : found) nearer += !c.behind && c.d.phi <= closest.phi + 1e-9;
   take(closest);
   if (nearer >= k) found.back().behind = true;
+  Distance far = closest;
+  far.phi = 1e6;
+  for (int index = number; int(found.size()) < std::min(k, number); index++) found.push_back({far, index, true});
   return found;
 }
 

@@ -54,18 +54,22 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 	if k == 1 {
 		return []Candidate{closest}
 	}
-	for _, d := range distances(Shape{Kind: "cloud", Points: vertices(alpha)}, beta, at, bt) {
+	for _, x := range vertices(alpha) {
+		d := swapped(corner(beta, bt, place(at, x), scale(-1, closest.N)))
 		found = append(found, Candidate{Distance: d, index: len(found)})
 	}
-	for _, d := range distances(alpha, Shape{Kind: "cloud", Points: vertices(beta)}, at, bt) {
+	for _, x := range vertices(beta) {
+		d := corner(alpha, at, place(bt, x), closest.N)
 		found = append(found, Candidate{Distance: d, index: len(found)})
 	}
 	last := len(found)
 	closest.index = last
+	number := last + 1
 	if alpha.Kind == "box" && beta.Kind == "box" {
 		found = append(found, crossings(alpha, beta, at, bt, closest.Distance, k)...)
+		number += 8
 	}
-	found = append(found, closest)
+	found = facing(append(found, closest), closest.N)
 	corners, others := 0, 0
 	for i, c := range found {
 		for _, d := range found[:i] {
@@ -85,7 +89,53 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 			found[i].behind = true
 		}
 	}
+	far := Candidate{closest.Distance, last, true}
+	far.Phi = 1e6
+	for len(found) < k && len(found) < number {
+		far.index++
+		found = append(found, far)
+	}
 	return
+}
+
+// facing is those whose normal is within 0.25 rad of n.
+func facing(all []Candidate, n Vec) (found []Candidate) {
+	for _, c := range all {
+		if dot(c.N, n) >= math.Cos(0.25) {
+			found = append(found, c)
+		}
+	}
+	return
+}
+
+// corner is the distance from a solid to a corner x of another, the closest pair's normal being n.
+func corner(solid Shape, pose Pose, x, n Vec) Distance {
+	d := distance(solid, Shape{Kind: "sphere"}, pose, Pose{x, pose.Quaternion})
+	if solid.Kind != "box" {
+		return d
+	}
+	local, towards := rotate(conjugate(pose.Quaternion), sub(x, pose.Xyz)), rotate(conjugate(pose.Quaternion), n)
+	ways := []Vec{towards}
+	for i := range towards {
+		if math.Abs(towards[i]) >= math.Cos(0.25) {
+			ways = append(ways, scale(math.Copysign(1, towards[i]), axis(i)))
+		}
+	}
+	for _, way := range ways {
+		gap := dot(way, local)
+		for i := range way {
+			gap -= math.Abs(way[i]) * solid.Size[i] / 2
+		}
+		foot, excess := along(local, way, -gap), gap
+		for i := range foot {
+			excess = math.Max(excess, math.Abs(foot[i])-solid.Size[i]/2)
+		}
+		if excess <= 1e-9*math.Max(solid.Size[0], math.Max(solid.Size[1], solid.Size[2])) {
+			m := rotate(pose.Quaternion, way)
+			d = Distance{gap, along(x, m, -gap), x, m}
+		}
+	}
+	return d
 }
 
 // Edge of a box, of length one from a corner; it may bear against n at a point of the surface.

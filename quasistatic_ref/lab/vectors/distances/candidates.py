@@ -2,35 +2,50 @@
 
 Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
 crossings of the edges of boxes, and the closest pair, in that order; for one contact, the closest
-pair alone. The k of least signed distance are kept, those that repeat an earlier one after all
-others, and so the closest pair where k others are as near, and crossings where k corners are.
-Everything is decided on distances, points and normals that are rounded to float64.
+pair alone. Corners whose normal is not about the closest pair's are none. The k of least signed
+distance are kept, those that repeat an earlier one after all others, and so the closest pair where
+k others are as near, and crossings where k corners are. Everything is decided on distances, points
+and normals that are rounded to float64.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.candidates import (
+    FACING,
+    FILLED,
+    bearing,
     crossing_index,
     crossings,
     edges,
     lateness,
+    most_candidates,
+    ways,
 )
 from quasistatic_ref.lab.program.distance import corners
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.shapes import placed_shape
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.precision import Vector, rounded_results, vector
+from quasistatic_ref.lab.vectors.exact.precision import (
+    IDENTITY,
+    Vector,
+    rounded_results,
+    vector,
+)
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED
 
 FIELDS = ("phi", "alpha", "beta", "n")
 TIED = 1e-12
-"""Difference of distances [m] below which it is rounding that decides what is kept."""
+"""Difference of distances [m] below which it is rounding that decides what is kept; and of normals
+[-] that are one."""
+LIMIT = 1e-6
+"""Of cosines: so near to that of 0.25 rad rounding decides, too [-]."""
 
 
 @dataclass(frozen=True)
@@ -74,13 +89,27 @@ def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k:
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     candidates = [one for part in parts(case, k) for one in _candidates(part)]
     index = list(range(len(candidates)))
+    if k == 1 or "cloud" in (alpha["kind"], beta["kind"]):
+        return _kept_candidates(candidates, index, k, corners=None)
     last = len(candidates) - 1
-    if k > 1 and alpha["kind"] == beta["kind"] == "box":
-        crossed = _crossings(case, candidates[last])
+    nearest = candidates[last]
+    candidates[:last] = [_bearing_corner(case, one, nearest) for one in candidates[:last]]
+    if alpha["kind"] == beta["kind"] == "box":
+        crossed = _crossings(case, nearest)
         candidates[last:last] = [one for _, one in crossed]
         index[last:last] = [int(crossing_index(last, k, *edges)) for edges, _ in crossed]
-    solids = "cloud" not in (alpha["kind"], beta["kind"])
-    return _kept_candidates(candidates, index, k, corners=last if solids else None)
+    cosines = np.array([one.numbers["n"] for one in candidates]) @ nearest.numbers["n"]
+    about = np.flatnonzero(cosines >= FACING).tolist()
+    found = _kept_candidates(
+        [candidates[i] for i in about], [index[i] for i in about], k,
+        corners=sum(index[i] < last for i in about),
+    )  # fmt: skip
+    far = {**nearest.numbers, "phi": FILLED}
+    filling = range(min(k, most_candidates(alpha, beta, last)) - len(about))
+    contacts = [*found.contacts, *({"index": last + 1 + i, **far} for i in filling)]
+    clear = found.clear and bool(np.abs(cosines - FACING).min() > LIMIT)
+    contacts.sort(key=itemgetter("index"))
+    return replace(found, contacts=contacts, clear=clear)
 
 
 def parts(case: Json, k: int) -> list[Json]:
@@ -120,6 +149,40 @@ def _candidates(case: Json) -> list[_Candidate]:
                 for numbers, shape in zip(found, alone, strict=True)
             ]
     return [_Candidate(found[0], found[0].pop("unique"), case)]
+
+
+def _bearing_corner(case: Json, own: _Candidate, nearest: _Candidate) -> _Candidate:
+    """A corner as it bears with the pair's normal: which way is decided on rounded numbers."""
+    side, other = ("alpha", "beta") if own.case["alpha"]["kind"] == "cloud" else ("beta", "alpha")
+    out = 1 if other == "alpha" else -1
+    R, t = frame(case[f"pose_{other}"])
+    x = (np.array(own.numbers[side]) - t) @ R
+    found = [
+        way
+        for way in ways(case[other], out * np.array(nearest.numbers["n"]) @ R)
+        if bearing(case[other], x[None], way)[1][0]
+    ]
+    own_way = out * np.array(own.numbers["n"]) @ R
+    if not found or np.abs(found[-1] - own_way).max() <= TIED:
+        return own
+    way = found[-1]
+
+    def place() -> Json:
+        box = placed_shape(case[other], case[f"pose_{other}"])
+        corner = placed_shape(own.case[side], case[f"pose_{side}"])
+        point = corner.world(corner.points[0])
+        face = np.count_nonzero(way) == 1
+        n = box.world_direction(vector(way)) if face else out * witnesses(case)[0].n
+        reach = sum(
+            half * abs(n @ box.world_direction(axis))
+            for half, axis in zip(box.sizes, IDENTITY, strict=True)
+        )
+        phi = n @ (point - box.t) - reach
+        foot = point - phi * n
+        alpha, beta = (foot, point) if other == "alpha" else (point, foot)
+        return {"phi": phi, "alpha": alpha, "beta": beta, "n": out * n}
+
+    return _Candidate(rounded_results(place)[0], nearest.unique, nearest.case)
 
 
 def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _Candidate]]:

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, contact_forces, load_scenario
+from quasistatic_ref.lab.program import step as program
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen_points
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.own.step import posed_case
-from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN
+from quasistatic_ref.lab.vectors.own.step import own_step, posed_case
+from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, free_body, on, scene
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 from tests.oracles.compliant_forces import forces as independent_forces
@@ -39,6 +41,32 @@ def test_where_rounding_decides_what_is_kept_it_is_said():
     tilted = {**level, "quaternion": [0.1, 0.0, 0.0, 1.0]}  # an edge is parallel to the floor
     assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 1).unique is False
     assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 3).clear is False
+
+
+def test_tilted_boxes_keep_corners_of_one_normal_alone():
+    # A small box stands on a corner over the middle of a plate's face, tilted by more than 0.25
+    # rad. Its corners are over that face, at their own heights; the plate's corners are nearest to
+    # sides of the box, whose normals are others: they are none, and the closest pair fills.
+    quaternion = np.array([0.2, 0.1, 0.0, 1.0])
+    plate = {"kind": "box", "size": [2.0, 2.0, 0.2]}
+    pairs = [{"name": "pair", "alpha": "plate", "beta": "box", "mu_v": 0.5, "mu_omega": 0.01,
+              "rows": 6, "k": 12}]  # fmt: skip
+    shapes = {"plate": on(None, plate), "box": on("body", BOX)}
+    body = {**free_body("body"), "mass": 1.0, "com": [0.0] * 3, "inertia": np.eye(3).tolist()}
+    case = scene([body], shapes, [0.0, 0.0, 0.3, *quaternion.tolist()], pairs=pairs)
+    signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
+    heights = 0.3 + 0.1 * signs @ rotation(quaternion)[2] - 0.1
+    for contacts in (
+        layer("step").expected(case).output["contacts"],
+        program.step(case)["contacts"],
+        own_step(case)["contacts"],
+    ):
+        found = {contact["index"]: contact for contact in contacts}
+        assert list(found) == [*range(8, 20)]
+        assert_within([found[8 + i]["phi"] for i in range(8)], heights, ROUNDING)
+        assert_within([one["n"] for one in contacts], np.tile([0.0, 0.0, 1.0], (12, 1)), ROUNDING)
+        assert_within(found[16]["phi"], heights.min(), ROUNDING)  # repeats a corner
+        assert [found[i]["phi"] for i in (17, 18, 19)] == [1e6] * 3
 
 
 def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
