@@ -106,16 +106,17 @@ def bearing(box, x, way):
     return gap, (gap <= near) & (foot <= near)
 
 
-def corners_on(solid, pose, x, n):
-    """phi, alpha, beta and n of corners x of another solid on this one; n is the pair's."""
+def as_they_bear(solid, pose, n, found):
+    """phi, alpha, beta and n of another solid's corners on this one, alpha; n is the pair's."""
+    phi, alpha, x, normal = found
     at = (x - pose[1]) @ pose[0]
-    phi, normal = points_on(solid, at)
     for way in ways(solid, n @ pose[0]):
         gap, bears = bearing(solid, at, way)
+        out = pose[0] @ way
         phi = np.where(bears, gap, phi)
-        normal = np.where(bears[:, None], way, normal)
-    normal = normal @ pose[0].T
-    return phi, x - phi[:, None] * normal, x, normal
+        alpha = np.where(bears[:, None], x - gap[:, None] * out, alpha)
+        normal = np.where(bears[:, None], out, normal)
+    return phi, alpha, x, normal
 
 
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
@@ -126,11 +127,13 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     clouds = "cloud" in (alpha["kind"], beta["kind"])
     if k > 1 and not clouds:
         if len(corners(beta)):
-            x = transformed(pose_beta, corners(beta))
-            found.insert(0, corners_on(alpha, pose_alpha, x, way))
+            points = {"kind": "cloud", "points": corners(beta)}
+            own = closest_points(alpha, pose_alpha, points, pose_beta)
+            found.insert(0, as_they_bear(alpha, pose_alpha, way, own))
         if len(corners(alpha)):
-            x = transformed(pose_alpha, corners(alpha))
-            found.insert(0, swapped(corners_on(beta, pose_beta, x, -way)))
+            points = {"kind": "cloud", "points": corners(alpha)}
+            own = swapped(closest_points(points, pose_alpha, beta, pose_beta))
+            found.insert(0, swapped(as_they_bear(beta, pose_beta, -way, own)))
     phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
     a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
     late = np.zeros(len(phi), dtype=bool)
