@@ -51,9 +51,9 @@ def distance_to_rounded_box(
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
     outside = np.sqrt(dot(beyond, beyond))
-    inside = np.maximum.reduce(excess, axis=-1)
+    inside = np.maximum.reduce(excess, axis=1)
     is_inside = outside == 0
-    nearest_face = _AXES.take(excess.argmax(axis=-1), axis=1).T  # x before y before z, as beyond
+    nearest_face = _AXES.take(excess.argmax(axis=1), axis=1).T  # x before y before z, as beyond
     away = np.where(is_inside[..., None], nearest_face, beyond)
     away /= (outside + is_inside)[..., None]
     # Zero has the positive sign, whichever zero it is.

@@ -55,7 +55,6 @@ class OnwardProver(Prover):
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum; an `answer` is not looked at. Errors are those of the base."""
-        step = both.si_step
-        optimum = step_optimum(step, [i for i in self._before if i < step.m])
+        optimum = step_optimum(both.si_step, self._before)
         self._before = optimum.working_set
         return optimum

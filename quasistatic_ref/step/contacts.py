@@ -116,12 +116,12 @@ class Contacts(Plain, Shown):
 
     def entries(self) -> tuple[Indices, Indices, Array]:
         """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
-        contact, coordinate = np.nonzero((self.J != 0).any(axis=1))
+        contact, coordinate = np.nonzero(self.J.any(axis=1))
         return contact, coordinate, self.J[contact, :, coordinate]
 
     def moving(self) -> bytes:
         """Which coordinates move which contacts: equal bytes where these are the same."""
-        return self.J.any(axis=1).tobytes()
+        return self.kept_J.any(axis=1).tobytes()
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""

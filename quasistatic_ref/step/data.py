@@ -280,7 +280,7 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
     "n_a": lambda step: step.n_a,
     "n_u": lambda step: step.n_u,
     "contacts.rows": lambda step: step.contacts.rows,
-    "contacts.mu_v": lambda step: step.contacts.mu[:, 0],
+    "contacts.mu_v": lambda step: step.contacts.mu_v,
     "contacts.mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
     "extra": lambda step: len(step.extra.names),
 }

@@ -62,7 +62,7 @@ class StepProblem(Shown):
 
         # What all these steps have in common.
         h = template.h
-        mu_v = template.contacts.mu[:, 0]
+        mu_v = template.contacts.mu_v
         mu_omega = template.contacts.mu[:, 2]
         torsional = template.contacts.torsion
 

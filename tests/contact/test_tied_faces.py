@@ -8,7 +8,7 @@ from quasistatic_ref import Box, HalfSpace, PointCloud, convex_hull
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.separations import OF_CLOUD, OF_PAIR
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.tied_faces import corner_surface, faces_apart
+from quasistatic_ref.contact.tied_faces import _over, corner_surface, faces_apart
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import SAME_NORMAL
 from tests.closeness import assert_within
@@ -73,6 +73,14 @@ def test_a_corner_is_over_a_face_or_on_an_edge_but_for_rounding(half, within, of
     edge, other = surface(box, [half + off, 0.0, half], between, within)
     assert_within(edge, [off / np.sqrt(2), *between], CLOSED_FORM)
     assert [tie, other] == [OF_PAIR] * 2
+
+
+def test_a_point_is_over_a_face_up_to_what_is_near():
+    # It is 0.25 above the top of a cube, and 0.25 beyond its side.
+    x = np.array([[1.25, 0.0, 1.25]])
+    cube = Box(np.ones(3))
+    for near, over in ((0.25, True), (0.125, False)):
+        assert _over(cube, x, np.array([0.25]), Z[None], near).tolist() == [over]
 
 
 def test_a_corner_on_a_ridge_whose_faces_both_face_the_pair_has_the_pair_s_normal():

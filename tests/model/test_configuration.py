@@ -36,6 +36,10 @@ def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths():
     assert np.array_equal(q, Q)
 
 
+def test_parts_of_length_zero_stay():
+    assert not normalised(JOINTS, 0 * Q).any()
+
+
 def test_lengths_off_by_rounding_alone_keep_their_bits():
     q = normalised(JOINTS, Q)
     q[UNITS["quaternion"]] = [0.0, 0.0, 0.0, 1.0 + 2.0**-52]

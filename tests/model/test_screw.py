@@ -56,6 +56,10 @@ def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle)
     assert_within(screw(v, w)[1], LINEAR, 4 * ROUNDING)
 
 
+def test_a_floating_base_is_written_as_its_place_and_then_its_quaternion():
+    assert FLOATING.at(np.array(LINEAR), np.zeros(3)) == [*LINEAR, 0, 0, 0, 1]
+
+
 @pytest.mark.parametrize("angle", ANGLES)
 def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     # position' = position + R t, where t is the translation of the screw

@@ -78,6 +78,10 @@ def test_an_impossible_shape_is_refused(make, words):
         make()
 
 
+def test_a_rotation_may_be_off_by_the_tolerance_itself():
+    PlacedShape("a#0", 0, sheared_matrix(ORTHONORMAL), np.zeros(3), Sphere(1.0))
+
+
 def test_lengths_are_halves_or_wholes_of_at_least_a_proton_s():
     assert Cylinder(0.1, length=0.4) == Cylinder(0.1, 0.2)
     assert Box(size=np.array([0.2, 0.4, 0.6])) == Box(np.array([0.1, 0.2, 0.3]))

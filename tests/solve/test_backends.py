@@ -194,10 +194,19 @@ def test_a_backend_is_not_asked_for_more_than_it_can_and_says_so():
     assert solve_step(pinch(), "osqp", accuracy=1e-5).statistics.accuracy == 1e-5
 
 
-def test_a_backend_of_the_other_interface_only_is_named_with_its_interface(monkeypatch):
-    table = "quasistatic_ref.solve.backends.installed_backends"
-    monkeypatch.setattr(table, lambda: ("clarabel", "qpsolvers:quadprog"))
-    with pytest.raises(BackendError, match="is available as 'qpsolvers:quadprog'; installed here"):
+@pytest.mark.parametrize(
+    ("known", "native", "remedy"),
+    [
+        (("clarabel", "qpsolvers:quadprog"), (), "is available as 'qpsolvers:quadprog'"),
+        (("clarabel",), ("quadprog",), "is reached with fast alone"),
+        (("clarabel",), (), "is not installed; pip install quadprog, or "),
+    ],
+)
+def test_a_backend_of_other_interfaces_only_is_named_with_them(known, native, remedy, monkeypatch):
+    table = "quasistatic_ref.solve.backends"
+    monkeypatch.setattr(f"{table}.installed_backends", lambda: known)
+    monkeypatch.setattr(f"{table}.installed", lambda interface: native)
+    with pytest.raises(BackendError, match=f"{remedy}.*; installed here: clarabel"):
         backend("quadprog")
 
 

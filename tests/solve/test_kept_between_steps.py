@@ -49,6 +49,10 @@ def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_s
     assert cold.walks > warm.walks == 0
     for name in ("delta_q", "net", "slack"):
         assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()
+    fewer = pushed_point()
+    assert fewer.m in cold.working_set
+    onward = solver.prover.optimum(solver.in_both_units(fewer), None)
+    assert onward.delta_q.tobytes() == solve_step(fewer, "none").delta_q.tobytes()
 
 
 @pytest.mark.parametrize("step", [pushed_point(), pinch(grip=5.0)])
@@ -93,5 +97,6 @@ def test_wrenches_are_finite_where_mu_and_lam_are_below_the_largest_by_far():
     assert not far(2.0**101, 1.0)
     assert not far(0.5, 2.0**101)
     assert not far(2.0**101, 2.0**101)
+    assert not far(2.0**99, 2.0**99)  # their squares sum up to the limit itself
     assert far(0.5, 1.0, h=2.0**-199)
     assert not far(0.5, 1.0, h=2.0**-200)

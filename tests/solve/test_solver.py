@@ -268,6 +268,23 @@ def test_times_are_those_of_this_solve(step):
     assert statistics.solve_time is not None
     assert 0 < statistics.solve_time < elapsed
     assert 0 < statistics.proof_time < elapsed
+    for kind, name in ((CvxpySolver, "clarabel"), (QpsolversSolver, "qpsolvers:clarabel")):
+        solver = kind(step, name)
+        both = solver.in_both_units(step)
+        solver.write(both)
+        begin = time.perf_counter()
+        reply = solver.reply(solver.option_sets(1e-9)[0], both)
+        assert 0 < reply.call_seconds < time.perf_counter() - begin
+        assert 0 < reply.seconds < reply.call_seconds
+
+
+def test_of_highs_alone_the_greeting_is_silenced(step, monkeypatch):
+    where = "quasistatic_ref.solve.solver.greeting_silenced"
+    silenced = []
+    for name in ("highs", "osqp", "qpsolvers:highs"):
+        monkeypatch.setattr(where, lambda name=name: silenced.append(name))
+        NoSolver(step, name)
+    assert silenced == ["highs", "qpsolvers:highs"]
 
 
 def test_rows_of_contacts_out_of_reach_are_marked(step):
@@ -287,7 +304,9 @@ def test_the_bound_of_an_error_is_finite_in_a_polyhedral_cone(step):
 def test_a_step_that_cvxpy_would_compile_for_minutes_is_proved_without_its_answer(
     step, monkeypatch
 ):
+    monkeypatch.setattr(through_cvxpy, "MOST_CONTACTS", 3)
     asked = solve_step(step)
+    assert asked.statistics.status == "optimal"
     monkeypatch.setattr(through_cvxpy, "MOST_CONTACTS", 2)  # of its three
     proved = solve_step(step)
     assert proved.statistics.status.startswith("failed: not called: CVXPY takes too long")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Contacts, Extra, StepDataError
-from quasistatic_ref.lab.scenes.contacts import no_contacts, repeated
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts, repeated
 from quasistatic_ref.step.data import differences
 from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
 from tests.helpers import changed, random_step
@@ -88,6 +88,17 @@ def test_a_frame_passes_just_inside_the_tolerance_and_not_outside():
     assert changed(CONTACTS, n=tilted(0.5 * ORTHONORMAL)).n_c == 2
     with pytest.raises(StepDataError):
         changed(CONTACTS, n=tilted(2 * ORTHONORMAL))
+
+
+def test_a_frame_passes_at_the_tolerance_itself(monkeypatch):
+    monkeypatch.setattr("quasistatic_ref.step.contacts.ORTHONORMAL", 1.25)  # 1.5^2 - 1
+    frames = np.tile(np.eye(3), (2, 1, 1))
+    frames[:, 0] *= 1.5
+    J = np.zeros((2, 4, 3))
+    assert contacts_of(0.0, frames, J, 0.5).n_c == 2
+    frames[1, 0] *= 2
+    with pytest.raises(StepDataError, match=r"contacts\[c1\]"):
+        contacts_of(0.0, frames, J, 0.5)
 
 
 def test_a_matrix_is_made_symmetric_from_its_lower_triangle():

@@ -61,6 +61,14 @@ def test_inertia_couples_the_coordinates_after_the_actuated_ones():
     assert [g.coordinates.tolist() for g in groups(step)] == [[0, 1], [2, 4], [3]]
 
 
+def test_contacts_tell_which_coordinates_move_which_of_them():
+    J = np.zeros((2, 4, 2))
+    J[[0, 1], 1, [0, 1]] = 1.0  # each contact moves with a coordinate of its own
+    frames = np.tile(np.eye(3), (2, 1, 1))
+    one, larger, other = (contacts_of(0.0, frames, j, 0.5).moving() for j in (J, 2 * J, J[::-1]))
+    assert one == larger != other
+
+
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     J = np.zeros((2, 4, 5))
     J[0, 3, 4] = J[0, 0, 1] = 1.0  # the first contact moves with 1 and 4; the second with nothing

@@ -202,7 +202,7 @@ def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> tuple[Judged
     best = max((first, known), key=lambda answer: (answer.defect <= WITNESS, answer.phi))
     rivals = rival_directions(a, b, best.n if best.defect <= WITNESS else n, best.phi, size)
     found = [known, *(_refined(a, b, way, size) for way in rivals)]
-    for answer in found[1:]:
+    for answer in found:
         if answer.defect <= WITNESS and answer.phi > best.phi:
             best = answer
     # No gap exceeds the signed distance: where one does, the way out was not found.

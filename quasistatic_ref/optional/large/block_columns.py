@@ -64,27 +64,27 @@ def block_columns(layout: ContactLayout, column_map: ColumnMap) -> BlockColumns:
     moves = column_map.moves[:, 0, by_coordinate] > 0
     a = moves[layout.link_alpha]
     b = moves[layout.link_beta]
-    contact, rank, joint_column = _ragged(a | b)
-    shape = (len(a), 1 + int(rank.max(initial=-1)))
+    contact, rank, joint_column, n_x = _ragged(a | b)
     coordinate = np.zeros((len(a), column_map.n_v), dtype=bool)
     coordinate[contact, owner[joint_column]] = True
-    at, position, v = _ragged(coordinate)
-    column = np.full((len(a), 1 + int(position.max(initial=-1))), column_map.n_v)
+    at, position, v, w = _ragged(coordinate)
+    column = np.full((len(a), w), column_map.n_v)
     column[at, position] = v
     column.setflags(write=False)  # one array for all steps
-    joints, place = np.zeros((2, *shape), dtype=np.int64)
+    joints, place = np.zeros((2, len(a), n_x), dtype=np.int64)
     joints[contact, rank] = by_coordinate[joint_column]
     place[contact, rank] = (coordinate.cumsum(axis=1) - 1)[contact, owner[joint_column]]
-    alpha, beta = np.zeros((2, *shape))
+    alpha, beta = np.zeros((2, len(a), n_x))
     alpha[contact, rank] = a[contact, joint_column]
     beta[contact, rank] = b[contact, joint_column]
     return BlockColumns(column, joints, place, alpha, beta, column_map.n_v)
 
 
-def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
-    """Row, rank in the row and column of each mark."""
+def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices, int]:
+    """Row, rank in the row and column of each mark, and the most marks of a row."""
     row, column = np.nonzero(marked)
-    return row, marked.cumsum(axis=1)[row, column] - 1, column
+    count = marked.cumsum(axis=1)[row, column]
+    return row, count - 1, column, int(count.max(initial=0))
 
 
 BLOCK_COLUMNS.fill(block_columns)

@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
+from quasistatic_ref.step.arrays import Array, Indices, read_only
 from quasistatic_ref.step.contacts import Contacts
 
 
@@ -73,13 +73,12 @@ class SparseContacts(Contacts):
 
     def entries(self) -> tuple[Indices, Indices, Array]:
         """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
-        contact, place = np.nonzero((self.blocks.J != 0).any(axis=1))
+        contact, place = np.nonzero(self.blocks.J.any(axis=1))
         return contact, self.blocks.column[contact, place], self.blocks.J[contact, :, place]
 
     def moving(self) -> bytes:
         """Which coordinates move which contacts, and where they are kept, as bytes."""
-        moves: Mask = (self.blocks.J != 0).any(axis=1)
-        return self.blocks.column.tobytes() + moves.tobytes()
+        return self.blocks.column.tobytes() + super().moving()
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, those columns of it, shape (k, 4, n)."""

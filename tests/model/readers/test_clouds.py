@@ -284,6 +284,22 @@ def test_more_points_or_text_than_a_cloud_may_have_are_refused(tmp_path, name, c
         point_cloud(path)
 
 
+def test_coordinates_and_columns_may_reach_their_limits(tmp_path, monkeypatch):
+    far = tmp_path / "far.xyz"
+    far.write_text("2 0 0\n0 -2 0\n")
+    four = tmp_path / "four.pcd"
+    four.write_bytes(pcd("ascii", PCD_BODY))
+    for path, limit, most in (
+        (far, "model.readers.clouds.LARGE", 2.0),
+        (four, "optional.readers.pcd.MOST_COLUMNS", 4),
+    ):
+        monkeypatch.setattr(f"quasistatic_ref.{limit}", most)
+        assert len(point_cloud(path).points) == 2
+        monkeypatch.setattr(f"quasistatic_ref.{limit}", most - 1)
+        with pytest.raises(ModelError):
+            point_cloud(path)
+
+
 def test_a_text_of_points_has_at_most_so_many_letters_and_lines_and_takes_its_share(monkeypatch):
     spent = []
     for name, value in (("spend", spent.append), ("LARGEST_TEXT", 8), ("MOST_POINTS", 4)):

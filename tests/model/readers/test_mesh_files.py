@@ -48,6 +48,17 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
     )
 
 
+def test_a_mesh_may_be_as_large_as_the_largest(tmp_path, monkeypatch):
+    urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
+    size = (tmp_path / "a.obj").stat().st_size
+    for most in (size, size - 1):
+        monkeypatch.setattr("quasistatic_ref.model.readers.mesh_files.LARGEST_MESH", most)
+        if most == size:
+            assert mesh_path("a.obj", tmp_path, ()).stat().st_size == size
+    with pytest.raises(ModelError, match="is larger than"):
+        mesh_path("a.obj", tmp_path, ())
+
+
 def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
     (tmp_path / "arm" / "meshes").mkdir(parents=True)
     expected = urdf_of_text(tmp_path / "arm" / "meshes", TETRAHEDRON, "a.obj")

@@ -1,5 +1,7 @@
 """Limits of what a URDF may say: its size, its numbers, inertias of bodies, what was loaded."""
 
+from xml.etree.ElementTree import Element
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -9,8 +11,8 @@ from quasistatic_ref.model.urdf import urdf_file as urdf_file_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
 from quasistatic_ref.model.urdf.urdf_shapes import same_pose
-from quasistatic_ref.model.urdf.urdf_xml import DEEPEST, xml_root
-from quasistatic_ref.tolerances import LOADED
+from quasistatic_ref.model.urdf.urdf_xml import DEEPEST, Tag, xml_root
+from quasistatic_ref.tolerances import INERTIA_TRIANGLE, LOADED
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 
 
@@ -96,6 +98,7 @@ def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body():
         defect = inertia_defect(np.diag([0.3, rest, 0.31 + rest]))
         assert defect is not None
         assert "largest principal moment" in defect[1]
+    assert inertia_defect(np.diag([1.0, 1.0, 2 * (1 + INERTIA_TRIANGLE)])) is None
 
 
 @pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
@@ -125,11 +128,11 @@ def test_a_link_that_carries_only_links_without_mass_needs_one():
         loaded_urdf(empty, base="fixed")
 
 
-def test_a_fixed_joint_that_mimics_is_ignored():
+def test_what_a_fixed_joint_says_of_its_motion_is_ignored():
     arms = joint("turn", "a", "b"), joint("weld", "b", "c", "fixed", more=mimic("turn"))
     file = urdf_file(robot(link("a"), link("b"), link("c"), *arms))
     assert file.joints[1].mimic is None
-    assert [field for field in file.ignored if "mimic" in field] == ["joint[weld].mimic"]
+    assert file.ignored[-2:] == ("joint[weld].axis", "joint[weld].mimic")
 
 
 def test_a_joint_needs_its_effort_and_its_velocity_but_no_range():
@@ -149,3 +152,16 @@ def test_places_are_compared_in_proportion_to_their_distance(off, same):
     t = np.array([9.0, 0.0, 0.0])
     loaded = pin.SE3(np.eye(3), t + off * LOADED * np.eye(3)[0])
     assert same_pose(loaded, np.eye(3), t) is same
+
+
+def test_poses_that_differ_by_what_is_allowed_are_the_same():
+    off = LOADED * np.eye(3)
+    assert same_pose(pin.SE3(np.eye(3), off[0]), np.eye(3), np.zeros(3))
+    assert same_pose(pin.SE3(np.eye(3), np.zeros(3)), np.eye(3) - off[[1, 2, 0]], np.zeros(3))
+
+
+def test_a_number_may_be_as_large_as_the_largest():
+    tag = Tag(Element("mass", {"value": "-2"}), "mass")
+    assert tag.number("value", most=2.0) == -2.0
+    with pytest.raises(ModelError, match=r"must be at most 1\.5"):
+        tag.number("value", most=1.5)

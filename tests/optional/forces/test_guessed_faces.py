@@ -9,7 +9,7 @@ from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
-from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
+from quasistatic_ref.optional.forces.faces import face, face_of_rows, nearest_face, rows_of
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.step.cones import cone_matrix
 from tests.closeness import assert_within
@@ -43,6 +43,15 @@ def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
         assert min(found.integers[:-4] @ z) >= 0
         s = (found.integers[-4:] @ z / found.denominator).astype(float)
         assert_within(s, C.T @ nnls(C.T, -z)[0], ROUNDING)
+
+
+def test_rows_have_a_face_unless_they_are_dependent():
+    """The four rows of the pyramid without torsion are dependent: two sums of two are equal."""
+    for rows in ((), (0,), (0, 2)):
+        integers, denominator = face_of_rows("pyramid", 4, rows)
+        assert (integers == face("pyramid", 4, rows).integers).all()
+        assert denominator == face("pyramid", 4, rows).denominator
+    assert face_of_rows("pyramid", 4, (0, 1, 2, 3)) is None
 
 
 def wrong_guess(step, wrench):

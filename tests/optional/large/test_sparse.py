@@ -12,7 +12,7 @@ from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form, sparse_hessian
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.units import FAR
 from tests.closeness import assert_relative, assert_within
@@ -50,7 +50,9 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene, always_sparse):
     kinematics = system.kinematics(q)
     points = closest_points(simulator.pairs, kinematics)
     dense = ContactGeometry(simulator.layout, system.column_map).contacts(points, kinematics)
-    sparse = simulator.step(q, q[: system.n_q_a]).step.contacts
+    step = simulator.step(q, q[: system.n_q_a]).step
+    np.testing.assert_array_equal(sparse_hessian(step).toarray(), step.H)
+    sparse = step.contacts
     assert isinstance(sparse, SparseContacts)
     assert sparse.n_v == system.n_v
     assert sparse.J.tobytes() == dense.J.tobytes()

@@ -158,8 +158,9 @@ shapes/shape.py
     a_shape_added shapes SOLIDS
 model/urdf/solid.py
     plain_data
-model/readers/text.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
-model/urdf/urdf_tree.py model/urdf/urdf_xml.py
+model/readers/text.py
+    clouds URDF
+model/urdf/urdf_file.py model/urdf/urdf_inertia.py model/urdf/urdf_tree.py model/urdf/urdf_xml.py
     URDF
 model/urdf/urdf.py
     URDF ball system

@@ -8,14 +8,7 @@ from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
 from quasistatic_ref.optional.between import OTHER_WAYS_OUT
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
-from quasistatic_ref.shapes.placed_shape import (
-    Capsule,
-    Ellipsoid,
-    HalfSpace,
-    PointCloud,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.shapes.placed_shape import Ellipsoid, HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
 
@@ -43,17 +36,13 @@ def depth_tie(couple: Couple) -> bool:
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
     if couple.phi > 0:
         return False
-    P = polytope(a.shape)
-    Q = polytope(b.shape)
     within = TIED * couple.of.size
-    if P is None or Q is None:
+    if polytope(a.shape) is None or polytope(b.shape) is None:
         ways = OTHER_WAYS_OUT.needed(CURVED)(a, b, within)
         if any(np.abs(way - couple.n).max() > np.sqrt(TIED) for way in ways):
             return True
-    else:
-        axes = isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule)
-        if couple.phi + P.margin + Q.margin >= 0 and not axes:
-            return False  # cores that are apart have one nearest direction; axes may cross
+    elif couple.phi == 0:
+        return False  # faces or edges that just touch are not in penetration
     found, every = pair_and_gaps(couple.of.pair.name, a, b)
     return len(tied_normals(a, b, found, within, every)) > 1
 
