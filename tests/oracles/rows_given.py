@@ -156,7 +156,8 @@ def small_numbers():
     """The first of these is not zero, the others are.
 
     A'lam is 2^-130 along x_2, which takes the second precision; A'lam is zero along x_2 while a row
-    has no slack; x_1 is zero, pressed through 2^-416 x_1 + x_2, so that many digits are needed.
+    has no slack; x_1 is zero, as 2^-416 x_1 + x_2 is pressed as much as g_1 needs, so that many
+    digits are needed.
     """
     pair = [[1, 1], [1, -1]]
     rows, bounds = far(2, 3)
@@ -164,13 +165,17 @@ def small_numbers():
     rows, bounds = far(3, 4)
     held = [[1, 1, 0], [1, -1, 0], [0, 1, 1]]
     yield step_of(held + rows, [2, 0, 0, *bounds], [-1, 1, -1])
-    rows, bounds = far(2, 2)
+    rows, bounds = far(2, 3)
     for power in (120, 416):
-        yield step_of([[2.0**-power, 1], [1, 0], *rows], [0.75, 0, *bounds], [-1, -0.5])
+        small = 2.0**-power
+        yield step_of([[small, 1], *rows], [0.75, *bounds], [-1.25 * small, -0.5])
 
 
 def matrices():
-    """H of an entry below 2^-840, of det H = p, and such that the last bound of errors fails."""
+    """H of an entry below 2^-840, of det H = p, and such that the last bound of errors fails.
+
+    No coordinate of the last is zero, but the slack of a row on which nothing else depends is.
+    """
     low, t, near = 2.0**-850, 2**27, 1 - 1.4 * 2.0**-46
     rows, bounds = far(2, 2)
     A = [[1, 0], [0, 2.0**-52], *rows, [1, 1]]
@@ -179,6 +184,8 @@ def matrices():
     M = [[4 * (t - 1), 1, 0], [1, t + 1, 0], [0, 0, 1]]
     yield step_of(A, [0, 1, 0.25, -3], [-5, -1, -1], M=M)
     yield step_of([[1, 0]], [-5], [0.75, 1], M=[[1, near], [near, 1]])
+    rows, bounds = far(2, 3)
+    yield step_of([[2, -1], *rows], [0, *bounds], [1, 2])
 
 
 def in_units(A, b, g, rows, units):

@@ -118,6 +118,19 @@ def test_zeros_are_not_taken_over_by_other_rows_or_another_guess(monkeypatch, be
     assert smooth == [True, True, False]
 
 
+def test_a_group_that_nothing_presses_is_proved_on_the_rows_of_the_one_before():
+    """Two points, each on two equal floors. An answer says that the second bears one."""
+    J = np.zeros((4, 4, 6))
+    J[:2, :3, :3] = J[2:, :3, 3:] = np.eye(3)
+    contacts = contacts_of(0.0, [PLANES["z"]] * 4, J, 0.0)
+    step = free_step(np.eye(6), [0, 0, -1, 0, 0, -1], contacts, 0.01)
+    kept = Proofs()
+    lam = np.zeros(step.m)
+    lam[1] = 1.0
+    kept.optimum(DenseStepInBothUnits(step), NaturalAnswer(np.zeros(6), lam, None))
+    assert [proof.guess.tolist() for proof in kept.prover.proofs] == [[1], [1]]
+
+
 def test_a_kept_zero_of_another_group_is_no_entry_of_a_group():
     """A keeps all entries of 2 rows and 4 columns, that of row r and column v at 2 v + r.
 

@@ -59,7 +59,7 @@ def test_an_optimum_that_is_stored_is_that_of_the_exact_method():
 
 
 def test_as_many_digits_are_found_as_determinants_have():
-    """A row and a column of K are 2^416 times larger in whole numbers: p^m is above 2^832."""
+    """The column of f is 2^416 times larger in whole numbers: p^m is above 2^416."""
     *_, step = small_numbers()
     first = next(tried(Known(step, optimum_of(step), "", [], None, None)))
-    assert P**first.digits > 2 ** (2 * 416)
+    assert P**first.digits > 2**416

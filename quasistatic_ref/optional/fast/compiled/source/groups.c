@@ -111,12 +111,22 @@ int proof_nearby(Proof *p)
     return code;
 }
 
-/* What comes of the last optimum's rows, as long as the answer presses what it pressed then; or of
-   those of the answer. */
-static int proof_again(Proof *p, int same_answer)
+/* Whether a group whose answer presses nothing is DECIDED on the rows of another of equal constants. */
+static int proof_like(Proof *p, const Proof *other)
 {
-    if (same_answer && p->code == DECIDED && proof(p) == DECIDED)
-        return DECIDED;
+    if (p->answered || !other || !other->working || other->hessian != p->hessian)
+        return 0;
+    p->working = other->working;
+    memcpy(p->guess, other->guess, (size_t)p->working * sizeof(int64_t));
+    return proof(p) == DECIDED;
+}
+
+/* What comes of the last optimum's rows, as long as the answer presses what it pressed then; or of
+   those of the answer, or of the group before. */
+static int proof_again(Proof *p, int same_answer, const Proof *before)
+{
+    if ((same_answer && p->code == DECIDED && proof(p) == DECIDED) || proof_like(p, before))
+        return (int)p->code;
     return proof_nearby(p);
 }
 
@@ -124,6 +134,7 @@ static int proof_again(Proof *p, int same_answer)
 int groups_proved(Step *s)
 {
     int all = 1;
+    const Proof *before = NULL;
     s->least[0] = s->least[1] = INFINITY;
     s->claims[0] = s->claims[1] = 1;
     for (int64_t i = 0; i < s->groups; i++) {
@@ -135,7 +146,7 @@ int groups_proved(Step *s)
             if (!changed && same_answer && p->code != NOT_POSED)
                 s->code[i] = p->code;
             else if (natural_units(p->natural))
-                s->code[i] = proof_again(p, same_answer);
+                s->code[i] = proof_again(p, same_answer, before);
             else
                 p->code = NOT_POSED;
         }
@@ -143,6 +154,7 @@ int groups_proved(Step *s)
             all = 0;
             continue;
         }
+        before = p;
         given(s->delta_q, p->delta_q, p->coordinates, p->n_v);
         given(s->net, p->net, p->coordinates, p->n_v);
         given(s->rest, p->rest, p->coordinates, p->n_v);

@@ -124,12 +124,6 @@ static void less_y(const Proof *s, const Workspace *m, int64_t i, const Float *z
             add_product(sum, m->A + w * n + i, z[n + w], 1);
 }
 
-void less(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum)
-{
-    less_x(s, m, i, z, sum);
-    less_y(s, m, i, z, sum);
-}
-
 /* One correction: z += R r, and what is left of the residuals r, exactly. */
 void corrected(const Proof *s, Workspace *m)
 {

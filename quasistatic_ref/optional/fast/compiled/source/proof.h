@@ -95,7 +95,6 @@ static inline Float scaled(double x, double by)
 void load(const Proof *s, Number *g);
 void row_of(const Proof *s, int64_t r, Number *a, Number *b);
 void system_of(const Proof *s, Workspace *m);
-void less(const Proof *s, const Workspace *m, int64_t i, const Float *z, Sum *sum);
 void corrected(const Proof *s, Workspace *m);
 int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, const double *size, int64_t n, double *G, double *sizes);

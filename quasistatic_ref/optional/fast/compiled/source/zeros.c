@@ -1,8 +1,9 @@
 /* certify/dependence.follow and certify/degeneracy, with test_zeros.py: zeros of the optimum, and what
    rows without slack mean, without rounding: docs/proofs.md.
 
-   K z = f is solved modulo powers of p = 2^56 - 5. The digits of z to the base p, the last first, are
-   d = K^-1 r mod p, where r is f at first, and (r - K d) / p from then on. */
+   K z = f is solved modulo powers of p = 2^56 - 5, some coordinates being zero. M is what K has in the
+   other columns, and M_B some of its rows, as many as columns. The digits of these unknowns to the base
+   p, the last first, are d = M_B^-1 r_B mod p, where r is f at first, and (r - M d) / p from then on. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,8 +19,10 @@ typedef struct {
     const Proof *s;
     const Workspace *m;
     int64_t N, others; /* unknowns; rows outside of the working set */
-    uint64_t *LU, *d;  /* factors of K modulo p; one digit of each unknown, behind what is solved for */
-    int64_t *order; /* of the rows of K in LU */
+    int64_t columns, *column; /* of the M that is factorised; -1 before */
+    uint64_t *LU, *d; /* factors of M_B modulo p; one digit of each unknown, behind what is solved for */
+    int64_t *order; /* of the rows of K in LU: first those of M_B */
+    int64_t *rows;  /* that have entries in M, in this order, and the others */
     Float *digit;
     Number *r, *A, *b; /* residuals, those of the other rows too; the other rows and their b */
 } Lifting;
@@ -52,42 +55,37 @@ static uint64_t reciprocal(uint64_t x)
     return power;
 }
 
-/* The entry of K in a row and a column. */
-static void entry(const Lifting *l, int64_t i, int64_t j, Number *x)
+/* The entry of K in a row and a column, the unknowns being x and -y; or of another row. */
+static const Number *entry(const Lifting *l, int64_t i, int64_t j)
 {
     int64_t n = l->s->n_v;
     const Number *H = l->s->hessian, *A = l->m->A;
-    if (i >= n)
-        *x = A[(i - n) * n + j];
-    else if (j < n)
-        *x = H[i * n + j];
-    else
-        product(A + (j - n) * n + i, exact(-1.0), x);
+    if (j >= n)
+        return i < n ? A + (j - n) * n + i : &ZERO;
+    return i < n ? H + i * n + j : i < l->N ? A + (i - n) * n + j : l->A + (i - l->N) * n + j;
 }
 
-/* K = LU modulo p, rows exchanged, with -L and the reciprocal pivots in place; 0 if it is singular. */
-static int factored(Lifting *l)
+/* M_B = LU modulo p, rows exchanged, with -L and the reciprocal pivots in place; 0 if it is singular.
+   Coordinates that rest, or all if NULL, are zero. */
+static int factored(Lifting *l, const char *rests)
 {
-    int64_t N = l->N;
-    for (int64_t i = 0; i < N; i++) {
-        l->order[i] = i;
-        for (int64_t j = 0; j < N; j++) {
-            Number x;
-            l->LU[i * N + j] = 0;
-            if (l->m->K[i * N + j] == 0.0)
-                continue;
-            entry(l, i, j, &x);
-            l->LU[i * N + j] = residue(&x);
-        }
+    int64_t N = l->N, M = 0;
+    for (int64_t j = 0; j < N; j++) {
+        l->order[j] = j;
+        if (j >= l->s->n_v || (rests && !rests[j]))
+            l->column[M++] = j;
     }
-    for (int64_t c = 0; c < N; c++) {
+    for (int64_t i = 0; i < N; i++)
+        for (int64_t c = 0; c < M; c++)
+            l->LU[i * M + c] = residue(entry(l, i, l->column[c]));
+    for (int64_t c = 0; c < M; c++) {
         int64_t p = c;
-        while (p < N && !l->LU[p * N + c])
+        while (p < N && !l->LU[p * M + c])
             p++;
         if (p == N)
             return 0;
-        uint64_t *row = l->LU + c * N, *other = l->LU + p * N;
-        for (int64_t j = 0; j < N && p != c; j++) {
+        uint64_t *row = l->LU + c * M, *other = l->LU + p * M;
+        for (int64_t j = 0; j < M && p != c; j++) {
             uint64_t x = row[j];
             row[j] = other[j];
             other[j] = x;
@@ -97,36 +95,37 @@ static int factored(Lifting *l)
         l->order[p] = at;
         row[c] = reciprocal(row[c]);
         for (int64_t i = c + 1; i < N; i++) {
-            other = l->LU + i * N;
+            other = l->LU + i * M;
             if (!other[c])
                 continue;
             other[c] = P - modulo((Wide)other[c] * row[c]);
-            for (int64_t j = c + 1; j < N; j++)
+            for (int64_t j = c + 1; j < M; j++)
                 if (row[j])
                     other[j] = modulo((Wide)other[c] * row[j] + other[j]);
         }
     }
+    l->columns = M;
     return 1;
 }
 
-/* The next digits: d = K^-1 r modulo p. */
+/* The next digits: d = M_B^-1 r_B modulo p. */
 static void digits(Lifting *l)
 {
-    int64_t N = l->N;
+    int64_t M = l->columns;
     uint64_t *d = l->d;
-    for (int64_t i = 0; i < N; i++) {
+    for (int64_t i = 0; i < M; i++) {
         Wide sum = residue(l->r + l->order[i]);
         for (int64_t j = 0; j < i; j++)
-            sum += (Wide)l->LU[i * N + j] * d[j];
+            sum += (Wide)l->LU[i * M + j] * d[j];
         d[i] = modulo(sum);
     }
-    for (int64_t i = N - 1; i >= 0; i--) {
+    for (int64_t i = M - 1; i >= 0; i--) {
         Wide sum = 0;
-        for (int64_t j = i + 1; j < N; j++)
-            sum += (Wide)l->LU[i * N + j] * d[j];
-        d[i] = modulo((Wide)(d[i] + P - modulo(sum)) * l->LU[i * N + i]);
+        for (int64_t j = i + 1; j < M; j++)
+            sum += (Wide)l->LU[i * M + j] * d[j];
+        d[i] = modulo((Wide)(d[i] + P - modulo(sum)) * l->LU[i * M + i]);
     }
-    for (int64_t i = 0; i < N; i++)
+    for (int64_t i = 0; i < M; i++)
         l->digit[i] = (Float){FRACTION, (int64_t)d[i], 0};
 }
 
@@ -170,65 +169,77 @@ static double lower(double bound, const Number *x)
 
 /* Bits of a row (a, f) of whole numbers: a is a multiple of 2^of_a, f of 2^(of_a + of_f) with the
    least of_f so far. */
-static double bits_of(double of_a, double squared, const Number *f, double *of_f)
+static double bits_of(double of_a, double size, const Number *f, double *of_f)
 {
     *of_f = fmin(*of_f, lower(of_a, f) - of_a);
-    return log2(squared + value(f) * value(f)) / 2 - of_a;
+    return log2(size + fabs(value(f))) - of_a;
 }
 
-/* Bits of the whole numbers of which z and the slacks are quotients: Hadamard's bound of
-   determinants, each row and column as a multiple of a power of two. */
-static double bits(const Lifting *l)
+/* Whether a row has no entries in M's columns. */
+static int vacant(const Lifting *l, int64_t i)
 {
-    const Proof *s = l->s;
-    const Number *H = s->hessian, *A = l->m->A;
-    int64_t n = s->n_v, k = s->working;
+    int none = 1;
+    for (int64_t c = 0; c < l->columns && none; c++)
+        none = empty(entry(l, i, l->column[c]));
+    return none;
+}
+
+/* Bits of the whole numbers of which the unknowns, and what M_B leaves of other rows, are quotients:
+   Hadamard's bound of determinants, each row and column as a multiple of a power of two. */
+static double bits(const Lifting *l, int64_t count)
+{
+    int64_t n = l->s->n_v, M = l->columns;
     double sum = 2.0, of_f = 0.0, most = 0.0, *of_H = l->m->rest;
-    for (int64_t i = 0; i < l->N + l->others; i++) {
-        const Number *row = i < n ? H + i * n : i < l->N ? A + (i - n) * n : l->A + (i - l->N) * n;
-        double squared = 0.0, of_a = INFINITY;
-        for (int64_t j = 0; j < n; j++) {
-            squared += value(row + j) * value(row + j);
-            of_a = lower(of_a, row + j);
+    for (int64_t k = 0; k < count; k++) {
+        int64_t i = l->rows[k];
+        double size = 0.0, of_a = INFINITY;
+        for (int64_t c = 0; c < M; c++) {
+            const Number *x = entry(l, i, l->column[c]);
+            size += fabs(value(x));
+            of_a = l->column[c] < n ? lower(of_a, x) : of_a;
         }
-        for (int64_t w = 0; i < n && w < k; w++)
-            squared += l->m->K[i * l->N + n + w] * l->m->K[i * l->N + n + w];
-        of_a = of_a < INFINITY ? of_a : 0.0; /* of a row without entries */
+        of_a = of_a < INFINITY ? of_a : 0.0; /* of a row without such entries */
         if (i < n)
             of_H[i] = of_a;
-        double own = bits_of(of_a, squared, l->r + i, &of_f);
-        if (i < l->N)
+        double own = bits_of(of_a, size, l->r + i, &of_f);
+        if (k < M)
             sum += own;
         else
             most = fmax(most, own);
     }
-    for (int64_t w = 0; w < k; w++) { /* the columns of y */
+    for (int64_t c = 0; c < M; c++) { /* the columns of y */
         double of_y = 0.0;
-        for (int64_t i = 0; i < n; i++)
-            of_y = fmin(of_y, lower(of_H[i], A + w * n + i) - of_H[i]);
+        for (int64_t k = 0, i; k < count && l->column[c] >= n; k++)
+            if ((i = l->rows[k]) < n)
+                of_y = fmin(of_y, lower(of_H[i], entry(l, i, l->column[c])) - of_H[i]);
         sum -= of_y;
     }
     return sum - of_f + most;
 }
 
-/* Whether some coordinates of the solution (all if NULL) and the slacks of the other rows are zero. */
-static int vanish(Lifting *l, const int64_t *still, int64_t count)
+/* Whether all rows hold where the coordinates outside of M are zero: those of K, and the others. */
+static int holds(Lifting *l)
 {
     const Proof *s = l->s;
-    int64_t n = s->n_v, N = l->N, rows = N + l->others;
+    int64_t N = l->N, count = 0;
     Sum sum = EMPTY;
-    for (double left = bits(l); left >= 0.0; left -= BITS - 1) {
+    for (int64_t j = 0; j < N + l->others; j++) {
+        int64_t i = j < N ? l->order[j] : j;
+        if (!vacant(l, i))
+            l->rows[count++] = i;
+        else if (!empty(l->r + i))
+            return 0;
+    }
+    if (count == l->columns) /* M_B is regular */
+        return !lost;
+    for (double left = bits(l, count); left >= 0.0; left -= BITS - 1) {
         digits(l);
         s->counts[2]++;
-        for (int64_t i = 0; i < count; i++)
-            if (l->d[still ? still[i] : i])
-                return 0;
-        for (int64_t i = 0; i < rows; i++) {
+        for (int64_t k = 0; k < count; k++) {
+            int64_t i = l->rows[k];
             add(&sum, l->r + i);
-            if (i < N)
-                less(s, l->m, i, l->digit, &sum);
-            for (int64_t v = 0; i >= N && v < n; v++)
-                add_product(&sum, l->A + (i - N) * n + v, l->digit[v], -1);
+            for (int64_t c = 0; c < l->columns; c++)
+                add_product(&sum, entry(l, i, l->column[c]), l->digit[c], -1);
             if (!divided(&sum, l->r + i))
                 return 0;
         }
@@ -246,9 +257,10 @@ static void pressed_by(const Lifting *l, const Number *a, Number *r)
 /* Whether W spans a row: v is zero then. */
 static int spanned(Lifting *l, const Number *a)
 {
+    int64_t n = l->s->n_v;
     l->others = 0;
     pressed_by(l, a, l->r);
-    return vanish(l, NULL, l->s->n_v);
+    return (l->columns == l->N - n || factored(l, NULL)) && holds(l);
 }
 
 /* v and y within m->e; 0 if that is not shown. */
@@ -295,11 +307,13 @@ static void *lifting(Lifting *l, const Proof *s, const Workspace *m, int64_t oth
 {
     size_t n = (size_t)s->n_v, N = n + (size_t)s->working, count = (size_t)others;
     size_t numbers = N + 2 * count + count * n;
-    char *at = malloc(numbers * sizeof(Number) + N * sizeof(Float) + (N * N + 2 * N) * sizeof(uint64_t));
+    size_t integers = N * N + 4 * N + count;
+    char *at = malloc(numbers * sizeof(Number) + N * sizeof(Float) + integers * sizeof(uint64_t));
     l->s = s;
     l->m = m;
     l->N = (int64_t)N;
     l->others = others;
+    l->columns = -1;
     l->r = (Number *)at;
     l->b = l->r + N + count;
     l->A = l->b + count;
@@ -307,6 +321,8 @@ static void *lifting(Lifting *l, const Proof *s, const Workspace *m, int64_t oth
     l->LU = (uint64_t *)(l->digit + N);
     l->d = l->LU + N * N;
     l->order = (int64_t *)(l->d + N);
+    l->column = l->order + N;
+    l->rows = l->column + N;
     return at;
 }
 
@@ -351,7 +367,7 @@ static int joined(Proof *s, Rows *E, int64_t last, Number *sum)
     }
     if (workspace && regular(&wider, &m) == DECIDED)
         digits = lifting(&l, &wider, &m, 0);
-    if (digits && factored(&l) && spanned(&l, sum) && found(&l, &m, sum)) {
+    if (digits && spanned(&l, sum) && found(&l, &m, sum)) {
         int positive = 1;
         for (int64_t w = n + k; w < l.N; w++) /* `last` and A'y come to zero */
             positive &= value(m.z + w) * DOWN > m.e[w];
@@ -426,7 +442,7 @@ static int decided(Proof *s, Workspace *m, Lifting *l, int64_t count)
     }
     for (int64_t i = 0; i < N + l->others; i++)
         l->r[i] = i < n ? m->g[i] : i < N ? m->b[i - n] : l->b[i - N];
-    if (!factored(l) || !vanish(l, s->still, s->counts[1]))
+    if (!factored(l, m->rests) || !holds(l))
         return OPEN_NUMBER;
     if (!count)
         return DECIDED;
@@ -466,7 +482,7 @@ int satisfied(const Proof *s, const Workspace *m, const Number *f, const Number 
     memcpy(l.r, f, n * sizeof(Number));
     memcpy(l.r + n, b, (size_t)count * sizeof(Number));
     memcpy(l.A, A, (size_t)count * n * sizeof(Number));
-    int code = factored(&l) && vanish(&l, NULL, 0) ? DECIDED : OPEN_NUMBER;
+    int code = factored(&l, m->rests) && holds(&l) ? DECIDED : OPEN_NUMBER;
     free(workspace);
     return code;
 }
