@@ -7,7 +7,7 @@ of mass are not at origins, wrenches act on any body, and gravity is along any d
 import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import slices
-from quasistatic_ref.lab.program.rotation import rotation
+from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     KINDS,
@@ -148,21 +148,25 @@ def _many_points(rng: Rng) -> Json:
 
 
 def _brick_on_solid(rng: Rng) -> Json:
-    """A brick that is level or tilted, by more or less than 0.25 rad, over a box or a ball."""
+    """A brick that is tilted by more or less than 0.25 rad over a box or a ball."""
     size = few_digits(rng.uniform(0.05, 0.2, 3), 2)
     shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
     top = shape["size"][2] / 2
     if rng.integers(4) == 0:
         shape = {"kind": "sphere", "radius": 0.08}
         top = 0.08
-    axis = rng.permutation([1.0, float(rng.uniform(-1, 1)), 0.0])
-    half_angle = float(rng.choice([0.0, 0.05, 0.11, 0.2, 0.35])) * rng.uniform(0.9, 1.1)
+    axis = rng.permutation([1.0, *rng.uniform(-0.9, 0.9, 2)])
+    half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
     turn = few_digits([*np.sin(half_angle) * axis, np.cos(half_angle)], 4)
     lowest = float(np.abs(rotation(np.array(turn))[2]) @ np.array(size)) / 2
     aside = few_digits(rng.uniform(-0.08, 0.08, 2), 3)
     height = few_digits([top + lowest + float(rng.choice(GAPS[:3]))], 5)
     body = {**free_body("body0"), **mass(rng)}
-    shapes = {"body": on("body0", {"kind": "box", "size": size}), "under": on(None, shape)}
+    world = random_quaternion(rng)
+    place = few_digits(rotation(np.array(world)) @ [*aside, *height], 6)
+    q = [*place, *few_digits(quaternion_product(np.array(world), np.array(turn)), 6)]
+    under = on(None, shape) | {"pose": {"xyz": [0.0, 0.0, 0.0], "quaternion": world}}
+    shapes = {"body": on("body0", {"kind": "box", "size": size}), "under": under}
     alpha, beta = ("under", "body") if rng.integers(3) else ("body", "under")
     pairs = [_pair(rng, "stack", alpha, beta, int(rng.integers(2, 9)))]
-    return scene([body], shapes, [*aside, *height, *turn], pairs=pairs)
+    return scene([body], shapes, q, pairs=pairs)

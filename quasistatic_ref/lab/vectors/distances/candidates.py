@@ -102,7 +102,7 @@ def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k:
     about = np.flatnonzero(cosines >= FACING).tolist()
     found = _kept_candidates(
         [candidates[i] for i in about], [index[i] for i in about], k,
-        corners=sum(index[i] < last for i in about),
+        corners=sum(index[i] < last for i in about), at_end=_is_vertex_at_edge(case, candidates),
     )  # fmt: skip
     far = {**nearest.numbers, "phi": FILLED}
     filling = range(min(k, most_candidates(alpha, beta, last)) - len(about))
@@ -185,6 +185,16 @@ def _bearing_corner(case: Json, own: _Candidate, nearest: _Candidate) -> _Candid
     return _Candidate(rounded_results(place)[0], nearest.unique, nearest.case)
 
 
+def _is_vertex_at_edge(case: Json, candidates: list[_Candidate]) -> bool:
+    """Whether edges of two boxes may cross at an end: closest are a corner and no face."""
+    nearest = candidates[-1].numbers
+    axes = np.concatenate([frame(case[f"pose_{side}"])[0].T for side in ("alpha", "beta")])
+    return bool(np.abs(axes @ nearest["n"]).max() < 1 - LIMIT) and any(
+        np.abs(np.array(one.numbers["alpha"]) - nearest["alpha"]).max() <= REPEATED
+        for one in candidates[:-1]
+    )
+
+
 def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _Candidate]]:
     """Where edges of two boxes cross: which do is decided on rounded numbers, where is not."""
     poses = [frame(case[f"pose_{side}"]) for side in ("alpha", "beta")]
@@ -215,7 +225,12 @@ def _edge(case: Json, side: str, i: int) -> list[Vector]:
 
 
 def _kept_candidates(
-    candidates: Sequence[_Candidate], index: Sequence[int], k: int, *, corners: int | None
+    candidates: Sequence[_Candidate],
+    index: Sequence[int],
+    k: int,
+    *,
+    corners: int | None,
+    at_end: bool = False,
 ) -> Chosen:
     phi, alpha, n = (
         np.array([one.numbers[key] for one in candidates]) for key in ("phi", "alpha", "n")
@@ -229,6 +244,7 @@ def _kept_candidates(
     rest = order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
+    clear = clear and not (at_end and np.sum(~np.array(late)) < k)
     if corners is not None and len(candidates) > k and not candidates[-1].unique:
         # The closest pair may then be any point of an edge or a face, and no corner again.
         clear = clear and spare
