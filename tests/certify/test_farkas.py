@@ -1,5 +1,6 @@
 """Contradictory steps: the proof, its words, and steps that are only nearly contradictory."""
 
+from dataclasses import replace
 from fractions import Fraction as F
 
 import numpy as np
@@ -123,6 +124,15 @@ def test_push_out_is_not_ill_posed_however_small_the_forces(force):
     optimum = step_optimum(step)
     assert optimum.delta_q[0] == 1e-3
     assert relative_length(step, optimum.delta_q) == pytest.approx(1, abs=1e-8)
+
+
+def test_a_contact_that_nothing_moves_and_that_is_open_says_nothing_of_lengths():
+    """Its row is zero, as is what it pushes out: their quotient is no number."""
+    step = point_between_walls([EAST, WEST], [-1e-3, 1e-3])
+    still = step.contacts.J.copy()
+    still[1] = 0.0
+    step = step.replace(contacts=replace(step.contacts, J=still))
+    assert relative_length(step, np.array([1e-3, 0.0, 0.0])) == pytest.approx(1, abs=1e-8)
 
 
 @pytest.mark.parametrize("tau", [5e-324, 1e-322, 1e-300])

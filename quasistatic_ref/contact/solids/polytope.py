@@ -71,8 +71,8 @@ def polytope(shape: Shape) -> Polytope | None:
             x = -0.5
             y = math.sqrt(0.75)  # of a third of a turn
             around = np.array([[1.0, 0.0, 0.0], [x, y, 0.0], [x, -y, 0.0]])
-            sides = np.array([(0, 1), (1, 2), (2, 0)])
-            edges = np.array([(0, 1)] * 3)
+            sides = np.array([[0, 1], [1, 2], [2, 0]])
+            edges = np.array([[0, 1]] * 3)
             return Polytope(shape, radius, ends, around, np.zeros(3), edges, sides)
         case Box():
             return _box(shape)

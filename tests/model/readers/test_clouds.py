@@ -93,6 +93,10 @@ GOOD: dict[str, tuple[str, bytes]] = {
     ),
     "ascii pcd": (".pcd", pcd("ascii", PCD_BODY)),
     "pcd with an empty line": (".pcd", pcd("ascii", PCD_BODY, f"\n{PCD_HEADER}")),
+    "pcd with a number of 18 digits": (
+        ".pcd",
+        pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", f"WIDTH {2:018}")),
+    ),
     "pcd without POINTS": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("POINTS 2\n", ""))),
     "pcd without WIDTH": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2\n", ""))),
     "pcd without COUNT": (
