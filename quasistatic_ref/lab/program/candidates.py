@@ -63,8 +63,11 @@ def touching_edges(shape, pose, x, n):
     return np.flatnonzero(facing.any(axis=1) | on.all(axis=1) & level).tolist()
 
 
-def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
-    """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there."""
+def crossings(alpha, pose_alpha, beta, pose_beta, nearest, over=0.0):
+    """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there.
+
+    Each end of an edge counts as further out by `over` of its length.
+    """
     _, a, b, n = nearest
     ends_a, _ = edges(alpha)
     ends_b, _ = edges(beta)
@@ -81,7 +84,7 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
                 continue
             s = np.cross(w, v) @ n / steep
             t = np.cross(w, u) @ n / steep
-            if 0 <= s <= 1 and 0 <= t <= 1:
+            if -over <= min(s, t) and max(s, t) <= 1 + over:
                 one = tail + s * u
                 other = start + t * v
                 found.append((i, j, (other - one) @ n, one, other, n))

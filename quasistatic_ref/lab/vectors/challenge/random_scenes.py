@@ -1,7 +1,8 @@
 """Random scenes of the layer `step`: mechanisms of every kind that nearly touch something.
 
 A ball on a body and a plane, or another ball, are put where the gap between them is small; centres
-of mass are not at origins, wrenches act on any body, and gravity is along any direction.
+of mass are not at origins, wrenches act on any body, and gravity is along any direction. Of a brick
+on a box or a ball, and of a box or a cloud on a plane, several points nearly touch.
 """
 
 import numpy as np
@@ -132,7 +133,7 @@ def _touch(rng: Rng, case: Json, body: str, hard: bool) -> None:
 
 
 def _many_points(rng: Rng) -> Json:
-    """A brick over another solid, or a body given by points over a plane: the nearest are kept."""
+    """A brick on a box or a ball, or a box or a cloud on a plane: the nearest points are kept."""
     if rng.integers(2):
         return _brick_on_solid(rng)
     body = {**free_body("body0"), **mass(rng)}
@@ -148,7 +149,7 @@ def _many_points(rng: Rng) -> Json:
 
 
 def _brick_on_solid(rng: Rng) -> Json:
-    """A brick that is tilted by more or less than 0.25 rad over a box or a ball."""
+    """A brick that is turned by more or less than 0.25 rad, on a box or a ball."""
     size = few_digits(rng.uniform(0.05, 0.2, 3), 2)
     shape: Json = {"kind": "box", "size": few_digits(rng.uniform(0.05, 0.2, 3), 2)}
     top = shape["size"][2] / 2
@@ -156,6 +157,7 @@ def _brick_on_solid(rng: Rng) -> Json:
         shape = {"kind": "sphere", "radius": 0.08}
         top = 0.08
     axis = rng.permutation([1.0, *rng.uniform(-0.9, 0.9, 2)])
+    axis /= np.linalg.norm(axis)
     half_angle = float(rng.choice([0.02, 0.05, 0.1, 0.2, 0.3])) * rng.uniform(0.9, 1.1)
     turn = few_digits([*np.sin(half_angle) * axis, np.cos(half_angle)], 4)
     lowest = float(np.abs(rotation(np.array(turn))[2]) @ np.array(size)) / 2

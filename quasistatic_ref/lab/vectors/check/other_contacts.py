@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
-from quasistatic_ref.lab.vectors.distances.candidates import parts
+from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Candidate, candidates
 from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
@@ -59,26 +59,32 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
             sides |= {side: entry["shape"], f"pose_{side}": shape_pose(case, entry)}
-        candidates = [one for part in parts(sides, pair["k"]) for one in solid_cases(part)]
+        found = candidates(sides, pair["k"])
+        known = {one.index: one for one in (*found.about, *found.filling)}
         for contact in own:
-            if not 0 <= contact["index"] < len(candidates):
+            if contact["index"] not in known:
                 return f"{pair['name']} has no candidate {contact['index']}"
-            if problem := _contact_problem(candidates[contact["index"]], contact, allowed):
-                others = (
-                    i for i, c in enumerate(candidates) if not _contact_problem(c, contact, allowed)
-                )
+            if problem := _contact_problem(known[contact["index"]], contact, allowed):
+                others = (i for i, c in known.items() if not _contact_problem(c, contact, allowed))
                 if (place := next(others, None)) is not None:
                     problem = f"its point is candidate {place}: candidates have a documented order"
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
 
 
-def _contact_problem(candidate: Json, contact: Json, allowed: float) -> str | None:
+def _contact_problem(candidate: Candidate, contact: Json, allowed: float) -> str | None:
     alpha, beta, n, d1, d2 = (
         np.array(contact[name], dtype=np.float64) for name in ("alpha", "beta", "n", "d1", "d2")
     )
-    if problem := witness_problem(candidate, contact["phi"], alpha, beta, n, 2 * allowed):
-        return problem
+    fixed = ["phi"] if candidate.is_closest else FIELDS
+    for key in fixed:
+        if np.abs(np.subtract(contact[key], candidate.numbers[key])).max() > 2 * allowed:
+            return f"its {key} is another"
+    if candidate.is_closest:
+        gap = float((beta - alpha) @ n)  # also of what fills the number, whose phi is none
+        (solids,) = solid_cases(candidate.case)
+        if problem := witness_problem(solids, gap, alpha, beta, n, 2 * allowed):
+            return problem
     sizes = np.abs(n)
     near = np.flatnonzero(sizes <= sizes.min() + TIED)
     if (sizes[near] == sizes.min()).all():

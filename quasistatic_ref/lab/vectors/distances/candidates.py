@@ -10,7 +10,7 @@ and normals that are rounded to float64.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 
 import numpy as np
 
@@ -42,10 +42,10 @@ from quasistatic_ref.tolerances import REPEATED
 
 FIELDS = ("phi", "alpha", "beta", "n")
 TIED = 1e-12
-"""Difference of distances [m] below which it is rounding that decides what is kept; and of normals
-[-] that are one."""
+"""Where two distances differ by no more, rounding decides which is kept [m]. Normals that differ by
+no more, in any component, are one [-]."""
 LIMIT = 1e-6
-"""Of cosines: so near to that of 0.25 rad rounding decides, too [-]."""
+"""Where a cosine is that near to cos 0.25, rounding decides whether there is a candidate [-]."""
 
 
 @dataclass(frozen=True)
@@ -87,29 +87,114 @@ def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k:
         If k > 1 for a solid whose corners depend on where the other is.
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
-    candidates = [one for part in parts(case, k) for one in _candidates(part)]
-    index = list(range(len(candidates)))
+    found = candidates(case, k)
+    if not found.of_two:
+        return _kept_candidates(found.about, k, corners=None)
+    chosen = _kept_candidates(found.about, k, corners=found.corners)
+    contacts = chosen.contacts + [{"index": one.index, **one.numbers} for one in found.filling]
+    contacts.sort(key=itemgetter("index"))
+    clear = chosen.clear and found.clear
+    *certain, nearest = [one for one in found.about if one not in found.doubtful]
+    indices = [one["index"] for one in chosen.contacts]
+    for crossed in ([], found.doubtful) if found.doubtful else ():
+        kept = _kept_candidates([*certain, *crossed, nearest], k, corners=found.corners)
+        clear = clear and indices == [one["index"] for one in kept.contacts]
+    return replace(chosen, contacts=contacts, clear=clear)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One that may be a contact, and a case of the layer `distance`.
+
+    Parameters
+    ----------
+    index : int
+    numbers : dict
+        ``phi``, ``alpha``, ``beta``, ``n``.
+    unique : bool
+        Whether alpha, beta and n have no alternative.
+    case : dict
+        Whose only answer this is, or the pair's, if it bears along another way.
+    is_closest : bool
+        Whether alpha and beta are closest points of the case.
+    """
+
+    index: int
+    numbers: dict[str, Json]
+    unique: bool
+    case: Json
+    is_closest: bool = True
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Those of a pair.
+
+    Parameters
+    ----------
+    about : list of Candidate
+        Corners, crossings and, last, the closest pair; or points of a cloud. Their normals are
+        about the closest pair's.
+    filling : list of Candidate
+        The closest pair again, as often as it fills the number.
+    of_two : bool
+        Whether they are those of two solids, and not points of a cloud or the closest pair alone.
+    corners : int
+        How many of them are corners.
+    clear : bool
+        Whether rounding does not decide which normals are about the closest pair's.
+    doubtful : list of Candidate
+        Crossings at an end of an edge: rounding decides whether they are candidates.
+    """
+
+    about: list[Candidate]
+    filling: list[Candidate]
+    of_two: bool = False
+    corners: int = 0
+    clear: bool = True
+    doubtful: Sequence[Candidate] = ()
+
+
+def candidates(case: Json, k: int) -> Candidates:
+    """The candidates of a pair, of which k are asked for.
+
+    Parameters
+    ----------
+    case : dict
+        ``alpha``, ``beta``, ``pose_alpha``, ``pose_beta``.
+    k : int
+
+    Raises
+    ------
+    InputError
+        As in `chosen_points`.
+    """
+    alpha = case["alpha"]
+    beta = case["beta"]
+    every = [one for part in parts(case, k) for one in _candidates(part)]
+    every = [replace(one, index=i) for i, one in enumerate(every)]
     if k == 1 or "cloud" in (alpha["kind"], beta["kind"]):
-        return _kept_candidates(candidates, index, k, corners=None)
-    last = len(candidates) - 1
-    nearest = candidates[last]
-    candidates[:last] = [_bearing_corner(case, one, nearest) for one in candidates[:last]]
+        return Candidates(every, [])
+    *others, nearest = every
+    last = nearest.index
+    every = [_bearing_corner(case, one, nearest) for one in others]
+    doubtful: list[Candidate] = []
     if alpha["kind"] == beta["kind"] == "box":
-        crossed = _crossings(case, nearest)
-        candidates[last:last] = [one for _, one in crossed]
-        index[last:last] = [int(crossing_index(last, k, *edges)) for edges, _ in crossed]
-    cosines = np.array([one.numbers["n"] for one in candidates]) @ nearest.numbers["n"]
-    about = np.flatnonzero(cosines >= FACING).tolist()
-    found = _kept_candidates(
-        [candidates[i] for i in about], [index[i] for i in about], k,
-        corners=sum(index[i] < last for i in about), at_end=_is_vertex_at_edge(case, candidates),
-    )  # fmt: skip
+        crossed, doubtful = _crossings(case, nearest, k)
+        every += crossed
+    every.append(nearest)
+    cosines = np.array([one.numbers["n"] for one in every]) @ nearest.numbers["n"]
+    about = [every[i] for i in np.flatnonzero(cosines >= FACING).tolist()]
     far = {**nearest.numbers, "phi": FILLED}
     filling = range(min(k, most_candidates(alpha, beta, last)) - len(about))
-    contacts = [*found.contacts, *({"index": last + 1 + i, **far} for i in filling)]
-    clear = found.clear and bool(np.abs(cosines - FACING).min() > LIMIT)
-    contacts.sort(key=itemgetter("index"))
-    return replace(found, contacts=contacts, clear=clear)
+    return Candidates(
+        about,
+        [replace(nearest, index=last + 1 + i, numbers=far) for i in filling],
+        of_two=True,
+        corners=sum(one.index < last for one in about),
+        clear=bool(np.abs(cosines - FACING).min() > LIMIT),
+        doubtful=doubtful,
+    )
 
 
 def parts(case: Json, k: int) -> list[Json]:
@@ -128,16 +213,8 @@ def _corners(shape: Json) -> Json:
     return np.array(corners(shape)).tolist()
 
 
-@dataclass(frozen=True)
-class _Candidate:
-    """One contact, and the case of the layer `distance` that has it for its only answer."""
-
-    numbers: dict[str, Json]
-    unique: bool
-    case: Json
-
-
-def _candidates(case: Json) -> list[_Candidate]:
+def _candidates(case: Json) -> list[Candidate]:
+    """Closest points of each point of a cloud, or of the two solids; their indices come later."""
     found, _ = rounded_results(
         lambda: [{**one.table(), "unique": one.unique} for one in witnesses(case)]
     )
@@ -145,13 +222,13 @@ def _candidates(case: Json) -> list[_Candidate]:
         if case[side]["kind"] == "cloud":
             alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
             return [
-                _Candidate(numbers, numbers.pop("unique"), {**case, side: shape})
+                Candidate(0, numbers, numbers.pop("unique"), {**case, side: shape})
                 for numbers, shape in zip(found, alone, strict=True)
             ]
-    return [_Candidate(found[0], found[0].pop("unique"), case)]
+    return [Candidate(0, found[0], found[0].pop("unique"), case)]
 
 
-def _bearing_corner(case: Json, own: _Candidate, nearest: _Candidate) -> _Candidate:
+def _bearing_corner(case: Json, own: Candidate, nearest: Candidate) -> Candidate:
     """A corner as it bears with the pair's normal: which way is decided on rounded numbers."""
     side, other = ("alpha", "beta") if own.case["alpha"]["kind"] == "cloud" else ("beta", "alpha")
     out = 1 if other == "alpha" else -1
@@ -182,30 +259,26 @@ def _bearing_corner(case: Json, own: _Candidate, nearest: _Candidate) -> _Candid
         alpha, beta = (foot, point) if other == "alpha" else (point, foot)
         return {"phi": phi, "alpha": alpha, "beta": beta, "n": out * n}
 
-    return _Candidate(rounded_results(place)[0], nearest.unique, nearest.case)
+    return replace(nearest, index=own.index, numbers=rounded_results(place)[0], is_closest=False)
 
 
-def _is_vertex_at_edge(case: Json, candidates: list[_Candidate]) -> bool:
-    """Whether edges of two boxes may cross at an end: closest are a corner and no face."""
-    nearest = candidates[-1].numbers
-    axes = np.concatenate([frame(case[f"pose_{side}"])[0].T for side in ("alpha", "beta")])
-    return bool(np.abs(axes @ nearest["n"]).max() < 1 - LIMIT) and any(
-        np.abs(np.array(one.numbers["alpha"]) - nearest["alpha"]).max() <= REPEATED
-        for one in candidates[:-1]
-    )
+def _crossings(case: Json, nearest: Candidate, k: int) -> tuple[list[Candidate], list[Candidate]]:
+    """Where edges of two boxes cross, and where rounding decides whether they do.
 
-
-def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _Candidate]]:
-    """Where edges of two boxes cross: which do is decided on rounded numbers, where is not."""
+    Which edges cross is decided on rounded numbers, where they do is not.
+    """
     poses = [frame(case[f"pose_{side}"]) for side in ("alpha", "beta")]
     at = [np.array(nearest.numbers[key]) for key in FIELDS]
-    found = []
-    for i, j, *_ in crossings(case["alpha"], poses[0], case["beta"], poses[1], at):
 
-        def place(i: int = i, j: int = j) -> Json:
+    def crossed(over: float) -> list[tuple[int, int]]:
+        found = crossings(case["alpha"], poses[0], case["beta"], poses[1], at, over)
+        return [(i, j) for i, j, *_ in found]
+
+    def candidate(edges: tuple[int, int]) -> Candidate:
+        def place() -> Json:
             n = witnesses(case)[0].n
-            tail, head = _edge(case, "alpha", i)
-            start, end = _edge(case, "beta", j)
+            tail, head = _edge(case, "alpha", edges[0])
+            start, end = _edge(case, "beta", edges[1])
             u = head - tail
             v = end - start
             w = start - tail
@@ -214,8 +287,13 @@ def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _
             beta = start + np.cross(w, u) @ n / steep * v
             return {"phi": (beta - alpha) @ n, "alpha": alpha, "beta": beta, "n": n}
 
-        found.append(((i, j), _Candidate(rounded_results(place)[0], nearest.unique, nearest.case)))
-    return found
+        numbers = rounded_results(place)[0]
+        index = int(crossing_index(nearest.index, k, *edges))
+        return replace(nearest, index=index, numbers=numbers, is_closest=False)
+
+    certain = crossed(-REPEATED)
+    doubtful = [edges for edges in crossed(REPEATED) if edges not in certain]
+    return [*map(candidate, crossed(0.0))], [*map(candidate, doubtful)]
 
 
 def _edge(case: Json, side: str, i: int) -> list[Vector]:
@@ -224,33 +302,23 @@ def _edge(case: Json, side: str, i: int) -> list[Vector]:
     return [box.world(vector(end)) for end in edges(case[side])[0][i].tolist()]
 
 
-def _kept_candidates(
-    candidates: Sequence[_Candidate],
-    index: Sequence[int],
-    k: int,
-    *,
-    corners: int | None,
-    at_end: bool = False,
-) -> Chosen:
-    phi, alpha, n = (
-        np.array([one.numbers[key] for one in candidates]) for key in ("phi", "alpha", "n")
-    )
-    late = [False] * len(candidates)
+def _kept_candidates(found: Sequence[Candidate], k: int, *, corners: int | None) -> Chosen:
+    phi, alpha, n = (np.array([one.numbers[key] for one in found]) for key in ("phi", "alpha", "n"))
+    late = [False] * len(found)
     spare = False
     if corners is not None:
         late, spare = lateness(phi, alpha, n, k, REPEATED, corners)
-    order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
-    kept = sorted(order[:k], key=lambda i: index[i])
+    order = sorted(range(len(found)), key=lambda i: (late[i], phi[i], i))
+    kept = sorted((found[i] for i in order[:k]), key=attrgetter("index"))
     rest = order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
-    clear = clear and not (at_end and np.sum(~np.array(late)) < k)
-    if corners is not None and len(candidates) > k and not candidates[-1].unique:
+    if corners is not None and len(found) > k and not found[-1].unique:
         # The closest pair may then be any point of an edge or a face, and no corner again.
         clear = clear and spare
-    answers = [layer("distance").expected(candidates[i].case) for i in kept]
+    answers = [layer("distance").expected(one.case) for one in kept]
     return Chosen(
-        contacts=[{"index": index[i], **candidates[i].numbers} for i in kept],
+        contacts=[{"index": one.index, **one.numbers} for one in kept],
         clear=bool(clear),
         unique=all(answer.flags["unique"] for answer in answers),
         tolerance={

@@ -43,6 +43,17 @@ def test_where_rounding_decides_what_is_kept_it_is_said():
     assert chosen_points(FLOOR, BOX, ORIGIN, tilted, 3).clear is False
 
 
+def test_where_edges_cross_at_an_end_rounding_decides_what_is_kept():
+    # The brick's corner is nearest, and to a point of an edge: its own edge there, which is level,
+    # crosses that one at s = 1, but for rounding. Four candidates are left, and five with it.
+    brick = {"kind": "box", "size": [0.07, 0.05, 0.06]}
+    under = {"kind": "box", "size": [0.06, 0.09, 0.16]}
+    pose = {"xyz": [0.073, -0.012, 0.11362], "quaternion": [0.0, 0.0458, 0.0216, 0.9989]}
+    assert chosen_points(brick, under, pose, ORIGIN, 8).clear is False
+    steep = {**pose, "quaternion": [0.2, 0.1, 0.0, 1.0]}  # no edge at its corner is level
+    assert chosen_points(brick, under, steep, ORIGIN, 8).clear
+
+
 def test_tilted_boxes_keep_corners_of_one_normal_alone():
     # A small box stands on a corner over the middle of a plate's face, tilted by more than 0.25
     # rad. Its corners are over that face, at their own heights; the plate's corners are nearest to
