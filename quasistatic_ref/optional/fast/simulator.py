@@ -273,25 +273,27 @@ class FastSimulator(Simulator):
             return ()
         most = min(most, 1 + LARGEST_RECORDS // onward.record.itemsize)
         records = np.empty(most, onward.record)
-        onward.begin(records)
+        pressed = self.pressed
+        onward.begin(records, pressed)
         count = 0
         start = q
         while of is not None:
             code = onward.take(*of)
             if code == REGROUPED:
                 onward = self.onward_from(*of) or onward
-                onward.begin(records[count:])
+                onward.begin(records[count:], pressed)
                 code = onward.take(*of)
             if code != DONE:
                 self.left_open = start.tobytes()
                 break
             start = records["q"][count]
             if self.certify != OFF:
-                self.pressed = records["lam"][count]
+                pressed = records["lam"][count]
             count += 1
             if count == most or (self.certify != OFF and is_next(WHOLE)):  # an error may follow
                 break
-            of = given(count, read_only(records["q"][count - 1].copy()))
+            of = given(count, read_only(start.copy()))
+        self.pressed = pressed
         return Taken(onward, self, q, records[:count])
 
     def onward_from(self, q_bar_a: Array, force: Array) -> Onward | None:
@@ -461,13 +463,11 @@ class FastSimulator(Simulator):
         solver = self.solver
         if solver is None or solver is not self.fitted:  # what fits one step fits all of them
             self.fitted = solver = self.fitting_solver(step)
-        accuracy = self.accuracy
-        certify = self.certify
         both = self.in_both_units(step, form, solver)
-        if not (self.follows and certify != OFF and isinstance(solver, NativeSolver)):
-            return without_warnings(solved, both, solver, accuracy, certify)
+        if not (self.follows and self.certify != OFF and isinstance(solver, NativeSolver)):
+            return without_warnings(solved, both, solver, self.accuracy, self.certify)
         solver.forget()
-        solution = without_warnings(solved, both, solver, accuracy, certify)
+        solution = without_warnings(solved, both, solver, self.accuracy, self.certify)
         self.pressed = solution.lam
         return solution
 

@@ -169,13 +169,12 @@ class Onward:
         if self.prover is not None:
             self.prover.forget()
 
-    def begin(self, records: NDArray[np.void]) -> None:
-        """Begin from the last step, and write the next ones into `records`, shape (steps,) [-]."""
+    def begin(self, records: NDArray[np.void], pressed: Array | None) -> None:
+        """Write the next steps into records (steps,) [-], from the lam (m,) of the last one."""
         s = self._s
         s.point("record", records)
         self.said = []
         if self.prover is not None:
-            pressed = self._simulator.pressed
             s["pressure"][:] = 0.0 if pressed is None else pressed
             self.prover.s["gap"][:] = 0.0
 

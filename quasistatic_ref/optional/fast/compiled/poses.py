@@ -59,9 +59,8 @@ class Poses:
         """Have the poses of a configuration, shape (n_q,), written."""
         self._at = None  # of a failure
         self._kinematics = None
-        self._model_q = self.order.model_q(q).copy()  # whoever has q may write into it
         self.q[:] = q
-        self.workspace.move(self._model_q)
+        self.workspace.move(self.order.model_q(self.q))  # whoever has q may write into it
         self._at = q.tobytes()
 
     def kinematics(self) -> Kinematics:
@@ -72,4 +71,4 @@ class Poses:
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
         """Have gravity [m/s^2] at that configuration written."""
-        self.workspace.gravity_torque(self._model_q, gravity)
+        self.workspace.weigh(gravity)
