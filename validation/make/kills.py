@@ -78,18 +78,21 @@ class Folders(NamedTuple):
 
 def child_of(words: list[str], output: Path) -> int:
     """A copy of this process that runs a command, in a session of its own; its number."""
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # until it cannot leave the copy
     child = os.fork()
     if not child:
-        os.setsid()
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        written = os.open(output, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-        os.dup2(written, 1)
-        os.dup2(written, 2)
         status = 70
         try:
+            os.setsid()
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            written = os.open(output, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+            os.dup2(written, 1)
+            os.dup2(written, 2)
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
             status = command([*words, "--quiet"])
         finally:
             os._exit(status)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     return child
 
 
