@@ -170,7 +170,15 @@ class Onward:
             self.prover.forget()
 
     def begin(self, records: NDArray[np.void], pressed: Array | None) -> None:
-        """Write the next steps into records (steps,) [-], from the lam (m,) of the last one."""
+        """Write the next steps into `records`.
+
+        Parameters
+        ----------
+        records : ndarray, shape (steps,)
+            [of the notation]
+        pressed : ndarray, shape (m,), or None
+            The lam of the last proved step, if there is one [N s].
+        """
         s = self._s
         s.point("record", records)
         self.said = []
