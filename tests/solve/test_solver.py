@@ -287,13 +287,6 @@ def test_of_highs_alone_the_greeting_is_silenced(step, monkeypatch):
     assert silenced == ["highs", "qpsolvers:highs"]
 
 
-def test_rows_of_contacts_out_of_reach_are_marked(step):
-    phi = np.where(np.arange(len(ROWS)) == 1, 1e9, step.contacts.phi)
-    far = step.replace(contacts=changed(step.contacts, phi=phi))
-    marked = CvxpySolver(step).write(DenseStepInBothUnits(far))
-    assert np.array_equal(marked, np.repeat([False, True, False], ROWS))
-
-
 def test_the_bound_of_an_error_is_finite_in_a_polyhedral_cone(step):
     bound = solve_step(step, certify="residual").certificate.error_bound
     assert bound is not None

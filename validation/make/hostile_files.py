@@ -63,7 +63,6 @@ a file outside of the folder that is opened.
 
 {tables}
 """
-BOMBS_AS = "bombs"
 
 
 class Row(NamedTuple):

@@ -3,17 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import (
-    ModelError,
-    Simulator,
-    StepData,
-    StepDataError,
-    load_scenario,
-    rollout,
-    solve_step,
-)
-from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref import ModelError, StepData, StepDataError, rollout, solve_step
 from quasistatic_ref.lab.scenes.piles import BOX, pile
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
@@ -24,7 +14,6 @@ from quasistatic_ref.step.arrays import whole
 from tests.helpers import always_in_blocks
 
 BOXES = (2, 1, 2)
-GRASP = ["solver.backend=piqp", "solver.certify=residual", "steps=4"]
 
 
 @pytest.fixture(autouse=True)
@@ -32,34 +21,10 @@ def always_sparse(monkeypatch):
     always_in_blocks(monkeypatch)
 
 
-def scene(name):
-    """A simulator, its target and its force: four boxes, or a gripper with a bunny."""
-    if name == "pile":
-        some = pile(BOXES, backend="piqp", certify="residual")
-        return some.simulator, np.zeros(0), some.force
-    scenario = load_scenario("bunny_grasp", GRASP, fast=True)
-    return scenario.simulator(), scenario.targets(0.01), 0.0
-
-
-def step_of(name):
-    simulator, target, force = scene(name)
-    return simulator, simulator.step(simulator.system.q_start, target, force).step
-
-
-@pytest.mark.parametrize("name", ["pile", "grasp"])
-def test_a_step_in_blocks_has_the_numbers_of_the_plain_path(name):
-    simulator, target, force = scene(name)
-    q = simulator.system.q_start
-    blocks = simulator.step(q, target, force).step
-    kinematics = simulator.system.kinematics(q)
-    points = closest_points(simulator.pairs, kinematics)
-    simulator.geometry = ContactGeometry(simulator.layout, simulator.system.column_map)
-    dense = Simulator.step_data(simulator, q, target, force, points, kinematics)
-    for key in ("tau_a", "tau_u", "delta_q_bar_a", "M_u", "H"):
-        assert getattr(blocks, key).tobytes() == getattr(dense, key).tobytes(), key
-    for key in ("phi", "n", "d1", "d2", "J"):
-        found = getattr(blocks.contacts, key)
-        assert found.tobytes() == getattr(dense.contacts, key).tobytes(), key
+def scene():
+    """A simulator of four boxes, and their force."""
+    some = pile(BOXES, backend="piqp", certify="residual")
+    return some.simulator, some.force
 
 
 @pytest.mark.extra("fast")
@@ -67,8 +32,9 @@ def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
     formed = []
     for module in (posed, of_system):
         monkeypatch.setattr(module, "whole", lambda M: formed.append(M) or whole(M))
-    simulator, target, force = scene("pile")
+    simulator, force = scene()
     q = simulator.system.q_start
+    target = np.zeros(0)
     rollout(simulator, q, target, 3, force=lambda t, q: force, record="light", progress=False)
     step = simulator.step(q, target, force).step
     assert not formed
@@ -82,7 +48,8 @@ def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
 
 @pytest.mark.extra("fast")
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
-    step = step_of("pile")[1]
+    simulator, force = scene()
+    step = simulator.step(simulator.system.q_start, np.zeros(0), force).step
     solver = solver_for(step, "piqp", fast=True)
     checked = step.replace()
     assert type(checked) is StepData

@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import BackendError, StepDataError, load_scenario, solve_step, standard_form
-from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref import BackendError, StepDataError, solve_step, standard_form
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form, sparse_hessian
+from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.units import FAR
 from tests.closeness import assert_relative, assert_within
@@ -35,30 +33,6 @@ def step_after(some, count):
         result = some.simulator.step(q, NO_TARGET, some.force)
         q = result.q
     return result
-
-
-@pytest.mark.extra("fast")
-@pytest.mark.parametrize("scene", ["pile", "grasp"])
-def test_blocks_are_the_columns_of_J_that_are_not_zero(scene, always_sparse):
-    if scene == "pile":
-        simulator = pile(BOXES).simulator
-    else:  # a gripper with a base and a finger that mimics the other
-        settings = ["solver.backend=piqp", "solver.certify=residual"]
-        simulator = load_scenario("bunny_grasp", settings, fast=True).simulator()
-    system = simulator.system
-    q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
-    kinematics = system.kinematics(q)
-    points = closest_points(simulator.pairs, kinematics)
-    dense = ContactGeometry(simulator.layout, system.column_map).contacts(points, kinematics)
-    step = simulator.step(q, q[: system.n_q_a]).step
-    np.testing.assert_array_equal(sparse_hessian(step).toarray(), step.H)
-    sparse = step.contacts
-    assert isinstance(sparse, SparseContacts)
-    assert sparse.n_v == system.n_v
-    assert sparse.J.tobytes() == dense.J.tobytes()
-    delta_q = np.sin(np.arange(system.n_v))
-    assert_within(sparse.motion(delta_q), dense.motion(delta_q), ROUNDING)
-    assert sparse.name == dense.name
 
 
 def test_blocks_that_keep_a_coordinate_in_another_place_are_told_apart():

@@ -29,7 +29,7 @@ SETS = {
     "SOLIDS": "corners tied_faces polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
     "PAIRS": "cloud tied_faces contact/distance pairs jacobian",
-    "SPARSE": "mass_in_blocks sparse solver",
+    "SPARSE": "mass_in_blocks sparse solver fast",
     "CLOUDS": "clouds mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
     "DATA": "arrays posed_data data plain_data step_files",
@@ -195,7 +195,7 @@ solve/solver.py solve/prover.py solve/through_cvxpy.py optional/qpsolvers/throug
 optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sizes float_bound
 step/arrays.py optional/fast/posed.py
-    posed_data SYSTEM mass_in_blocks DATA
+    posed_data SYSTEM mass_in_blocks DATA fast
 step/pivots.py
     pivots SYSTEM mass_in_blocks DATA
 step/contacts.py

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -13,22 +14,30 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import (
     Body,
     ContactPair,
+    Contacts,
     Extension,
+    HalfSpace,
     PlacedShape,
     PointCloud,
     Simulator,
+    StepData,
     System,
     load_scenario,
     standard_form,
 )
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.scenes.contacts import X
 from quasistatic_ref.model.joints.axis_joint import Revolute
+from quasistatic_ref.optional.fast.compiled.onward import FollowingResult
+from tests.helpers import always_in_blocks, error, residuals_of
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
-from tests.optional.fast.compiled.test_fast_pairs import CLOUDS, SHAPES, cloud
+from tests.optional.fast.compiled.test_fast_pairs import SHAPES
+from tests.scenes import chain_scene
+from tests.tolerances import ACTIVE_SET
 
 ROOT = Path(__file__).parents[4]
-KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-space")
+KNOWN = ("box", "sphere", "capsule", "hull", "cylinder")
 CONES = ("pyramid", "product", "facets-8", "frictionless")
 
 # The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows.
@@ -61,34 +70,25 @@ def bodies(folder):
     )
 
 
-def shapes_and_clouds(system, names, rng):
-    """Each solid on some link, a cloud of every kind on another; some clouds are alpha."""
+def touching(system, names):
+    """Contacts of a shape on each link with a wall that x leads away from, and of every two."""
+    q = system.q_start
+    shapes = cycle([SHAPES[name] for name in names])
+    ball = SHAPES["sphere"]  # of 0.1 m
     pairs = []
-    links = list(range(1, len(system.links)))
-    for i, name in enumerate(names):
-        at, other = rng.permutation(links)[:2]
-        R = Rotation.random(rng=rng).as_matrix()
-        t = rng.uniform(-0.05, 0.05, size=3)
-        solid = PlacedShape(name, int(at) * (i % 3 != 2), R, t, SHAPES[name])
-        points = PointCloud(cloud(CLOUDS[i % len(CLOUDS)], 200, rng))
-        some = PlacedShape("cloud", int(other), np.eye(3), np.zeros(3), points)
-        sides = (solid, some) if i % 2 else (some, solid)
-        mu_omega, rows = (0.01, 6) if i % 2 else (0.0, 4)
-        pairs.append(ContactPair(f"p{i}", *sides, 0.5 * (i % 4), mu_omega, rows, 3))
-    return pairs
-
-
-def solids(system, rng):
-    """Pairs of solids on some links, of which each keeps another number of contacts."""
-    links = np.arange(1, len(system.links))
-    pairs = []
-    kinds = (("box", "half-space"), ("sphere", "box"), ("box", "capsule"), ("box", "hull"))
-    for k, names in enumerate(kinds):
-        sides = []
-        for name, at in zip(names, rng.permutation(links), strict=False):
-            place = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.1, 0.1, size=3)
-            sides.append(PlacedShape(name, int(at), *place, SHAPES[name]))
-        pairs.append(ContactPair(f"s{k}", *sides, 0.5, 0.0, 4, 1 + 3 * k))
+    for at, name in enumerate(system.links[1:], start=1):
+        R, t = system.pose(q, name)
+        solid = PlacedShape("solid", at, np.eye(3), np.zeros(3), next(shapes))
+        nearest = t[0] - solid.shape.support_value(-R[:1]).item()
+        side = HalfSpace((1, 0, 0), nearest - 1e-4 * (at % 3))
+        wall = PlacedShape("wall", 0, np.eye(3), np.zeros(3), side)
+        mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
+        pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
+        if at % 2 == 0:
+            _, before = system.pose(q, system.links[at - 1])
+            beside = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + X * 0.2001), ball)
+            one = PlacedShape("ball", at - 1, np.eye(3), np.zeros(3), ball)
+            pairs.append(ContactPair(f"b{at}", one, beside, 0.3, 0.01, 6, 1))
     return pairs
 
 
@@ -112,18 +112,22 @@ def of_plain(simulator, q, q_bar_a, force):
 def arrays(step, form, points):
     contacts = {name: getattr(step.contacts, name) for name in ("phi", "n", "d1", "d2", "J")}
     own = {name: getattr(step, name) for name in ("tau_a", "tau_u", "delta_q_bar_a", "H")}
-    return {**points._asdict(), **contacts, **own, **form._asdict()}
+    found = {**points._asdict(), **contacts, **own, **form._asdict()}
+    return {name: array.tobytes() for name, array in found.items()}
 
 
 def differing_names(one, other):
-    return [name for name in one if one[name].tobytes() != other[name].tobytes()]
+    return [name for name in one if one[name] != other[name]]
 
 
-def wrong_arrays(system, pairs, cone, rng):
-    """Names of the arrays in which compiled steps differ from the plain path's."""
+@needs_compiler
+@pytest.mark.parametrize("cone", CONES)
+def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(tmp_path, cone):
+    rng = np.random.default_rng(CONES.index(cone))
+    system = bodies(tmp_path)
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
+    pairs = touching(system, KNOWN)
     simulator = Simulator(system, pairs, h=0.01, K_q=K_q, certify="off", cone=cone, fast=True)
-    wrong = set()
     for q, move in places(system, rng):
         force = rng.normal(size=system.n_v)
         goal = system.integrate(q, move)[: system.n_q_a]
@@ -131,62 +135,121 @@ def wrong_arrays(system, pairs, cone, rng):
         simulator.poses.move(q)
         simulator.contacts.find(simulator.poses)
         found = arrays(*simulator.posed_step(goal, force))
-        assert simulator.gap == expected["phi"].min()
-        wrong.update(differing_names(found, expected))
-        after = simulator.screws.integrate(move)
-        wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
-    return sorted(wrong)
+        assert differing_names(found, expected) == []
+        assert simulator.gap == np.frombuffer(expected["phi"]).min()
+        assert simulator.screws.integrate(move).tobytes() == system.integrate(q, move).tobytes()
 
 
-@needs_compiler
-@pytest.mark.parametrize("cone", CONES)
-def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_the_plain_path(tmp_path, cone):
-    rng = np.random.default_rng(CONES.index(cone))
-    system = bodies(tmp_path)
-    pairs = [*shapes_and_clouds(system, KNOWN, rng), *solids(system, rng)]
-    assert wrong_arrays(system, pairs[::-1], cone, rng) == []
-
-
-@needs_compiler
-def test_pairs_that_compiled_code_does_not_know_are_those_of_the_plain_path(tmp_path):
-    rng = np.random.default_rng(11)
-    system = bodies(tmp_path)
-    pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
-    pairs += solids(system, rng)
-    assert wrong_arrays(system, pairs, "pyramid", rng) == []
-    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
-    known = zip(pairs, simulator.contacts.known, strict=True)
-    assert [pair.name for pair, is_known in known if not is_known] == ["p6", "p7"]
-
-
-@needs_compiler
-@pytest.mark.parametrize("contacts", [True, False])
-def test_whatever_follows_the_numbers_of_a_step_are_those_of_the_plain_path(tmp_path, contacts):
-    """An extension, Coulomb's law, the ellipsoid, other backends, and a scene without contacts."""
-    rng = np.random.default_rng(5)
-    system = bodies(tmp_path)
-    pairs = solids(system, rng)[:1] if contacts else []
-    K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
-    following = (
-        {"extension": lambda q: Extension(lambda s: [s.delta_q_u[0] <= 1.0])},
-        {"law": "coulomb"},
-        {"cone": "ellipsoid"},
-        {"backend": "clarabel", "certify": "residual"},
-        {"backend": "none"},
-        *([{"backend": "scs", "certify": "off"}] if contacts else []),  # it needs rows
+def boxes(folder):
+    """40, of which the first is held."""
+    return System(
+        [
+            Body.of_shape(
+                f"b{i}", SHAPES["box"], 1.0, xyz=(i, 0.0, 0.0), actuated=() if i else ("base",)
+            )
+            for i in range(40)
+        ]
     )
+
+
+def with_a_ball(folder):
+    return System([*bodies(folder).bodies, Body.of_shape("b", SHAPES["box"], 1.0, base="ball")])
+
+
+def some(make, own):
+    """Some of the bodies of a system."""
+    return lambda folder: System(make(folder).bodies[own])
+
+
+OFF = {"certify": "off"}
+OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
+KINDS = {
+    **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}, True) for cone in CONES},
+    "no contacts": (bodies, (), {}, True),
+    "one body": (some(bodies, slice(1)), KNOWN, {}, True),
+    "40 boxes": (boxes, KNOWN[:1], {}, True),
+    "40 boxes of which nothing is claimed": (boxes, KNOWN[:1], OFF, False),
+    "nothing claimed": (bodies, KNOWN, OFF, True),
+    "residuals": (bodies, KNOWN, {"certify": "residual"}, False),
+    "the ellipsoid": (bodies, KNOWN, {"cone": "ellipsoid"}, False),
+    "Coulomb's law": (bodies, KNOWN, {"law": "coulomb"}, False),
+    "own rows": (bodies, KNOWN, OWN, False),
+    "another backend": (bodies, KNOWN, {"backend": "clarabel"}, False),
+    "no backend": (bodies, KNOWN, {"backend": "none"}, False),
+    "in blocks": (some(bodies, slice(1, 4)), KNOWN, {"backend": "piqp"}, False),
+    "a joint that C does not know": (with_a_ball, KNOWN, {}, False),
+    "a mass that varies": (some(chain_scene, slice(2)), KNOWN, {}, False),
+    "shapes that C does not know": (bodies, ("cone", "box", "ellipsoid"), {}, False),
+}
+"""Bodies, shapes and settings; whether C takes all of a step."""
+
+
+def all_of(result):
+    """What no choice is left of in a result; of q and delta_q, if the step is certified exactly."""
+    solution = result.solution
+    certificate = solution.certificate
+    found = {"points": result.points, "forces": result.forces, "H": result.step.H}
+    for part in (result.step, result.step.contacts):  # in blocks or not
+        kind = Contacts if isinstance(part, Contacts) else StepData
+        found |= {name: getattr(part, name) for name in kind.kept() if name != "contacts"}
+    if certificate.kind == "exact":
+        found |= {"q": result.q, "delta_q": solution.delta_q, "A'lam": solution.net_impulse}
+        unique = {"multipliers_unique", "differentiable", "smallest_inactive_slack", "error_bound"}
+        if certificate.multipliers_unique:
+            found |= {"lam": solution.lam, "lam_extra": solution.lam_extra}
+            unique |= {"active", "smallest_active_multiplier"}
+        found |= {name: getattr(certificate, name) for name in unique}
+    return {name: bits(value) for name, value in found.items()}
+
+
+def scene(kind, folder):
+    """Arguments of a simulator."""
+    make, names, own, _ = KINDS[kind]
+    system = make(folder)
+    pairs = touching(system, names) if names else []
+    K_q = np.diag(np.arange(500.0, 500.0 + system.n_a))
+    same = {"system": system, "pairs": pairs, "h": 0.01, "K_q": K_q, "gravity": (-9.81, 0.0, 0.0)}
+    return same | own
+
+
+def two_steps(simulators, q):
+    """Results of some simulators, each step from where the last of them has led."""
+    system = simulators[0].system
+    force = np.linspace(-1.0, 1.0, system.n_v)
+    for _ in range(2):
+        goal = system.integrate(q, np.full(system.n_v, 1e-3))[: system.n_q_a]
+        found = [simulator.step(q, goal, force) for simulator in simulators]
+        yield found
+        q = found[-1].q
+
+
+@needs_compiler
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_of_a_result_is_the_plain_path_s(tmp_path, monkeypatch, kind):
+    """An answer that is not certified exactly is near to it, and q+ its sum by the core."""
+    if kind == "in blocks":
+        always_in_blocks(monkeypatch)
+    same = scene(kind, tmp_path)
+    system = same["system"]
     q = system.q_start
-    for settings in following:
-        plain, fast = (
-            Simulator(system, pairs, h=0.01, K_q=K_q, **settings, fast=speed)
-            for speed in (False, True)
-        )
-        one, other = (some.step(q, q[: system.n_q_a]) for some in (plain, fast))
+    proved = {} if kind == "the ellipsoid" else {"backend": "none", "certify": "full"}
+    plain = Simulator(**same | proved)
+    fast = Simulator(**same, fast=True)
+    said = {"off": "none", "residual": "residual"}
+    for one, other in two_steps([plain, fast], q):
+        found = other.solution
+        claimed = found.certificate.kind
+        assert claimed == said.get(fast.certify, one.solution.certificate.kind)
         assert fast.by_c
-        assert one.step == other.step, settings
-        assert [bits(one.points), bits(one.step)] == [bits(other.points), bits(other.step)]
-        if settings.get("certify", "full") == "full" and settings.get("cone") is None:
-            assert one.q.tobytes() == other.q.tobytes(), settings
+        assert (fast.blocks is not None) == ("boxes" in kind or "blocks" in kind)
+        assert isinstance(other, FollowingResult) == KINDS[kind][-1]
+        assert differing_names(all_of(other), all_of(one)) == []
+        if claimed != "exact":
+            assert error(one.step, found.delta_q, one.solution.delta_q) < ACTIVE_SET
+            assert residuals_of(other.step, found.delta_q, found.lam).worst < ACTIVE_SET
+            assert bits(other.q) == bits(system.integrate(q, found.delta_q))
+        q = other.q
+    assert not same["pairs"] or np.abs(other.forces).max() > 0.1
 
 
 def test_clouds_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path():
@@ -267,23 +330,14 @@ def test_without_a_compiler_the_plain_path_takes_the_steps_and_says_so(tmp_path)
 
 
 @needs_compiler
-@pytest.mark.parametrize("name", ["coefficient", "moves_beta"])
+@pytest.mark.parametrize("name", ["coefficient", "moves_beta", "kind"])
 def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name):
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one = scenario.simulator()
-    one.numbers[name][:] *= 2  # as if the compiled code were wrong
-    q = scenario.system.q_start
-    goal = scenario.targets(scenario.h)
-    expected = replace(scenario, fast=False).simulator().step(q, goal)
-    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
-    assert not one.by_c
-
-
-@needs_compiler
-def test_a_sum_that_compiled_code_makes_wrong_is_left_to_the_plain_path():
-    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
-    one = scenario.simulator()
-    one.screws.sums["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
+    if name == "kind":
+        one.screws.sums["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
+    else:
+        one.numbers[name][:] *= 2  # as if the compiled code were wrong
     q = scenario.system.q_start
     goal = scenario.targets(scenario.h)
     expected = replace(scenario, fast=False).simulator().step(q, goal)
