@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from itertools import chain, product
+from itertools import product
 
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.account.account import pair_accounts
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length
@@ -161,31 +162,31 @@ def through(task: Task) -> Iterator[Said]:
             if bodies[0] == bodies[1] or not moved.any() or frozenset((_who(a), _who(b))) in joined:
                 continue
             made.append((a, b))
-    if len(made) > MOST:
+    if not made or len(made) > MOST:
         return
     points = {placed.name: _points(placed) for placed in every}
     radius = {
         name: BALL * float(np.linalg.norm(own, axis=1).max(initial=0.0))
         for name, own in points.items()
     }
+    steps = np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist()
+    at = [system.kinematics(task.trajectory["q"][k]) for k in (0, *steps)]
+    depths = np.array([_depths(pair, points, radius, at) for pair in made])
+    sizes = [min(float(s.shape.extent) or np.inf for s in pair) for pair in made]
+    passed = (depths[:, :1] <= 0) & (depths[:, 1:] > SUNK * np.array(sizes)[:, None])
     said: dict[frozenset[str], Said] = {}
-    q = task.trajectory["q"]
-    start = _depths(task, made, points, radius, q[0])
-    for k in np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist():
-        depths = _depths(task, made, points, radius, q[k])
-        for pair, at_first, depth in zip(made, start, depths, strict=True):
-            sizes = [float(s.shape.extent) or np.inf for s in pair]
-            names = [side(system, s) for s in pair]
-            key = frozenset(name.partition("/")[0] for name in names)
-            found = said.get(key)
-            worse = found is None or found.numbers["depth_mm"] < 1e3 * depth
-            if at_first <= 0 and depth > SUNK * min(sizes) and worse:
-                said[key] = Said(
-                    f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
-                    f"no table joins them, and they pass through each other, {length(depth)} deep "
-                    f"at {k * task.h:.2f} s",
-                    {"depth_mm": 1e3 * depth, "step": k - 1},
-                )
+    for i, j in np.argwhere(passed.T).tolist():
+        k = steps[i]
+        depth = float(depths[j, i + 1])
+        names = [side(system, s) for s in made[j]]
+        key = frozenset(name.partition("/")[0] for name in names)
+        if key not in said or said[key].numbers["depth_mm"] < 1e3 * depth:
+            said[key] = Said(
+                f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
+                f"no table joins them, and they pass through each other, {length(depth)} deep "
+                f"at {k * task.h:.2f} s",
+                {"depth_mm": 1e3 * depth, "step": k - 1},
+            )
     yield from said.values()
 
 
@@ -195,36 +196,36 @@ def _who(placed: PlacedShape) -> str | int:
 
 
 def _depths(
-    task: Task,
-    pairs: list[tuple[PlacedShape, PlacedShape]],
+    pair: tuple[PlacedShape, PlacedShape],
     points: dict[str, Array],
     radius: dict[str, float],
-    q: Array,
-) -> list[float]:
-    """How deep points of one shape are in the other [m], at most; negative where they are apart."""
-    kinematics = task.system.kinematics(q)
-    centre = {s.name: kinematics.R[s.link] @ s.t + kinematics.t[s.link] for s in chain(*pairs)}
-    found = []
-    for pair in pairs:
-        a, b = (placed.name for placed in pair)
-        between = np.linalg.norm(centre[a] - centre[b])
-        if len(points[a]) and len(points[b]) and between > radius[a] + radius[b]:
-            found.append(-np.inf)
+    at: list[Kinematics],
+) -> Array:
+    """How deep points of one shape are in the other at most, at some instants, (instants,) [m].
+
+    Negative where they are apart.
+    """
+    R = np.array([kinematics.R for kinematics in at])
+    t = np.array([kinematics.t for kinematics in at])
+    a, b = (R[:, s.link] @ s.t + t[:, s.link] for s in pair)
+    bounded = all(len(points[s.name]) for s in pair)
+    apart = np.linalg.norm(a - b, axis=1) > sum(radius[s.name] for s in pair)
+    near = np.flatnonzero(~(apart & bounded))
+    depth = np.full(len(at), -np.inf)
+    for of, inside in (pair, pair[::-1]):
+        if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
             continue
-        depth = -np.inf
-        for of, inside in (pair, pair[::-1]):
-            if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
-                continue
-            x = points[of.name] @ of.R.T + of.t
-            x = x @ kinematics.R[of.link].T + kinematics.t[of.link]
-            x = (x - kinematics.t[inside.link]) @ kinematics.R[inside.link]
-            x = (x - inside.t) @ inside.R
-            if len(points[inside.name]):  # no point is in it that is not in its ball
-                x = x[np.linalg.norm(x, axis=1) <= radius[inside.name]]
-            if len(x):
-                depth = max(depth, -float(inside.shape.signed_distance(x)[0].min()))
-        found.append(depth)
-    return found
+        x = points[of.name] @ of.R.T + of.t
+        x = x @ R[near, of.link].swapaxes(1, 2) + t[near, None, of.link]
+        x = (x - t[near, None, inside.link]) @ R[near, inside.link]
+        x = (x - inside.t) @ inside.R
+        # No point is in it that is not in its ball.
+        close = (np.vecdot(x, x) <= radius[inside.name] ** 2) | (not len(points[inside.name]))
+        phi = np.full(close.shape, np.inf)
+        if close.any():
+            phi[close] = inside.shape.signed_distance(x[close])[0]
+        depth[near] = np.maximum(depth[near], -phi.min(axis=1))
+    return depth
 
 
 def _points(placed: PlacedShape) -> Array:

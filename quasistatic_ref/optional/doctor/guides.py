@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run, wrenches
-from quasistatic_ref.optional.doctor.start import Start, contacts_of
+from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
@@ -103,7 +103,7 @@ def guided(start: Start) -> Iterator[Said]:
     """Contacts at the start that let a body crawl at most, once for each table and joint."""
     if start.points is None or not start.small:
         return
-    contacts = contacts_of(start.system, start.pairs, start.points, start.kinematics)
+    contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
     said: set[tuple[str, ...]] = set()
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)

@@ -6,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import contacts_of, least, slices, table
+from quasistatic_ref.optional.doctor.start import least, slices, table
 from quasistatic_ref.tolerances import BEARS, SUNK
 
 DEEP = SUNK / 100
@@ -36,7 +38,8 @@ def border(run: Run) -> Iterator[Said]:
             points = closest_points([pair], kinematics)
         except ContactError:
             return
-        contacts = contacts_of(run.system, [pair], points, kinematics)
+        geometry = ContactGeometry(contact_layout([pair]), run.system.column_map)
+        contacts = geometry.contacts(points, kinematics)
         gap = points.phi + np.vecdot(points.n, contacts.motion(run["delta_q"][-1])[:, :3])
         if gap[-1] < -DEEP * least(pair):
             yield Said(

@@ -11,7 +11,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.between import TASK, TaskOfRun
-from quasistatic_ref.optional.doctor.start import Start, contacts_of
+from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -39,6 +39,7 @@ class Run(Start):
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
         self._in_c: dict[int, tuple[Array, Array] | None] = {}
+        self._contacts: dict[int, Contacts] = {}
         self._steps: dict[int, StepData] = {}
 
     @cached_property
@@ -71,7 +72,11 @@ class Run(Start):
 
     def contacts(self, k: int) -> Contacts:
         """The contacts of step k."""
-        return self.step_data(k).contacts
+        if k not in self._contacts:
+            kinematics = self.system.kinematics(self["q"][k])
+            geometry = self.simulator.geometry
+            self._contacts[k] = geometry.contacts(self.points_of(k), kinematics)
+        return self._contacts[k]
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k, up to rounding, with the paper's cone for a curved one."""
@@ -82,7 +87,6 @@ class Run(Start):
         n_a = self.system.n_a
         tau = self.noted("tau")[k]
         polyhedral = cone(simulator.cone).polyhedral
-        kinematics = self.system.kinematics(q)
         self._steps[k] = step = StepData(
             h=self.h,
             K_q=simulator.K_q,
@@ -90,7 +94,7 @@ class Run(Start):
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
             delta_q_bar_a=self.system.actuated_difference(q, self["q_bar_a"][k]),
-            contacts=contacts_of(self.system, self.pairs, self.points_of(k), kinematics),
+            contacts=self.contacts(k),
             cone=simulator.cone if polyhedral else PYRAMID,
         )
         return step

@@ -8,15 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.extension import NO_RISES
 
@@ -105,14 +103,6 @@ class Start:
         """Whether all of J may be formed, and a step solved once more."""
         in_blocks = getattr(self.simulator, "blocks", None) is not None  # of many bodies
         return not in_blocks and 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
-
-
-def contacts_of(
-    system: System, pairs: Iterable[ContactPair], points: ClosestPoints, kinematics: Kinematics
-) -> Contacts:
-    """Contacts with a dense J."""
-    geometry = ContactGeometry(contact_layout(tuple(pairs)), system.column_map)
-    return geometry.contacts(points, kinematics)
 
 
 def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
