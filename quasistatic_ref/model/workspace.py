@@ -14,8 +14,9 @@ import pinocchio as pin
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.step.arrays import Array, Indices
 
-PART = 48
-"""Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""
+PART = 24
+"""Most coordinates of a part, unless one body alone has more: of 48, a workspace takes several
+times as long to make."""
 
 WORLD = np.eye(3)
 ORIGIN = np.zeros(3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
-from functools import wraps
+from functools import cached_property, wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
@@ -249,10 +249,13 @@ class Simulator(Settings, Shown):
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
-        system = self.system
         # H of Eq. (13): refused where it leaves float64's range
-        hessian(self.h, self.K_q, system.M_u(system.q_start))
-        self.geometry = ContactGeometry(self.layout, system.column_map)
+        hessian(self.h, self.K_q, self.system.M_u(self.system.q_start))
+
+    @cached_property
+    def geometry(self) -> ContactGeometry:
+        """Which coordinates move which contact; ``fast`` does without in scenes of many bodies."""
+        return ContactGeometry(self.layout, self.system.column_map)
 
     def __reduce__(self) -> tuple[object, ...]:
         given = {"backend": self.named_backend, "extension": self.extension}

@@ -22,7 +22,7 @@ def balls(count: int) -> System:
 
 
 def test_a_part_holds_as_many_bodies_as_have_room():
-    # Six coordinates a ball: 48 of a part are those of 8 balls, and 17 = 8 + 8 + 1.
+    # Six coordinates a ball: 24 of a part are those of 4 balls, and 9 = 4 + 4 + 1.
     full = PART // 6
     assert 6 * full == PART
     parts = balls(2 * full + 1).workspace().parts
@@ -32,7 +32,7 @@ def test_a_part_holds_as_many_bodies_as_have_room():
 def test_bodies_of_all_parts_move_and_weigh_as_each_alone():
     """Of a ball about its centre: J = [R 0; 0 R], and its weight is m R' g."""
     system = balls(9)
-    assert len(system.workspace().parts) == 2
+    assert len(system.workspace().parts) == 3
     kinematics = system.kinematics(system.q_start)
     J = np.zeros((10, 6, 54))
     weight = np.zeros(54)

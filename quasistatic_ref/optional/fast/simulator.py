@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import QuasistaticError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
@@ -124,7 +123,6 @@ class FastSimulator(Simulator):
         least = sparse_from(self.backend, self.cone)
         block_columns = BLOCK_COLUMNS.found() if 0 < least <= entries.every else None
         self.blocks: BlockColumns | None = None
-        self.geometry = ContactGeometry(layout, system.column_map)
         if block_columns is None:
             columns = every_column(self.geometry)
             M_u = system.M_u(system.q_start)

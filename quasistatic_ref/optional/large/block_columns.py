@@ -10,7 +10,7 @@ from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.optional.between import BLOCK_COLUMNS
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.data import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,27 +64,32 @@ def block_columns(layout: ContactLayout, column_map: ColumnMap) -> BlockColumns:
     moves = column_map.moves[:, 0, by_coordinate] > 0
     a = moves[layout.link_alpha]
     b = moves[layout.link_beta]
-    contact, rank, joint_column, n_x = _ragged(a | b)
-    coordinate = np.zeros((len(a), column_map.n_v), dtype=bool)
-    coordinate[contact, owner[joint_column]] = True
-    at, position, v, w = _ragged(coordinate)
-    column = np.full((len(a), w), column_map.n_v)
-    column[at, position] = v
+    contact, joint_column = np.nonzero(a | b)
+    rank = _ranks(contact)
+    coordinate = owner[joint_column]
+    new = np.diff(contact * column_map.n_v + coordinate, prepend=-1) > 0  # no mimic's
+    position = _ranks(contact[new])
+    column = np.full((len(a), _width(position)), column_map.n_v)
+    column[contact[new], position] = coordinate[new]
     column.setflags(write=False)  # one array for all steps
+    n_x = _width(rank)
     joints, place = np.zeros((2, len(a), n_x), dtype=np.int64)
     joints[contact, rank] = by_coordinate[joint_column]
-    place[contact, rank] = (coordinate.cumsum(axis=1) - 1)[contact, owner[joint_column]]
+    place[contact, rank] = position[np.cumsum(new) - 1]
     alpha, beta = np.zeros((2, len(a), n_x))
     alpha[contact, rank] = a[contact, joint_column]
     beta[contact, rank] = b[contact, joint_column]
     return BlockColumns(column, joints, place, alpha, beta, column_map.n_v)
 
 
-def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices, int]:
-    """Row, rank in the row and column of each mark, and the most marks of a row."""
-    row, column = np.nonzero(marked)
-    count = marked.cumsum(axis=1)[row, column]
-    return row, count - 1, column, int(count.max(initial=0))
+def _ranks(row: Indices) -> Indices:
+    """The rank of each entry among those of its row; `row` (n,) is ascending."""
+    return np.arange(len(row)) - np.searchsorted(row, row)
+
+
+def _width(rank: Indices) -> int:
+    """The most entries of a row, whose ranks (n,) are there."""
+    return int(rank.max(initial=-1)) + 1
 
 
 BLOCK_COLUMNS.fill(block_columns)
