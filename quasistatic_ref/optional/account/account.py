@@ -216,10 +216,9 @@ def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
 def _touches(run: Trajectory, motion: Array | None) -> Mask:
     """Which contacts have a row without slack, shape (steps, n_c)."""
     friction = cone(run.header["cone"])
-    ends = np.cumsum(friction.counts(run["rows"]))
-    lam = run["lam"]
-    each = [part.max(axis=1, initial=0.0) for part in np.split(lam, ends, axis=1)[:-1]]
-    most = np.stack(each, axis=1) if each else np.zeros((run.steps, 0))
+    counts = friction.counts(run["rows"])
+    of_rows = np.maximum(run["lam"][:, : counts.sum()], 0.0)
+    most = np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1)
     touches = np.asarray(most > BEARS * most.max(axis=1, initial=0.0, keepdims=True))
     if motion is None or not friction.polyhedral:
         return touches

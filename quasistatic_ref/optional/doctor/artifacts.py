@@ -13,6 +13,7 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.doctor.start import free_bases
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.ordered import dot
 from quasistatic_ref.tolerances import BEARS
 
 
@@ -168,7 +169,7 @@ def gap_after(phi: Array, n: Array, motion: Array) -> Array:
     motion : ndarray, shape (steps, n_c, 4)
         J delta_q [m, rad]: private rises are not in the gap.
     """
-    return np.asarray(phi + np.sum(n * motion[:, :, :3], axis=2))
+    return phi + dot(n, motion[:, :, :3])
 
 
 def boundary_layer(gap: Array, wrench: Array) -> Array:
