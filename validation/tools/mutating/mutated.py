@@ -90,7 +90,7 @@ certify/norm.py
 model/coordinates.py
     system
 model/system.py model/mass.py
-    named SYSTEM mass_in_blocks
+    named SYSTEM mass_in_blocks fast
 contact/jacobian.py
     CONTACT
 contact/pairs.py
@@ -169,9 +169,9 @@ model/urdf/urdf_shapes.py
 optional/show/model_words.py
     words plain_data
 model/workspace.py
-    world SYSTEM mass_in_blocks memory
+    world SYSTEM mass_in_blocks memory fast
 model/world.py
-    SYSTEM sparse
+    SYSTEM sparse fast
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
 optional/extensions/extended.py solve/units.py

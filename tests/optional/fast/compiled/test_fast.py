@@ -27,7 +27,6 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.scenes.contacts import X
 from quasistatic_ref.model.joints.axis_joint import Revolute
 from quasistatic_ref.optional.fast.compiled.onward import FollowingResult
 from tests.helpers import always_in_blocks, error, residuals_of
@@ -37,6 +36,7 @@ from tests.scenes import chain_scene
 from tests.tolerances import ACTIVE_SET
 
 ROOT = Path(__file__).parents[4]
+UP = np.array([2.0, 1.0, 2.0]) / 3
 KNOWN = ("box", "sphere", "capsule", "hull", "cylinder")
 CONES = ("pyramid", "product", "facets-8", "frictionless")
 
@@ -71,7 +71,7 @@ def bodies(folder):
 
 
 def touching(system, names):
-    """Contacts of a shape on each link with a wall that x leads away from, and of every two."""
+    """Contacts of a shape on each link with a slope, and of every two."""
     q = system.q_start
     shapes = cycle([SHAPES[name] for name in names])
     ball = SHAPES["sphere"]  # of 0.1 m
@@ -79,14 +79,14 @@ def touching(system, names):
     for at, name in enumerate(system.links[1:], start=1):
         R, t = system.pose(q, name)
         solid = PlacedShape("solid", at, np.eye(3), np.zeros(3), next(shapes))
-        nearest = t[0] - solid.shape.support_value(-R[:1]).item()
-        side = HalfSpace((1, 0, 0), nearest - 1e-4 * (at % 3))
+        nearest = UP @ t - solid.shape.support_value(-UP[None] @ R).item()
+        side = HalfSpace(UP, nearest - 1e-4 * (at % 3))
         wall = PlacedShape("wall", 0, np.eye(3), np.zeros(3), side)
         mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
         pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
         if at % 2 == 0:
             _, before = system.pose(q, system.links[at - 1])
-            beside = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + X * 0.2001), ball)
+            beside = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)
             one = PlacedShape("ball", at - 1, np.eye(3), np.zeros(3), ball)
             pairs.append(ContactPair(f"b{at}", one, beside, 0.3, 0.01, 6, 1))
     return pairs
@@ -208,7 +208,7 @@ def scene(kind, folder):
     system = make(folder)
     pairs = touching(system, names) if names else []
     K_q = np.diag(np.arange(500.0, 500.0 + system.n_a))
-    same = {"system": system, "pairs": pairs, "h": 0.01, "K_q": K_q, "gravity": (-9.81, 0.0, 0.0)}
+    same = {"system": system, "pairs": pairs, "h": 0.01, "K_q": K_q, "gravity": -9.81 * UP}
     return same | own
 
 

@@ -408,11 +408,11 @@ def test_backends_that_need_a_guard_take_the_long_way(few, backend):
 
 
 def test_boxes_that_nothing_couples_follow_in_blocks(few):
-    """Of 18, J is kept without its zeros; 108 coordinates are three parts of the workspace."""
+    """Of 18, J is kept without its zeros; 108 coordinates are five parts of the workspace."""
     made = cubes(18, 1, 6, "askew")
     simulator = made.simulator("full", True)
     assert simulator.blocks is not None
-    assert len(simulator.system.workspace().parts) == 3
+    assert len(simulator.system.workspace().parts) == 5
     q = simulator.step(made.q, made.goals[0], made.force).q
     block = simulator.steps(q, lambda k, q: (made.goals[0], made.force), 3)
     motion = [one.step.contacts.motion(one.solution.delta_q) for one in block]
