@@ -28,15 +28,15 @@ class Prediction:
         x, y [m], angle [rad] of the body's frame.
     kinds : dict of str to int
         How many steps have a certificate of each kind.
-    error_bound : float
-        The largest of all steps [-]; infinity if a step has none.
+    error_bound : float or None
+        The largest of all steps [-]; None if a step has none.
     sticks, slides : int
         Steps in which the finger touched without slipping, and slipping.
     """
 
     pose: Array
     kinds: dict[str, int]
-    error_bound: float
+    error_bound: float | None
     sticks: int
     slides: int
 
@@ -85,7 +85,7 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: str = "full") -> P
         slides = slides + (loaded and slips)
     R = rotation(body[3])
     end = np.append(body[:2] - R @ of.outline.centre, body[3])
-    return Prediction(end, kinds, error, sticks, slides)
+    return Prediction(end, kinds, error if np.isfinite(error) else None, sticks, slides)
 
 
 def solver_for_step(step: StepData, solver: Solver | None) -> Solver:
