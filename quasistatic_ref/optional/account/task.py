@@ -37,6 +37,8 @@ BALL = 1.15
 no direction is more than 28 degrees from one of them [-]."""
 MOST = 300
 """Pairs of shapes that are looked at."""
+AT_ONCE = 500_000
+"""Points that are looked at together: of more, memory would count."""
 
 
 class Task:
@@ -215,16 +217,17 @@ def _depths(
     for of, inside in (pair, pair[::-1]):
         if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
             continue
-        x = points[of.name] @ of.R.T + of.t
-        x = x @ R[near, of.link].swapaxes(1, 2) + t[near, None, of.link]
-        x = (x - t[near, None, inside.link]) @ R[near, inside.link]
-        x = (x - inside.t) @ inside.R
-        # No point is in it that is not in its ball.
-        close = (np.vecdot(x, x) <= radius[inside.name] ** 2) | (not len(points[inside.name]))
-        phi = np.full(close.shape, np.inf)
-        if close.any():
-            phi[close] = inside.shape.signed_distance(x[close])[0]
-        depth[near] = np.maximum(depth[near], -phi.min(axis=1))
+        own = points[of.name] @ of.R.T + of.t
+        for k in np.array_split(near, 1 + near.size * len(own) // AT_ONCE):
+            x = own @ R[k, of.link].swapaxes(1, 2) + t[k, None, of.link]
+            x = (x - t[k, None, inside.link]) @ R[k, inside.link]
+            x = (x - inside.t) @ inside.R
+            # No point is in it that is not in its ball.
+            close = (np.vecdot(x, x) <= radius[inside.name] ** 2) | (not len(points[inside.name]))
+            phi = np.full(close.shape, np.inf)
+            if close.any():
+                phi[close] = inside.shape.signed_distance(x[close])[0]
+            depth[k] = np.maximum(depth[k], -phi.min(axis=1))
     return depth
 
 
