@@ -216,14 +216,16 @@ class _GroupForces:
         of_sides = SIDES.needed("forces")(own)
         integers = [each for each, _ in tables]
         width = max(each.shape[1] for each in integers)
-        wide = [np.pad(each, ((0, 0), (0, width - each.shape[1]), (0, 0))) for each in integers]
-        denominators = np.concatenate([each for _, each in tables])
         firsts = np.array([0, *accumulate(map(len, integers))])
+        table = np.zeros((firsts[-1], width, 4), np.int64)
+        for i, each in zip(firsts.tolist(), integers, strict=False):
+            table[i : i + len(each), : each.shape[1]] = each
+        denominators = np.concatenate([each for _, each in tables])
         self.s.put(
             {
                 "width": width, "sides": len(of_sides), "count": own.counts,
                 "first": firsts[kind], "face": np.zeros(n_c, np.int64),
-                "table": np.concatenate(wide),
+                "table": table,
                 "denominator": denominators,
                 "multiple": int(np.lcm.reduce(denominators[denominators > 0])),
                 "side": np.concatenate(of_sides),
