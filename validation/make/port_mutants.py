@@ -40,11 +40,12 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case
 from quasistatic_ref.lab.vectors.challenge.rounds import ROUND
 from quasistatic_ref.lab.vectors.check.answers import Answers
+from quasistatic_ref.lab.vectors.check.common import common_of
 from quasistatic_ref.lab.vectors.check.compare import leaves
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.scope import scope_read
-from quasistatic_ref.lab.vectors.check.verdict import FAILED
+from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -103,11 +104,14 @@ class Found:
         Of the mistakes that are named there.
     kind : str
         ``wrong``, ``error`` or ``hang``; empty if nothing is found.
+    common : str
+        Where nothing is named, what the failing cases have in common.
     """
 
     layer: str = ""
     names: list[str] = field(default_factory=list)
     kind: str = ""
+    common: str = ""
 
 
 @dataclass
@@ -137,11 +141,12 @@ class Trial:
 
 @dataclass
 class Seen:
-    """What some cases came to: whether an answer is another one, what fails, what is right."""
+    """What cases came to: whether an answer is another, what fails, is right, has no answer."""
 
     other: bool = False
     failed: dict[str, list[Failed]] = field(default_factory=dict)
     right: dict[str, list[Failed]] = field(default_factory=dict)
+    silent: dict[str, list[Failed]] = field(default_factory=dict)
     trouble: str = ""
 
     def add(self, more: "Seen") -> None:
@@ -156,10 +161,13 @@ class Seen:
     def first_found(self) -> Found:
         """What is found, and named: in the first layer that fails."""
         for layer in LAYERS:
-            if layer in self.failed:
+            failed = self.failed.get(layer, [])
+            right = self.right.get(layer, [])
+            if said := failed or self.silent.get(layer, []):
                 with np.errstate(all="ignore"):  # answers may be any numbers
-                    named = mistakes_of(layer, self.failed[layer], self.right.get(layer, []))
-                return Found(layer, [one.name for one in named], self.trouble or "wrong")
+                    names = [one.name for one in mistakes_of(layer, failed, right)]
+                    common = "" if names else common_of(layer, said, right)
+                return Found(layer, names, self.trouble or "wrong", common)
         return Found(kind=self.trouble)
 
 
@@ -240,6 +248,8 @@ class Port:
                 seen.right.setdefault(q.layer, []).append(self._judged[q.id])
             elif '"output"' not in given[q.id]:
                 seen.other, seen.trouble = True, "error"
+                none = Failed(q.id, q.case, q.record, None, Verdict(q.id, MISSING))
+                seen.silent.setdefault(q.layer, []).append(none)
             else:
                 seen.other = seen.other or differs(q, self._right[q.id], given[q.id])
                 one = self.judged(q, given[q.id])
@@ -383,31 +393,44 @@ the first layer that fails one belongs to the place that was changed
 (`validation/ports/causes.toml`); *wrong*: none does. Half of the mutants, by a hash of their
 names, is kept apart: no rule of the checker is written while looking at them, and they are counted
 only.
+
+Where nothing is named, a check says what failing cases have in common. *Place right*: the
+function that was changed is one of those, at most six of a port, that do what is said (the table
+`common` of the same file, written by the open half); *place wrong*: it is none of them. *Silent*:
+nothing is said, or nothing of a place.
 """
-VERDICTS = ("right", "wrong", "unnamed")
+VERDICTS = ("right", "wrong", "place right", "place wrong", "silent")
+WAYS = {"check": VERDICTS, "challenge": VERDICTS[:2]}
+"""What is counted of each way of looking."""
 
 
 @cache
-def causes() -> dict[str, re.Pattern[str]]:
-    """Of each mistake that has a name, the places in which it is made."""
-    return {name: re.compile(text) for name, text in tomllib.loads(CAUSES.read_text()).items()}
+def causes() -> Json:
+    """Of each mistake that has a name, the places in which it is made; ``common``: of words."""
+    return tomllib.loads(CAUSES.read_text("utf-8"))
 
 
 def verdict(one: Json, way: str) -> str:
     """What a way of looking says of a mutant: ``not found``, or one of VERDICTS."""
-    if not one[way]["kind"]:
+    said = one[way]
+    if not said["kind"]:
         return "not found"
-    names = one[way]["names"]
-    if not names:
-        return "unnamed"
-    return "right" if any(causes()[name].search(one["where"]) for name in names) else "wrong"
+    if said["names"]:
+        named = any(re.search(causes()[name], one["where"]) for name in said["names"])
+        return "right" if named else "wrong"
+    sentence = f"{said['layer']}: {said.get('common', '')}"
+    for words, functions in causes()["common"].items():
+        if said.get("common") and re.match(words, sentence):
+            here = one["where"].partition(":")[0] in functions.split()
+            return "place right" if here else "place wrong"
+    return "silent"
 
 
 def _row(label: str, ones: Sequence[Json]) -> tuple[object, ...]:
     cells: list[object] = [label, len(ones)]
-    for way in ("check", "challenge"):
+    for way, said in WAYS.items():
         count = Counter(verdict(one, way) for one in ones)
-        cells += [len(ones) - count["not found"], *(count[name] for name in VERDICTS)]
+        cells += [len(ones) - count["not found"], *(count[name] for name in said)]
     return tuple(cells)
 
 
@@ -420,7 +443,7 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
     yield f"Of {every:,} changes {len(trials)} were tried, of each kind one in turn: {len(kept)}"
     yield f"answer another number, {count['same']} do not, {count['no program']} are no program."
     yield ""
-    ways = [f"{way}: {name}" for way in ("check", "challenge") for name in ("found", *VERDICTS)]
+    ways = [f"{way}: {name}" for way, said in WAYS.items() for name in ("found", *said)]
     for title, apart in (("The half that is open", False), ("The half that is kept apart", True)):
         half = [one for one in kept if one["apart"] == apart]
         kinds = sorted({one["kind"] for one in half})
@@ -431,11 +454,12 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
         yield ""
         yield from markdown_table(("kind", "mutants", *ways), rows)
         yield ""
-    for wanted in ("not found", "wrong"):
+    for wanted in ("not found", "wrong", "place wrong"):
         yield f"## Open, and {wanted}"
         yield ""
         for one in kept:
-            seen = [way for way in ("check", "challenge") if verdict(one, way) == wanted]
+            asked = [way for way, said in WAYS.items() if wanted in ("not found", *said)]
+            seen = [way for way in asked if verdict(one, way) == wanted]
             if seen and not one["apart"]:
                 yield f"- {' and '.join(seen)}: `{one['name']}`"
         yield ""

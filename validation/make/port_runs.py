@@ -2,11 +2,11 @@
 
 Run ``python -m validation.make.port_runs --records FILE --out FILE`` (half an hour; name a port for
 it alone). Of the mutants of ``port_mutants`` that are kept apart, and that the committed vectors
-find wrong, 25 are drawn by a hash of their names. Each takes the steps of the scenes in
-``validation/scenes``, one after the other, until ``compare`` sees a wrong step. What it says is
-held against what the mutant does: the layer against the first that fails in ``vectors check``; a
-cause is right if the plain program with it ends every third step of all scenes where the mutant
-does. The records have what is known of each, and a second run goes on from there.
+find wrong, 25 are drawn by a hash of their names. Each takes the steps of all scenes in
+``validation/scenes``, which ``compare`` is given together. What it says is held against what the
+mutant is: the layer against the first that fails in ``vectors check``; a name, or what wrong steps
+have in common, against the function that was changed, as in ``port_mutants``. The records have
+what is known of each, and a second run goes on from there.
 """
 
 import json
@@ -22,23 +22,23 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.commands.compare import SHOWN
-from quasistatic_ref.lab.oracle.causes import Cause, Taken, ends_there, program_that_ends
-from quasistatic_ref.lab.oracle.comparison import DIGITS, comparison_of_run
+from quasistatic_ref.lab.oracle.comparison import DIGITS, common_of_runs, comparison_of_run
 from quasistatic_ref.lab.oracle.run_table import OtherRun
-from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
+from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from validation.make.port_mutants import (
     EACH,
+    VERDICTS,
     Port,
     Program,
     committed_questions,
     part_of,
     replies,
     started,
+    verdict,
 )
 from validation.tools.scripts import ROOT, script_options, show_page
 
@@ -47,13 +47,7 @@ DRAWN = {"go": 13, "cpp": 12}
 """Mutants of each port."""
 PARTS = 6
 """Every sixth change is drawn from; of an odd part, so that it is kept apart."""
-EVERY = 3
-"""Which steps a cause is held against."""
-NEAR = 1e-6
-"""How far from the mutant it may end there, over the largest entry of the displacement [-]."""
-
 LAYERS = ("right", "among others", "wrong")
-CAUSES = ("right", "wrong", "none")
 
 
 class RunsOutcome(NamedTuple):
@@ -66,7 +60,7 @@ class RunsOutcome(NamedTuple):
     fails : str
         The first layer that fails in ``vectors check``.
     layer, cause : str
-        Of ``LAYERS`` and ``CAUSES``; empty if there is no wrong step.
+        Of ``LAYERS`` and ``VERDICTS``; empty if there is no wrong step.
     """
 
     outcome: str
@@ -125,47 +119,32 @@ def run_of(program: Program, scenario: Scenario) -> OtherRun | None:
     return OtherRun(0, np.array(q), 0.0) if len(q) > 1 else None
 
 
-def runs_outcome(fails: str, program: Program) -> RunsOutcome:
+def runs_outcome(fails: str, where: str, program: Program) -> RunsOutcome:
     """What `compare` says of the runs of a mutant, of which a layer fails in ``vectors check``."""
-    runs = {name: run for name in SCENES if (run := run_of(program, scene(name))) is not None}
-    for name, run in runs.items():
-        found = comparison_of_run(scene(name), run)
-        if found.first is None:
-            continue
-        layers = {layer.partition(" ")[0] for layer in found.layers}
-        known = "wrong" if fails not in layers else "among others"
-        cause = "none"
-        if found.causes:
-            holds = any(_is_right(one, runs) for one in found.causes[:SHOWN])
-            cause = "right" if holds else "wrong"
-        return RunsOutcome("wrong", fails, "right" if layers == {fails} else known, cause)
-    return RunsOutcome("same" if runs else "ends", fails)
-
-
-def _is_right(cause: Cause, runs: dict[str, OtherRun]) -> bool:
-    """Whether the plain program with a mistake ends where the mutant does, in all its runs."""
-    made = program_that_ends(cause.changed)
-    for name, run in runs.items():
-        cases = SceneCases(scene(name))
-        system = scene(name).system
-        for k in range(0, len(run.q) - 1, EVERY):
-            moved = np.abs(system.difference(run.q[k], run.q[k + 1])).max(initial=0.0)
-            if not ends_there(
-                system, made, Taken(cases.at(k, run.q[k]), run.q[k + 1], NEAR * moved)
-            ):
-                return False
-    return True
+    found = []
+    for name in SCENES:
+        if (run := run_of(program, scene(name))) is not None:
+            found.append(comparison_of_run(scene(name), run))
+    wrong = [one for one in found if one.first is not None]
+    if not wrong:
+        return RunsOutcome("same" if found else "ends", fails)
+    said = [{layer.partition(" ")[0] for layer in one.layers} for one in wrong]
+    layers = set.intersection(*said) or set.union(*said)
+    known = "wrong" if fails not in layers else "among others"
+    names = set.intersection(*({cause.name for cause in one.causes} for one in wrong))
+    way = {"kind": "wrong", "layer": "run", "names": [*names], "common": common_of_runs(found)}
+    cause = verdict({"where": where, "run": way}, "run")
+    return RunsOutcome("wrong", fails, "right" if layers == {fails} else known, cause)
 
 
 HEAD = f"""# Whole runs of programs with a mistake
 
 Made by `python -m validation.make.port_runs`: [mutants of the ports](port_mutants.md) are drawn
 from those that are kept apart and that the committed vectors find wrong. Each takes the steps of
-[the scenes for comparisons](../scenes/README.md), one scene after the other, until
-`quasistatic-ref compare` sees a step of fewer than {DIGITS:g} digits. The layer is right if it is
-the first that fails in `vectors check`. A cause is right if one of the first {SHOWN}, which are
-printed, is what the mutant does: the plain program with it ends every third step of all scenes
-where the mutant does.
+[the scenes for comparisons](../scenes/README.md), which `quasistatic-ref compare` is given
+together; a step of fewer than {DIGITS:g} digits is wrong. The layer, one that all scenes with a
+wrong step allow, is right if it is the first that fails in `vectors check`. What is said of the
+place is right, wrong or silent as in [the table of mutants](port_mutants.md).
 """
 
 
@@ -182,9 +161,9 @@ def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
         yield f"Those that move nothing fail `vectors check` in: {words}."
     yield ""
     count = Counter((one.cause, one.layer) for one in found)
-    rows = [(cause, *(count[cause, layer] for layer in LAYERS)) for cause in CAUSES]
+    rows = [(cause, *(count[cause, layer] for layer in LAYERS)) for cause in VERDICTS]
     rows.append(("all", *(sum(row[1 + i] for row in rows) for i in range(len(LAYERS)))))
-    yield from markdown_table(("cause", *(f"layer {layer}" for layer in LAYERS)), rows)
+    yield from markdown_table(("said", *(f"layer {layer}" for layer in LAYERS)), rows)
 
 
 def main() -> int:
@@ -201,7 +180,9 @@ def main() -> int:
             for change, program in port.mutants(2 * EACH, lambda c: part_of(c.name, PARTS) == 1):
                 if change.name not in done:
                     fails = first_failure(port, program) if program is not None else ""
-                    one = runs_outcome(fails, program) if fails and program is not None else None
+                    where = f"{change.place}: {change.old.strip()}"
+                    wrong = fails and program is not None
+                    one = runs_outcome(fails, where, program) if wrong else None
                     done[change.name] = one
                     print(one or "not wrong", file=sys.stderr, flush=True)
                     if options.records:

@@ -1,4 +1,4 @@
-"""``compare SCENE RUN``: where another program's run leaves the reference, and why."""
+"""``compare SCENE RUN ...``: where another program's runs leave the reference, and why."""
 
 import argparse
 from pathlib import Path
@@ -7,8 +7,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.oracle.comparison import DIGITS, Comparison, comparison_of_run
+from quasistatic_ref.lab.oracle.comparison import (
+    DIGITS,
+    Comparison,
+    common_of_runs,
+    comparison_of_run,
+)
 from quasistatic_ref.lab.oracle.run_table import other_run
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 
@@ -22,24 +28,44 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     shared.completed(scene, scenario_names, ".toml")
     words = "the run: a table in CSV, with a column t and one for each entry of q; or an .npz file"
     shared.completed(parser.add_argument("run", type=Path, help=words), tuple, ".csv", ".npz")
+    words = "further scenes and their runs, in turn"
+    parser.add_argument("more", nargs="*", metavar="SCENE RUN", help=words)
     words = f"correct digits of a step that counts as right (default: {DIGITS:g})"
     parser.add_argument("--digits", type=float, default=DIGITS, metavar="D", help=words)
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare; 1 if a step is another."""
-    scenario = load_scenario(options.scene, shared.scenario_settings(options))
-    read = other_run(options.run, scenario)
-    found = comparison_of_run(
-        scenario, read, options.digits, lambda line: shared.progress_line(options, f"{line} ...")
-    )
+    """Compare; 1 if a step is another.
+
+    Raises
+    ------
+    InputError
+        If a scene has no run.
+    """
+    if len(options.more) % 2:
+        raise InputError("is a scene without a run", field="more", value=options.more[-1])
+    settings = shared.scenario_settings(options)
+    scenes = [options.scene, *options.more[::2]]
+    found = []
+    for scene, path in zip(scenes, [options.run, *options.more[1::2]], strict=True):
+        shared.progress_line(options, f"comparing {path} ...")
+        scenario = load_scenario(scene, settings)
+        read = other_run(Path(path), scenario)
+        found.append((scenario, comparison_of_run(scenario, read, options.digits)))
+    common = common_of_runs([one for _, one in found])
     if options.json:
-        shared.print_json(record(found, scenario))
+        runs = [record(one, scenario) for scenario, one in found]
+        whole = {"runs": runs} if options.more else runs[0]
+        shared.print_json(whole | {"common": common or None})
     else:
-        for line in sentences(found, scenario):
-            shared.print_wrapped(line)
-    return int(found.first is not None or bool(found.failed))
+        for scene, (scenario, one) in zip(scenes, found, strict=True):
+            head = f"{scene}: " if options.more else ""
+            for line in sentences(one, scenario):
+                shared.print_wrapped(head + line)
+        if common:
+            shared.print_wrapped(common)
+    return max(int(one.first is not None or bool(one.failed)) for _, one in found)
 
 
 def record(found: Comparison, scenario: Scenario) -> dict[str, Any]:
@@ -85,12 +111,9 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
         at = f", contact {found.contact}" if found.contact else ""
         lines.append(f"layer {layers}{at}")
         for cause in found.causes[:SHOWN]:
-            head = f"looks like {cause.name}: " if cause.name else f"{cause.layer}: "
-            lines.append(head + cause.sentence)
-        if len(found.causes) > SHOWN:
-            lines.append(f"{len(found.causes) - SHOWN} other changes of a line do the same")
+            lines.append(f"looks like {cause.name}: {cause.sentence}")
         if not found.causes:
-            lines.append("none of the mistakes that are tried ends its steps as they end")
+            lines.append("no classic mistake ends its steps as they end")
     if found.failed:
         lines.append(f"the reference takes no further step: {found.failed}")
     return lines

@@ -1,10 +1,10 @@
-"""Where the run of another program leaves the reference: the first step, the layer, the cause.
+"""Where runs of another program leave the reference: the first step, the layer, the cause.
 
 Each step of the other program is taken once more, from where it began in that run. So one wrong
 step is one wrong step, however far the runs have drifted apart.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,18 +13,23 @@ from scipy.optimize import nnls
 
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.lab.oracle.causes import OBJECTIVE, Cause, Taken, causes
+from quasistatic_ref.lab.oracle.causes import Cause, Taken, causes
 from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.oracle.scene_case import SceneCases
+from quasistatic_ref.lab.vectors.check.common import common_of
+from quasistatic_ref.lab.vectors.check.mistakes import Failed
 from quasistatic_ref.lab.vectors.check.patched import program
+from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
 
+OBJECTIVE = "step (H and g)"
+"""What of a step is of no other layer."""
 DIGITS = 6.0
 """Correct digits of a step that count as right, if not another number is asked for [-]."""
-TRIED = 6
+TRIED = 12
 """Wrong steps, and as many right ones, by which causes are told apart."""
 CLEAR = 1e-3
 """What counts as nothing beside what is wrong in a step [-]."""
@@ -80,6 +85,8 @@ class Comparison:
         None if nothing that is tried explains it.
     failed : str
         Why the reference takes no step from a state of the run.
+    wrong, right : tuple of Taken
+        Some steps.
     """
 
     steps: int
@@ -90,13 +97,39 @@ class Comparison:
     layers: tuple[str, ...] = ()
     causes: tuple[Cause, ...] = ()
     failed: str = ""
+    wrong: tuple[Taken, ...] = ()
+    right: tuple[Taken, ...] = ()
+
+
+def common_of_runs(found: Sequence[Comparison]) -> str:
+    """What wrong steps of runs have in common, if no cause explains them; often empty.
+
+    Parameters
+    ----------
+    found : sequence of Comparison
+
+    Returns
+    -------
+    str
+    """
+    wrong = [_as_case(step, FAILED) for one in found for step in one.wrong]
+    if not wrong or any(one.causes for one in found):
+        return ""
+    return common_of("step", wrong, [_as_case(step) for one in found for step in one.right])
+
+
+def _as_case(one: Taken, verdict: str = PASSED) -> Failed:
+    """A step as an answer to a case of the vectors, of which only delta_q is known."""
+    tolerance = {"delta_q": {"absolute": one.allowed}}
+    record = {"output": program()("step", one.case), "tolerance": tolerance}
+    given = {"delta_q": one.delta_q.tolist()}
+    return Failed("", one.case, record, given, Verdict("", verdict, field="delta_q"))
 
 
 def comparison_of_run(
     scenario: Scenario,
     run: OtherRun,
     digits: float = DIGITS,
-    say: Callable[[str], None] = lambda line: None,
 ) -> Comparison:
     """Take each step of a run once more, and say where it first is another.
 
@@ -106,8 +139,6 @@ def comparison_of_run(
     run : OtherRun
     digits : float
         Of a step that counts as right [-].
-    say : callable
-        Called with a line on what is being done.
     """
     unit = run.resolution
     simulator = scenario.simulator()
@@ -131,18 +162,21 @@ def comparison_of_run(
     first = wrong[0] if wrong else None
     before = [one.digits for one in right if first is None or one.k < first.k]
     worst = min(before, default=16.0)
-    if first is None:
-        return Comparison(steps, worst, unit, failed=failed)
-    contact, layers = where(first, scenario.system.n_v)
-    found: tuple[Cause, ...] = ()
+    taken: list[Taken] = []
+    kept: list[Taken] = []
     if cases is not None:
         taken = [_taken_step(scenario, cases, one, run, True) for one in spread(wrong)]
         kept = [_taken_step(scenario, cases, one, run, False) for one in spread(right)]
-        if _is_reproduced(scenario, taken[0], first):
-            found = tuple(causes(scenario.system, taken, kept, say))
+    if first is None:
+        return Comparison(steps, worst, unit, failed=failed, right=tuple(kept))
+    contact, layers = where(first, scenario.system.n_v)
+    if not taken or not _is_reproduced(scenario, taken[0], first):
+        return Comparison(steps, worst, unit, first, contact, layers, (), failed)
+    found = tuple(causes(scenario.system, taken, kept))
     if found:
         layers = tuple(dict.fromkeys(cause.layer for cause in found))
-    return Comparison(steps, worst, unit, first, contact, layers, found, failed)
+    some = (tuple(taken), tuple(kept))
+    return Comparison(steps, worst, unit, first, contact, layers, found, failed, *some)
 
 
 def _cases(scenario: Scenario) -> SceneCases | None:
@@ -178,7 +212,7 @@ def _taken_step(
     allowed = max(ROUNDED * run.resolution, MATCH * off if is_wrong else 4 * off + EXACT * moved)
     if is_wrong:
         allowed = min(allowed, off / 2)
-    return Taken(case, run.q[one.k - run.first + 1], allowed)
+    return Taken(case, run.q[one.k - run.first + 1], one.delta_q, allowed)
 
 
 def _is_reproduced(scenario: Scenario, taken: Taken, first: StepOff) -> bool:

@@ -9,10 +9,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.oracle import causes
 from quasistatic_ref.lab.oracle import comparison as comparison_of_runs
 from quasistatic_ref.lab.oracle.comparison import comparison_of_run
-from quasistatic_ref.lab.oracle.one_line_bugs import bugs_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.vectors.check.patched import program
@@ -76,20 +74,19 @@ def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys)
     assert flat(capsys.readouterr().out) == flat(shown)
 
 
-def test_a_bug_of_one_line_is_found_in_its_layer(tmp_path, monkeypatch):
-    monkeypatch.setattr(causes, "FILES", ("mechanism",))  # the others take some seconds
-    turned = "mechanism.py:\n- slip = v_beta - v_alpha\n+ slip = v_beta"
-    found = comparison(tmp_path, PUSHED, turned, 60)
-    assert found.layers == ("jacobian",)
-    assert found.contact.startswith("push(")
-    assert any("'slip = v_beta - v_alpha' were 'slip = v_beta'" in cause.sentence
-               for cause in found.causes)  # fmt: skip
-
-
-def test_one_of_three_numbers_is_a_bug_of_a_line():
-    text = "def turned(n):\n    d = n\n    return d\n"
-    lines = {bug.new for bug in bugs_of("rows.py", text, frozenset({2}))}
-    assert {"d = np.array(n) * [1, -1, 1]", "d = np.array(n)[..., [1, 1, 2]]"} <= lines
+def test_what_wrong_steps_of_two_runs_have_in_common_is_said(tmp_path, capsys):
+    patch = "mechanism.py:\n- own[moving, 0] = pace * along"
+    patch += '\n+ own[moving, 0] = pace * along * (3 if body["joint"] == "prismatic" else 1)'
+    given = []
+    for scene in OF_SCENES[0], OF_SCENES[2]:  # the second has no such joint
+        run = run_with(tmp_path, str(scene), patch, 10).rename(tmp_path / f"{scene.stem}.csv")
+        given += [str(scene), str(run)]
+    assert main(["compare", *given, "--quiet"]) == 1
+    said = flat(capsys.readouterr().out)
+    assert "pushed.toml: 10 steps, each as the reference takes it" in said
+    assert "delta_q is wrong with joint prismatic in 10 of 10 failing cases, and right" in said
+    assert main(["compare", *given[:3]]) == 2
+    assert "is a scene without a run" in capsys.readouterr().err
 
 
 def test_what_nothing_explains_has_a_layer_by_its_forces_alone(tmp_path, monkeypatch):

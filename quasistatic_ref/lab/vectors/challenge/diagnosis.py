@@ -17,6 +17,7 @@ from quasistatic_ref.lab.vectors.challenge.function import Function
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import FLOOD, Program, Reply
 from quasistatic_ref.lab.vectors.challenge.simpler import shrunk
+from quasistatic_ref.lab.vectors.check.common import common_of
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, is_explained_by, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import Named
@@ -111,7 +112,12 @@ class Diagnosis:
             self.outcome.remarks.append(f"it wrote {size:.1f} MiB on its standard error")
         if self.program.starts > 1:
             self.outcome.remarks.append(f"it was started {self.program.starts} times")
+        named = {finding.layer for finding in self.outcome.findings if finding.mistakes}
         for layer in LAYERS:
+            with np.errstate(all="ignore"):
+                common = common_of(layer, self._failed[layer], self._right[layer])
+            if common and layer not in named:
+                self.outcome.remarks.append(f"{layer}: {common}")
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
                     f"{layer} got no further cases: {GIVEN_UP} cases came to no answer in time"

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
+from quasistatic_ref.lab.vectors.check.common import common_of
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
@@ -107,7 +108,7 @@ def layer_report(
     digits: float | None = None,
     scope: Scope = WHOLE,
 ) -> LayerReport:
-    """The verdicts on all answers of one layer, and the mistake behind those that fail.
+    """The verdicts on all answers of one layer, and what those that fail have in common.
 
     Parameters
     ----------
@@ -124,10 +125,12 @@ def layer_report(
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
     right: list[Failed] = []
+    missing: list[Failed] = []
     for case in cases:
         record = expected[case.id]
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
+            missing.append(Failed(case.id, case.input, record, None, verdicts[-1]))
             continue
         given = answers.outputs[case.id]
         one = answer_judged(layer, case, record, given, answers, digits, scope)
@@ -136,6 +139,7 @@ def layer_report(
         (failed if verdict.verdict == FAILED else right).append(one)
     unknown = [name for name in answers.outputs if name not in expected]
     problem = answers.problem
+    named = mistakes_of(layer, failed, right)
     if unknown and not problem:
         problem = f"{layer}.json answers {unknown[0]!r}, which is no case of the layer"
     return LayerReport(
@@ -144,7 +148,8 @@ def layer_report(
         present=answers.present,
         problem=problem,
         verdicts=tuple(verdicts),
-        mistakes=mistakes_of(layer, failed, right),
+        mistakes=named,
+        common="" if named else common_of(layer, failed or missing, right),
     )
 
 

@@ -50,6 +50,8 @@ class LayerReport:
         Of every case, in the order of the inputs.
     mistakes : tuple of Named
         What explains the failures, the best explanation first.
+    common : str
+        What failing cases have in common, if nothing explains them.
     must : bool
         Whether a layer without a file is a failure.
     """
@@ -60,6 +62,7 @@ class LayerReport:
     problem: str
     verdicts: tuple[Verdict, ...]
     mistakes: tuple[Named, ...] = ()
+    common: str = ""
     must: bool = False
 
     def required(self) -> "LayerReport":
@@ -185,6 +188,7 @@ class LayerReport:
             "worst_case": self.worst.id if self.worst else None,
             "first_failure": self.first.record if self.present and self.first else None,
             "mistakes": [asdict(mistake) for mistake in self.mistakes],
+            "common": self.common or None,
             "cases": [v.record for v in self.verdicts] if self.present else [],
         }
 
@@ -242,6 +246,7 @@ class Report:
                     f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
                     f"{m.sentence}"
                 )
+            said += [f"{layer.layer}: {layer.common}"] if layer.common else []
             said += [words for words in (layer.partial, layer.unasked) if words]
         if self.scope:
             words = f": {self.scope.words}" if self.scope.words else ""
