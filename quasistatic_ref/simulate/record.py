@@ -57,7 +57,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         _unless_null(top, name, top.number)
     top.text("backend")
     with about_field("cone"):
-        cone(top.text("cone"))
+        friction = cone(top.text("cone"))
     n_v = top.integer("n_a", least=0) + top.integer("n_u", least=0)
     if len(top.words("coordinates")) != n_v:
         raise InputError(f"must have {n_v} entries", field="coordinates")
@@ -88,6 +88,10 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
             raise InputError(problem, field=name, value=arrays[name].shape)
+    multipliers = friction.counts(arrays["rows"]).sum()
+    if steps and arrays["lam"][0].size < multipliers:
+        problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
+        raise InputError(problem, field="lam", value=arrays["lam"].shape)
     contacts = top.sequence("contacts")
     if full and len(contacts) != steps:
         raise top.error_about("contacts", f"must have {steps} entries", len(contacts))

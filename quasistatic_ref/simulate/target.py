@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import cast
 
 import numpy as np
 
@@ -74,20 +73,12 @@ class JointTrack(Plain):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             return np.array([joint.at(position) for position in positions.tolist()])
         intervals, shares = _interval(self.times, t)
-        found: Array = self.values[intervals]
-        for i in np.unique(intervals[shares > 0]).tolist():
+        found = []
+        for i, s in zip(intervals.tolist(), shares.tolist(), strict=True):
             start = self.values[i].tolist()
-            way = self._ways[i]
-            between = (intervals == i) & (shares > 0)
             # The geodesic of (+): a screw when the base both moves and turns.
-            if any(way[joint.lengths :]):
-                parts = shares[between].tolist()
-                found[between] = [joint.moved(start, [s * x for x in way]) for s in parts]
-            else:  # all at once: only lengths depend on time
-                s = cast("float", shares[between])
-                moved = joint.moved(start, [s * x if x else 0.0 for x in way])
-                found[between] = np.stack(np.broadcast_arrays(s, *moved)[1:], axis=1)
-        return found
+            found.append(joint.moved(start, [s * x for x in self._ways[i]]) if s else start)
+        return np.array(found)
 
     @cached_property
     def _ways(self) -> list[list[float]]:

@@ -118,6 +118,9 @@ CAUSES = {
     "more steps than there are": (
         lambda run: rewritten(run, header={"steps": 4}), "t: must have 4 entries, as the header",
     ),
+    "a multiplier less": (
+        lambda run: rewritten(run, {"lam": npy(np.zeros((3, 1)))}), "lam: must have ",
+    ),
     "rows of an extension that are not there": (
         lambda run: rewritten(run, header={"extra": ["a"]}), "has no array named 'extra_A'",
     ),

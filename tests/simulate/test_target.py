@@ -59,17 +59,6 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
 
 
-def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(scene, rng):
-    joint = scene.joint("arm/base")
-    start = target_at_random(rng)
-    end = np.concatenate([rng.normal(size=3), start[3:]])
-    way = joint.change(start.tolist(), end.tolist())
-    shares = rng.uniform(size=9)
-    found = JointTrack(joint, np.array([0.0, 1.0]), np.array([start, end])).over(shares)
-    expected = [joint.moved(start.tolist(), [s * x for x in way]) for s in shares.tolist()]
-    assert found.tolist() == expected
-
-
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])
 def test_times_that_do_not_increase_are_refused(scene, times):
     joint = scene.joint("desk/slide")

@@ -44,7 +44,7 @@ def reality_record(
         "settings": settings.record(),
         "mu_omega_over_mu_v": dict(ratios),
         "steps": dict(sorted(kinds.items())),
-        "largest_error_bound": max(bounds),
+        "largest_error_bound": None if None in bounds else max(bounds),
         "pairs": summary(errors),
     }
 
@@ -90,7 +90,10 @@ def certified_words(record: Mapping[str, Any]) -> str:
     total = sum(kinds.values())
     counts = ", ".join(f"{count:,} {kind}" for kind, count in kinds.items())
     bound = record["largest_error_bound"]
-    return f"{total:,} steps: {counts}; the largest error bound is {bound:.1e}"
+    said = (
+        "some have no error bound" if bound is None else f"the largest error bound is {bound:.1e}"
+    )
+    return f"{total:,} steps: {counts}; {said}"
 
 
 def identified_rows(

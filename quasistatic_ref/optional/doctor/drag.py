@@ -13,14 +13,14 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_natural
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import RESIDUAL_LIMIT, SLOW
+from quasistatic_ref.tolerances import SLOW
 
 ALONG = 0.1
 """Share of a motion downwards by which a body that settles may move aside [-]."""
 STILL = 1e-9
 """Motion in a step [m] that is none."""
 ROUNDING = 1e-9
-"""Of the rates at which rows open, over the largest [-]."""
+"""Of the rates at which rows open, over the largest, and of residuals in natural units [-]."""
 SURELY = 0.95
 """Of the largest share [-], to cover the rounding of another."""
 SLOWER = 16.0
@@ -103,7 +103,7 @@ def _surely_small(run: Run, k: int, lighter: StepData) -> list[Drag] | None:
     step = run.step_data(k)
     found = drags(run.system, [step], [run["delta_q"][k]], solution.wrench[None], run.g)
     small = all(x.rubs[0] and x.share[0] <= SURELY * SLOW for x in found)
-    if step.cone != PYRAMID or not (small and residuals.worst <= RESIDUAL_LIMIT):
+    if step.cone != PYRAMID or not (small and residuals.worst <= ROUNDING):
         return None
     form = both.si_form
     tight = form.A @ solution.delta_q - form.b <= STILL

@@ -10,6 +10,7 @@ from quasistatic_ref import InputError
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality import loads, pairs, pushes
 from quasistatic_ref.lab.reality.errors import bootstrap_estimate, pose_errors
+from quasistatic_ref.lab.reality.report import certified_words
 
 HEAD = "surface,shape,push,x0,y0,theta0,x1,y1,theta1,tip_x0,tip_y0,tip_x1,tip_y1"
 SCHEMA = {
@@ -89,3 +90,8 @@ def test_a_bootstrap_interval_is_that_of_the_mean():
     width = 2 * 1.96 / np.sqrt(800)
     assert found.mean[0] == pytest.approx(3.0, abs=0.15)
     assert found.high[0] - found.low[0] == pytest.approx(width, rel=0.15)
+
+
+def test_steps_without_an_error_bound_are_said():
+    record = {"steps": {"exact": 1, "residual": 1}, "largest_error_bound": None}
+    assert certified_words(record) == "2 steps: 1 exact, 1 residual; some have no error bound"

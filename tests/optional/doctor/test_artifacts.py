@@ -11,6 +11,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.optional.doctor import drag
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
     drags,
@@ -124,6 +125,17 @@ def test_the_share_of_drag_is_not_sure_between_walls_that_may_press_by_any_force
     points = -0.04 * frames[:, 2]
     between = rigid_step(0.3, 2e-4, weight, points, frames, mu_v=0.5, rows=6, h=H)
     assert _surely_small(OneStep(between), 0, between) is None
+
+
+@needs_compiler
+def test_an_answer_whose_residuals_are_not_small_says_nothing_of_drag(monkeypatch):
+    """Its multipliers are too large by a millionth."""
+    step = sphere_on_floor(m=0.3, mu_v=0.5, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
+    right = solve_step(step)
+    for factor, is_sure in ((1.0, True), (1.0 + 1e-6, False)):
+        answer = replace(right, lam=factor * right.lam)
+        monkeypatch.setattr(drag, "solve_step", lambda *_, answer=answer, **__: answer)
+        assert (_surely_small(OneStep(step), 0, step) is not None) == is_sure
 
 
 def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
