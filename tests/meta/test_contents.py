@@ -7,7 +7,7 @@ import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = {str(path.relative_to(DOCS)): path.read_text("utf-8") for path in DOCS.rglob("*.md")}
-ROW = re.compile(r"^- \[[^\]]*\]\(([^)]+)\): (.+\?)", re.MULTILINE)
+ROW = re.compile(r"^- \[[^\]]*\]\(([^)]+)\): (.+\?)(?: \((\d+)\))?", re.MULTILINE)
 MOST = 80_000
 """Words of all pages: fewer when pages get shorter, never more."""
 MOST_OF_RESULTS = 63_000
@@ -44,12 +44,14 @@ def paragraphs(text):
 
 def test_every_page_has_one_row_with_a_question():
     rows = ROW.findall(PAGES["contents.md"])
-    listed = [page for page, _ in rows]
+    listed = [page for page, _, _ in rows]
     assert len(set(listed)) == len(listed)
     lists_of_modules = {page for page in PAGES if page.startswith("api/")} - {"api/index.md"}
     assert set(listed) == set(PAGES) - lists_of_modules
-    questions = [question for _, question in rows]
+    questions = [question for _, question, _ in rows]
     assert len(set(questions)) == len(questions)
+    words = {page: int(count) for page, _, count in rows if page != "contents.md"}
+    assert words == {page: len(PAGES[page].split()) for page in words}
 
 
 def test_the_pages_have_at_most_so_many_words():
