@@ -88,7 +88,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
             raise InputError(problem, field=name, value=arrays[name].shape)
-    multipliers = friction.counts(arrays["rows"]).sum()
+    multipliers = sum(friction.counts(arrays["rows"]).tolist())
     if steps and arrays["lam"][0].size < multipliers:
         problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"
         raise InputError(problem, field="lam", value=arrays["lam"].shape)

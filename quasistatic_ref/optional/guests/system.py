@@ -69,8 +69,8 @@ ELSEWHERE = 0.1
 class MujocoSystem(System):
     """A MuJoCo model behind the names that a step asks a system for.
 
-    ``Simulator.step`` asks for: actuated_difference, gravity_force, integrate, kinematics, links,
-    lock, M_u, n_a, n_v.
+    ``Simulator.step`` asks for: actuated_difference, column_map, gravity_force, integrate,
+    kinematics, links, lock, M_u, n_a, n_v.
 
     Links are MuJoCo's bodies, ``TREE/BODY``, bodies the trees of the world. Coordinates are
     MuJoCo's velocities, without those that equalities of joints take away, the actuated ones first:
