@@ -490,11 +490,8 @@ def main() -> int:
     show_page("\n".join(page(list(done.values()))), options.out)
     for alarm in alarms:
         print(f"a right port is found wrong: {alarm}", file=sys.stderr)
-    lost = [
-        one
-        for one in done.values()
-        if one["outcome"] == "other" and not one["check"]["kind"] and not one["challenge"]["kind"]
-    ]
+    others = [one for one in done.values() if one["outcome"] == "other"]
+    lost = [one for one in others if not any(one[way]["kind"] for way in WAYS)]
     return int(bool(alarms or lost))
 
 
