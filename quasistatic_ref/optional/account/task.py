@@ -209,9 +209,9 @@ def _depths(
     """
     R = np.array([kinematics.R for kinematics in at])
     t = np.array([kinematics.t for kinematics in at])
-    a, b = (R[:, s.link] @ s.t + t[:, s.link] for s in pair)
+    centres = [R[:, s.link] @ s.t + t[:, s.link] for s in pair]
     bounded = all(len(points[s.name]) for s in pair)
-    apart = np.linalg.norm(a - b, axis=1) > sum(radius[s.name] for s in pair)
+    apart = np.linalg.norm(np.subtract(*centres), axis=1) > sum(radius[s.name] for s in pair)
     near = np.flatnonzero(~(apart & bounded))
     depth = np.full(len(at), -np.inf)
     for of, inside in (pair, pair[::-1]):

@@ -29,7 +29,7 @@ LEAST = 3
 MOST = 3
 """Things that are said; the last one is chosen by itself."""
 HELD = 0.7
-"""Share of the failing cases that have to be told apart."""
+"""Share of the failing cases in which it has to be true."""
 SPOILED = 1.0
 """Right cases of which the same is true, by failing ones, beyond which nothing is said."""
 LEFT = 0.85
@@ -98,7 +98,7 @@ def common_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -> 
         return ""
     numbers = [[*_numbers(layer, one, field)] for one in mine]
     wrong = [{one.words for one in case if one.fails} for case in numbers]
-    beside = [{one.words for one in case if not one.fails} for case in numbers]
+    correct = [{one.words for one in case if not one.fails} for case in numbers]
     others = [
         {words for _, words in words_of_numbers(one.case, one.record["output"], field)}
         for one in right
@@ -107,7 +107,7 @@ def common_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -> 
 
     def cost(some: tuple[Condition, ...]) -> tuple[float, int, str]:
         missed = len(wrong) - _count(some, wrong)
-        spoiled = _count(some, others) + _count(some, beside) / 2
+        spoiled = _count(some, others) + _count(some, correct) / 2
         text = " and ".join(one.text for one in some)
         return 3 * missed + spoiled + sum(one.price for one in some), len(text), text
 

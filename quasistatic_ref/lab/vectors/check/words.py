@@ -39,7 +39,7 @@ ELSEWHERE = ("cone", "floating base", "joint", "phi", "planar base", "rows")
 AXIS = 1e-9
 """Entry of a normal, or difference of heights [m], that is none."""
 TURNS = (1e-6, 1e-3, 0.1, 0.3, 1.0)
-"""Sizes of turns that are told apart [rad]."""
+"""Sizes at which the words of a turn change [rad]."""
 
 
 def words_of_numbers(case: Json, output: Json, field: str) -> Iterator[tuple[Path, Words]]:

@@ -86,9 +86,9 @@ def touching(system, names):
         pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
         if at % 2 == 0:
             _, before = system.pose(q, system.links[at - 1])
-            beside = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)
+            neighbour = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)
             one = PlacedShape("ball", at - 1, np.eye(3), np.zeros(3), ball)
-            pairs.append(ContactPair(f"b{at}", one, beside, 0.3, 0.01, 6, 1))
+            pairs.append(ContactPair(f"b{at}", one, neighbour, 0.3, 0.01, 6, 1))
     return pairs
 
 
