@@ -7,7 +7,8 @@ from threading import Event, Lock, Thread
 
 import numpy as np
 
-from quasistatic_ref import contact_forces, load_scenario
+from quasistatic_ref import Simulator, contact_forces, load_scenario
+from quasistatic_ref.lab.bench.scenes import Boxes
 from quasistatic_ref.optional.fast.compiled import forces
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.rows_given import SQUARES, half_way_forces
@@ -37,6 +38,22 @@ def test_forces_of_random_and_of_degenerate_steps_have_the_bits_of_the_core():
 
 def mixed_step(seed):
     return random_case(seed)[1]
+
+
+def test_forces_of_boxes_in_a_row_have_the_bits_of_the_core():
+    """Nothing acts across the row: what is zero there is shown without what acts along it."""
+    boxes = Boxes(np.full((3, 3), 0.02), np.full(3, 0.2))
+    system = boxes.system(np.array([[0.04 * i, 0.0, 0.02] for i in range(3)]))
+    pairs = boxes.pairs(system, range(3), [(0, 1), (1, 2)])
+    simulator = Simulator(system, pairs, h=0.02, K_q=0.0, fast=True)
+    push = np.zeros(system.n_v)
+    push[0] = 4.0
+    step = simulator.step(system.q_start, np.zeros(0), push).solution.step
+    wrench, left = in_c(step)
+    assert not left
+    near = np.zeros(step.n_v), np.zeros_like(wrench)
+    assert wrench.tobytes() == contact_forces(step, near=near).wrench.tobytes()
+    assert (wrench == 0.0).sum() > wrench.size / 3
 
 
 def test_a_force_half_way_between_two_float64_is_rounded_to_even():

@@ -307,41 +307,73 @@ static int judged(Force *g, int finest)
     return refuted ? REFUTED : code;
 }
 
+/* Let rest where x is zero: nothing acts on a coordinate, nor on any that K couples it to. `satisfied`
+   solves for the others, and asks each row of K. */
+static void rested(Workspace *m, const Number *K, const Number *f, int64_t n)
+{
+    int64_t count = 0, *moving = m->pivot;
+    for (int64_t v = 0; v < n; v++) {
+        m->rests[v] = (char)empty(f + v);
+        if (!m->rests[v])
+            moving[count++] = v;
+    }
+    while (count) {
+        const Number *row = K + moving[--count] * n;
+        for (int64_t v = 0; v < n; v++)
+            if (m->rests[v] && !empty(row + v)) {
+                m->rests[v] = 0;
+                moving[count++] = v;
+            }
+    }
+}
+
+static int moves(const Proof *s, int64_t v, int64_t c)
+{
+    int any = 0;
+    for (int i = 0; i < 4; i++)
+        any |= s->J[(4 * c + i) * s->n_v + v] != 0.0;
+    return any;
+}
+
 /* Whether what is open is what it may be, x being the solution without rounding. */
 static int settled_exactly(Force *g)
 {
     Workspace *m = &g->m;
     Proof s = *g->s;
-    size_t n = (size_t)s.n_v, count = (size_t)g->opened;
-    Number *K = calloc(n * n + n + count * (n + 1), sizeof(Number)), one = number(exact(1.0));
+    int64_t n = s.n_v, count = g->opened;
+    Number *K = calloc((size_t)(n * n + n + count * (n + 1)), sizeof(Number)), one = number(exact(1.0));
     Number *f = K + n * n, *A = f + n, *b = A + count * n, *x = m->net, z[4];
+    double e[4];
     if (!K)
         return NO_MEMORY;
-    memset(x, 0, n * sizeof(Number));
-    memset(m->e, 0, n * sizeof(double));
+    memset(x, 0, (size_t)n * sizeof(Number));
+    memset(m->e, 0, (size_t)n * sizeof(double));
     remaining(g, x, f);
-    for (size_t i = 0; i < count; i++) {
+    for (int64_t i = 0; i < count; i++) {
         const Open *open = g->open + i;
-        double e[4];
         motion(&s, x, m->e, open->contact, 1, z, e);
         summed(open->row, -open->by, z, e, b + i);
         total(b + i, &open->middle, b + i);
-        for (size_t v = 0; v < n; v++) {
-            x[v] = one;
-            motion(&s, x, m->e, open->contact, 0, z, e);
-            summed(open->row, open->by, z, e, A + i * n + v);
-            x[v] = ZERO;
-        }
     }
-    for (size_t v = 0; v < n; v++) {
+    for (int64_t v = 0; v < n; v++) {
+        int64_t last = -1;
+        x[v] = one;
+        for (int64_t i = 0; i < count; i++) {
+            const Open *open = g->open + i;
+            if (!moves(&s, v, open->contact))
+                continue;
+            if (open->contact != last)
+                motion(&s, x, m->e, open->contact, 0, z, e);
+            last = open->contact;
+            summed(open->row, open->by, z, e, A + i * n + v);
+        }
         product(&one, exact(-1.0), x + v);
         pressed(g, x, 0, K + v * n);
         x[v] = ZERO;
     }
-    for (size_t i = 0; i < n * n; i++)
-        m->K[i] = value(K + i);
+    rested(m, K, f, n);
     s.hessian = K;
-    int code = satisfied(&s, m, f, A, b, g->opened);
+    int code = satisfied(&s, m, f, A, b, count);
     free(K);
     return code;
 }
