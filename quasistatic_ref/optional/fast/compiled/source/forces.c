@@ -327,14 +327,6 @@ static void rested(Workspace *m, const Number *K, const Number *f, int64_t n)
     }
 }
 
-static int moves(const Proof *s, int64_t v, int64_t c)
-{
-    int any = 0;
-    for (int i = 0; i < 4; i++)
-        any |= s->J[(4 * c + i) * s->n_v + v] != 0.0;
-    return any;
-}
-
 /* Whether what is open is what it may be, x being the solution without rounding. */
 static int settled_exactly(Force *g)
 {
@@ -360,8 +352,6 @@ static int settled_exactly(Force *g)
         x[v] = one;
         for (int64_t i = 0; i < count; i++) {
             const Open *open = g->open + i;
-            if (!moves(&s, v, open->contact))
-                continue;
             if (open->contact != last)
                 motion(&s, x, m->e, open->contact, 0, z, e);
             last = open->contact;
