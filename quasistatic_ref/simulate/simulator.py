@@ -11,6 +11,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.certify.contact_forces import ForcesOfGroups
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
@@ -39,6 +40,7 @@ from quasistatic_ref.solve.solve import EXTENDED_STEP, check_accuracy, solve_ste
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 
@@ -358,10 +360,8 @@ class Simulator(Settings, Shown):
         """
         return False
 
-    def forces_in_c(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
-        """Forces of single contacts of a step and their compliances; None if C leaves one open.
-
-        Their shapes are (n_c, 4) [N, N m] and (n_c,) [m/N].
+    def forces_in_c(self, step: StepData, near: Array) -> ForcesOfGroups | None:
+        """Forces of single contacts of a step; None if C leaves one open.
 
         Parameters
         ----------
@@ -386,8 +386,12 @@ class Simulator(Settings, Shown):
         StepDataError
             If the force has another shape.
         """
+        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
+        return self.step_under(q, q_bar_a, self.generalised_force(q, force), contacts)
+
+    def step_under(self, q: Array, q_bar_a: Array, tau: Array, contacts: Contacts) -> StepData:
+        """The same, from the contacts and all generalised forces, shape (n_v,) [N, N m]."""
         n_a = self.system.n_a
-        tau = self.generalised_force(q, force)
         return StepData(
             h=self.h,
             K_q=self.K_q,
@@ -395,9 +399,13 @@ class Simulator(Settings, Shown):
             tau_a=tau[:n_a],
             tau_u=tau[n_a:],
             delta_q_bar_a=self.system.actuated_difference(q, q_bar_a),  # q_bar_a(t + h) (-) q_a
-            contacts=self.geometry.contacts(points, kinematics),  # Eqs. (2)-(3)
+            contacts=contacts,
             cone=self.cone,
         )
+
+    def contacts_at(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+        """The contacts of a step at its closest points."""
+        return self.geometry.contacts(points, kinematics)
 
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""

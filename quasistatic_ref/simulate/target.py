@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 
@@ -73,12 +74,20 @@ class JointTrack(Plain):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             return np.array([joint.at(position) for position in positions.tolist()])
         intervals, shares = _interval(self.times, t)
-        found = []
-        for i, s in zip(intervals.tolist(), shares.tolist(), strict=True):
+        found: Array = self.values[intervals]
+        for i in np.unique(intervals[shares > 0]).tolist():
             start = self.values[i].tolist()
+            way = self._ways[i]
+            between = (intervals == i) & (shares > 0)
+            s = shares[between]
             # The geodesic of (+): a screw when the base both moves and turns.
-            found.append(joint.moved(start, [s * x for x in self._ways[i]]) if s else start)
-        return np.array(found)
+            if joint.in_c is None or any(way[joint.lengths :]):
+                found[between] = [joint.moved(start, [x * y for y in way]) for x in s.tolist()]
+            else:  # all at once: only lengths depend on time
+                moved = joint.moved(start, [cast("float", s) * y if y else 0.0 for y in way])
+                for entry, values in enumerate(moved):
+                    found[between, entry] = values
+        return found
 
     @cached_property
     def _ways(self) -> list[list[float]]:

@@ -38,10 +38,12 @@ def positive_definite(key: str, S: Array) -> Array:
     StepDataError
         About the field `key`, if S is not symmetric or not positive definite.
     """
-    scale = np.abs(S).max(initial=0.0)
-    if np.abs(S - S.mT).max(initial=0.0) > SYMMETRIC * scale:
-        raise StepDataError("must be symmetric", field=key, value=S.tolist())
-    S = np.tril(S) + np.tril(S, -1).mT
+    if np.equal(S, S.mT).all():
+        S = S + 0.0
+    else:
+        if np.abs(S - S.mT).max() > SYMMETRIC * np.abs(S).max():
+            raise StepDataError("must be symmetric", field=key, value=S.tolist())
+        S = np.tril(S) + np.tril(S, -1).mT
     if not positive_pivots(S):
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())

@@ -6,6 +6,7 @@ from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import ModelError, ScenarioError, load_scenario
+from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
 from quasistatic_ref.simulate.user_functions import AT_ONCE, target_function
 from tests.closeness import assert_close
@@ -57,6 +58,27 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         xi = np.real(logm(np.linalg.inv(start) @ end))
         expected = start @ expm(s * xi)
         assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
+
+
+class OfNumbers(Floating):
+    """A joint of a user's own, which is asked with numbers alone."""
+
+    def moved(self, q, delta_q):
+        """Its entries of q (+) delta_q."""
+        assert {type(x) for x in delta_q} == {float}
+        return super().moved(q, delta_q)
+
+
+@pytest.mark.parametrize("kind", [Floating, OfNumbers])
+def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng, kind):
+    joint = kind("arm/base", True, slice(0, 7), slice(0, 6))
+    start = target_at_random(rng)
+    end = np.concatenate([rng.normal(size=3), start[3:]])
+    way = joint.change(start.tolist(), end.tolist())
+    shares = rng.uniform(size=9)
+    found = JointTrack(joint, np.array([0.0, 1.0]), np.array([start, end])).over(shares)
+    expected = [joint.moved(start.tolist(), [s * x for x in way]) for s in shares.tolist()]
+    assert found.tolist() == expected
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])

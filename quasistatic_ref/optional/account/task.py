@@ -8,13 +8,11 @@ import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.account.account import pair_accounts
 from quasistatic_ref.optional.account.observer import side
 from quasistatic_ref.optional.account.words import amount, length
 from quasistatic_ref.optional.between import OF_TASK, TASK, FinishedRun, Said
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
-from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import frame_jacobian
@@ -35,6 +33,8 @@ WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repea
 BALL = 1.15
 """Radius of a ball that holds a shape, over the distance of the farthest of its points in the WAYS:
 no direction is more than 28 degrees from one of them [-]."""
+IN_BOX = 1e-9
+"""How far outside of the box about a shape its points may be by rounding [m]."""
 MOST = 300
 """Pairs of shapes that are looked at."""
 AT_ONCE = 500_000
@@ -173,7 +173,9 @@ def through(task: Task) -> Iterator[Said]:
     }
     steps = np.unique(np.linspace(1, task.steps, LOOKED).round().astype(int)).tolist()
     at = [system.kinematics(task.trajectory["q"][k]) for k in (0, *steps)]
-    depths = np.array([_depths(pair, points, radius, at) for pair in made])
+    R = np.array([kinematics.R for kinematics in at])
+    t = np.array([kinematics.t for kinematics in at])
+    depths = np.array([_depths(pair, points, radius, R, t) for pair in made])
     sizes = [min(float(s.shape.extent) or np.inf for s in pair) for pair in made]
     passed = (depths[:, :1] <= 0) & (depths[:, 1:] > SUNK * np.array(sizes)[:, None])
     said: dict[frozenset[str], Said] = {}
@@ -201,32 +203,37 @@ def _depths(
     pair: tuple[PlacedShape, PlacedShape],
     points: dict[str, Array],
     radius: dict[str, float],
-    at: list[Kinematics],
+    R: Array,
+    t: Array,
 ) -> Array:
     """How deep points of one shape are in the other at most, at some instants, (instants,) [m].
 
-    Negative where they are apart.
+    Negative where they are apart. The links are at R, (instants, L, 3, 3), and t [m].
     """
-    R = np.array([kinematics.R for kinematics in at])
-    t = np.array([kinematics.t for kinematics in at])
     centres = [R[:, s.link] @ s.t + t[:, s.link] for s in pair]
     bounded = all(len(points[s.name]) for s in pair)
     apart = np.linalg.norm(np.subtract(*centres), axis=1) > sum(radius[s.name] for s in pair)
     near = np.flatnonzero(~(apart & bounded))
-    depth = np.full(len(at), -np.inf)
+    depth = np.full(len(R), -np.inf)
     for of, inside in (pair, pair[::-1]):
         if isinstance(inside.shape, PointCloud) or not len(points[of.name]):
             continue
         own = points[of.name] @ of.R.T + of.t
         for k in np.array_split(near, 1 + near.size * len(own) // AT_ONCE):
-            x = own @ R[k, of.link].swapaxes(1, 2) + t[k, None, of.link]
+            some = own
+            if bounded:  # the WAYS along its axes lead to the faces of the box about it
+                low = points[inside.name].min(axis=0)[:, None] - IN_BOX
+                high = points[inside.name].max(axis=0)[:, None] + IN_BOX
+                back = inside.R.T @ R[k, inside.link].mT
+                away = back @ (t[k, of.link] - t[k, inside.link])[:, :, None]
+                x = back @ R[k, of.link] @ own.T + away - (inside.R.T @ inside.t)[:, None]
+                some = own[((low <= x) & (x <= high)).all(axis=1).any(axis=0)]
+            if not len(some):
+                continue
+            x = some @ R[k, of.link].mT + t[k, None, of.link]
             x = (x - t[k, None, inside.link]) @ R[k, inside.link]
             x = (x - inside.t) @ inside.R
-            # No point is in it that is not in its ball.
-            close = (np.vecdot(x, x) <= radius[inside.name] ** 2) | (not len(points[inside.name]))
-            phi = np.full(close.shape, np.inf)
-            if close.any():
-                phi[close] = inside.shape.signed_distance(x[close])[0]
+            phi = inside.shape.signed_distance(x.reshape(-1, 3))[0].reshape(x.shape[:2])
             depth[k] = np.maximum(depth[k], -phi.min(axis=1))
     return depth
 
@@ -266,10 +273,14 @@ def idle(task: Task) -> Iterator[Said]:
 def lost(task: Task) -> Iterator[Said]:
     """Grips, contacts from opposite sides, along which what they hold slips by much."""
     for table, pairs in task.tables.items():
-        slips = {i: _slip(task.accounts[i], task.grips[table]) for i in pairs}
-        worst = max(pairs, key=lambda i: float(slips[i].sum()) / task.size(i))
+        every = {i: slip for i in pairs if (slip := task.accounts[i].slip) is not None}
+        long = any(slip.sum() > SLIPPED * task.size(i) for i, slip in every.items())
+        if not (task.finished and long):  # with and without a grip
+            continue
+        slips = {i: np.where(task.grips[table], slip, 0.0) for i, slip in every.items()}
+        worst = max(slips, key=lambda i: float(slips[i].sum()) / task.size(i))
         way = float(slips[worst].sum())
-        if not task.finished or way <= SLIPPED * task.size(worst):
+        if way <= SLIPPED * task.size(worst):
             continue
         k = int(slips[worst].argmax())
         on = np.array([name in {task.accounts[i].name for i in pairs} for name in
@@ -299,11 +310,6 @@ def _grips(task: Task, pairs: list[int]) -> Mask:
     n = np.where(on[:, :, None], n, 0.0)
     faces = np.einsum("kix,kjx->kij", n, n).min(axis=(1, 2), initial=0.0)
     return np.asarray(faces < OPPOSITE)
-
-
-def _slip(pair: PairAccount, grips: Mask) -> Array:
-    """Its slip in the steps of a grip, shape (steps,) [m]; 0 where slips are not known."""
-    return np.zeros(len(grips)) if pair.slip is None else np.where(grips, pair.slip, 0.0)
 
 
 def short(task: Task) -> Iterator[Said]:
@@ -351,13 +357,15 @@ def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     name = task.trajectory.pair_names[contact]
     i = next(i for i, account in enumerate(task.accounts) if account.name == name)
     table = task.accounts[i].table
-    if table not in task.tables or unit != "m" or task.grips[table][-1]:
+    if table not in task.tables or unit != "m" or error <= STALLED * task.size(i):
+        return False
+    if task.grips[table][-1]:
         return False
     pair = task.pairs[i]
     link = pair.alpha.link if task.free[pair.alpha.link] else pair.beta.link
     poses = [task.system.kinematics(task.trajectory["q"][k]).t[link] for k in (0, -1)]
     moved = float(np.linalg.norm(poses[1] - poses[0]))
-    return error > STALLED * task.size(i) and moved < SUNK * task.size(i)
+    return moved < SUNK * task.size(i)
 
 
 FINDINGS: dict[str, tuple[bool, Callable[[Task], Iterator[Said]]]] = {

@@ -9,11 +9,13 @@ from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.artifacts import Drag, drags, moved
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import free_bases
-from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solve import solved
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_natural
+from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import SLOW
+from quasistatic_ref.tolerances import ACCURACY, SLOW
 
 ALONG = 0.1
 """Share of a motion downwards by which a body that settles may move aside [-]."""
@@ -94,11 +96,14 @@ def _surely_small(run: Run, k: int, lighter: StepData) -> list[Drag] | None:
     of its contact, the sum of mu_v f_n is y'A'lam / h, and A'lam is unique. A backend's answer will
     do, if its residuals are small.
     """
+    solver = solver_for(lighter, fast=True)
+    both = without_warnings(solver.in_both_units, lighter)
+    if not isinstance(both, DenseStepInBothUnits):
+        return None
     try:
-        solution = solve_step(lighter, fast=True, certify="off")
+        solution = without_warnings(solved, both, solver, ACCURACY, "off")
     except StepNotSolved:
         return None
-    both = DenseStepInBothUnits(lighter)
     residuals = both.natural_residuals(*in_natural(solution.delta_q, solution.lam, both.units))
     step = run.step_data(k)
     found = drags(run.system, [step], [run["delta_q"][k]], solution.wrench[None], run.g)

@@ -88,6 +88,8 @@ def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...],
     n, shape (n_c, 3), holds the normals, and w, shape (2,) or (3,) [-], is 1 at most.
     """
     rounded = n[contacts].round(SIDES)
+    if (rounded == rounded[0]).all():
+        return
     _, first, side = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
     for count in (2, 3):
         choices = np.reshape([*combinations(range(len(first)), count)], (-1, count)).astype(int)
@@ -103,7 +105,7 @@ def guided(start: Start) -> Iterator[Said]:
     """Contacts at the start that let a body crawl at most, once for each table and joint."""
     if start.points is None or not start.small:
         return
-    contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
+    contacts = start.simulator.contacts_at(start.points, start.kinematics)
     said: set[tuple[str, ...]] = set()
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)

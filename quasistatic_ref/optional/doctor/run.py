@@ -6,7 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces, forces_near
+from quasistatic_ref.certify.contact_forces import (
+    CONTACT_FORCES,
+    ContactForces,
+    ForcesOfGroups,
+    forces_near,
+)
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
@@ -38,7 +43,7 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
-        self._in_c: dict[int, tuple[Array, Array] | None] = {}
+        self._in_c: dict[int, ForcesOfGroups | None] = {}
         self._contacts: dict[int, Contacts] = {}
         self._steps: dict[int, StepData] = {}
 
@@ -74,29 +79,18 @@ class Run(Start):
         """The contacts of step k."""
         if k not in self._contacts:
             kinematics = self.system.kinematics(self["q"][k])
-            geometry = self.simulator.geometry
-            self._contacts[k] = geometry.contacts(self.points_of(k), kinematics)
+            self._contacts[k] = self.simulator.contacts_at(self.points_of(k), kinematics)
         return self._contacts[k]
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k, up to rounding, with the paper's cone for a curved one."""
         if k in self._steps:
             return self._steps[k]
-        simulator = self.simulator
-        q = self["q"][k]
-        n_a = self.system.n_a
-        tau = self.noted("tau")[k]
-        polyhedral = cone(simulator.cone).polyhedral
-        self._steps[k] = step = StepData(
-            h=self.h,
-            K_q=simulator.K_q,
-            M_u=self.system.M_u(q),
-            tau_a=tau[:n_a],
-            tau_u=tau[n_a:],
-            delta_q_bar_a=self.system.actuated_difference(q, self["q_bar_a"][k]),
-            contacts=self.contacts(k),
-            cone=simulator.cone if polyhedral else PYRAMID,
-        )
+        under = self.noted("tau")[k], self.contacts(k)
+        step = self.simulator.step_under(self["q"][k], self["q_bar_a"][k], *under)
+        if not cone(step.cone).polyhedral:
+            step = step.replace(cone=PYRAMID)
+        self._steps[k] = step
         return step
 
     def forces(self, k: int) -> Array:
@@ -122,8 +116,8 @@ class Run(Start):
             self._found[k] = forces_near(self.step_data(k), (self["delta_q"][k], near))
         return self._found[k]
 
-    def in_c(self, k: int) -> tuple[Array, Array] | None:
-        """Forces and compliances, (n_c, 4) [N, N m] and (n_c,) [m/N]; None if C leaves one open."""
+    def in_c(self, k: int) -> ForcesOfGroups | None:
+        """As of :meth:`~quasistatic_ref.simulate.simulator.Simulator.forces_in_c`."""
         if k not in self._in_c:
             wrench = self["wrench"][k]
             self._in_c[k] = self.simulator.forces_in_c(self.step_data(k), wrench)

@@ -9,7 +9,6 @@ from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.groups import groups
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import BORNE, SURE
 
@@ -57,7 +56,7 @@ def _surely_borne(run: Run, k: int, bit: float) -> bool:
     known = run.in_c(k) if run.searched else None
     if known is None:
         return False
-    force, compliance = known
+    force, compliance, groups = known
     step = run.step_data(k)
     contacts = step.contacts
     x = run["delta_q"][k]
@@ -70,7 +69,7 @@ def _surely_borne(run: Run, k: int, bit: float) -> bool:
     off = norm.inverse @ (norm.unit * (step.H @ x - g - exerted))
     load = norm.inverse @ (norm.unit * exerted)
     rounding = ROUNDING * (np.abs(norm.inverse) @ (norm.unit * terms))
-    for group in groups(step):
+    for group in groups:
         f_n = force[group.contacts, 2]
         v = group.coordinates
         if not force[group.contacts].any():

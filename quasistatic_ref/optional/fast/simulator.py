@@ -7,8 +7,10 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.contact_forces import ForcesOfGroups
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import QuasistaticError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
@@ -62,7 +64,7 @@ from quasistatic_ref.solve.units import (
     StepInBothUnits,
     Units,
 )
-from quasistatic_ref.step.arrays import read_only, without_warnings
+from quasistatic_ref.step.arrays import finite, read_only, without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts, friction_coefficients
 from quasistatic_ref.step.data import Array, StepData
@@ -226,9 +228,8 @@ class FastSimulator(Simulator):
         step, form, points = self.posed_step(q_bar_a, force)
         lap("rows")
         solution = self.solution_of(step, form, q)
-        limits = self.limits
-        if not self.gap >= -limits.penetration:
-            limits.check_penetration(step)
+        if not self.gap >= -self.limits.penetration:
+            self.limits.check_penetration(step)
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
@@ -237,7 +238,7 @@ class FastSimulator(Simulator):
         q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
         self.poses.move(q_next)
         if not self.squared_distances(self.numbers.address) <= self.surely_within:
-            limits.check_reach(step, self.system.links, self.poses.kinematics().t)
+            self.limits.check_reach(step, self.system.links, self.poses.kinematics().t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
@@ -273,6 +274,7 @@ class FastSimulator(Simulator):
         records = np.empty(most, onward.record)
         pressed = self.pressed
         onward.begin(records, pressed)
+        each_q = records["q"]
         count = 0
         start = q
         while of is not None:
@@ -284,7 +286,7 @@ class FastSimulator(Simulator):
             if code != DONE:
                 self.left_open = start.tobytes()
                 break
-            start = records["q"][count]
+            start = each_q[count]
             if self.certify != OFF:
                 pressed = records["lam"][count]
             count += 1
@@ -327,12 +329,11 @@ class FastSimulator(Simulator):
         The configurations of other steps have errors of rounding, as small as 1e-30, for whose
         products the digits of fixed point are too few.
         """
-        in_c = self.in_c if self.by_c and self.certify == "full" else None
-        if in_c is None or not knows(self.cone):
+        if self.in_c is None or self.certify != "full" or not knows(self.cone):
             return False
-        return in_c.decided(solution.step, solution.wrench) is not None
+        return self.forces_in_c(solution.step, solution.wrench) is not None
 
-    def forces_in_c(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
+    def forces_in_c(self, step: StepData, near: Array) -> ForcesOfGroups | None:
         """As in the base, from `near`, shape (n_c, 4) [N, N m]."""
         return None if self.in_c is None or not self.by_c else self.in_c.decided(step, near)
 
@@ -342,12 +343,8 @@ class FastSimulator(Simulator):
         """The problem of one step, its matrices and closest points, from those that are written.
 
         The arrays A and b of the matrices are overwritten by the next step. In blocks, A has those
-        columns only; in a curved cone A and b are empty.
-
-        Raises
-        ------
-        StepDataError
-            If the force has another shape.
+        columns only; in a curved cone A and b are empty. StepDataError if the force has another
+        shape.
         """
         numbers = self.numbers
         if np.shape(force) != self.given.shape:
@@ -377,32 +374,35 @@ class FastSimulator(Simulator):
         """
         *found, d1, d2, J, tau = TAKEN(written)
         points = ClosestPoints(*found)
-        constant = self.constant_here()
-        n_a = len(delta_q_bar_a)
-        own = {
-            "tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a,
-            "contacts": self.posed_contacts(points, d1, d2, J),
-        }  # fmt: skip
-        return posed(constant.kind, self.same, own), points
+        contacts = self.posed_contacts(points, d1, d2, J)
+        return self.posed_data(tau, delta_q_bar_a, contacts), points
 
-    def step_data(
-        self,
-        q: Array,
-        q_bar_a: Array,
-        force: Array | float,
-        points: ClosestPoints,
-        kinematics: Kinematics,
-    ) -> StepData:
-        """The problem of one step, as in the base, with the H that all steps share.
+    def step_under(self, q: Array, q_bar_a: Array, tau: Array, contacts: Contacts) -> StepData:
+        """As in the base, with the H that all steps share.
 
         A backend that starts warm keeps what it made of H: a run that is resumed asks it for steps
         of this function, and must end with the bits of one that was not.
         """
-        step = super().step_data(q, q_bar_a, force, points, kinematics)
-        if self.constant.kind is not StepData or self.system.varying_mass is not None:
-            return step
-        own = ("tau_a", "tau_u", "delta_q_bar_a", "contacts")
-        return posed(StepData, self.same, {name: getattr(step, name) for name in own})
+        own = self.constant.kind is not StepData or self.system.varying_mass is not None
+        if own or not finite(tau):
+            return super().step_under(q, q_bar_a, tau, contacts)
+        change = read_only(self.system.actuated_difference(q, q_bar_a) + 0.0)
+        return self.posed_data(read_only(tau + 0.0), change, contacts)
+
+    def posed_data(self, tau: Array, delta_q_bar_a: Array, contacts: Contacts) -> StepData:
+        """A step at the poses, from tau (n_v,) [N, N m] and its own read-only arrays."""
+        constant = self.constant_here()
+        n_a = len(delta_q_bar_a)
+        own = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
+        return posed(constant.kind, self.same, {**own, "contacts": contacts})
+
+    def contacts_at(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
+        """As in the base."""
+        if self.blocks is not None:
+            return super().contacts_at(points, kinematics)
+        d1, d2 = map(read_only, tangents(points.n))
+        J = self.geometry.jacobian(kinematics.columns, points.alpha, points.beta, points.n)
+        return self.posed_contacts(points, d1, d2, read_only(J))
 
     def constant_here(self) -> Constants:
         """What steps have in common, with M_u at the poses; StepDataError if it is not definite."""
@@ -442,7 +442,8 @@ class FastSimulator(Simulator):
             return True
         kinematics = self.system.kinematics(q)
         points = self.closest_points(kinematics)
-        plain = super().step_data(q, q_bar_a, force, points, kinematics)
+        contacts = self.geometry.contacts(points, kinematics)
+        plain = super().step_under(q, q_bar_a, self.generalised_force(q, force), contacts)
         return plain == step and (not self.has_rows or bits(form) == bits(standard_form(plain)))
 
     def solution_of(self, step: StepData, form: StandardForm, q: Array) -> StepSolution:

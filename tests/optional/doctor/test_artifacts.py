@@ -134,7 +134,7 @@ def test_an_answer_whose_residuals_are_not_small_says_nothing_of_drag(monkeypatc
     right = solve_step(step)
     for factor, is_sure in ((1.0, True), (1.0 + 1e-6, False)):
         answer = replace(right, lam=factor * right.lam)
-        monkeypatch.setattr(drag, "solve_step", lambda *_, answer=answer, **__: answer)
+        monkeypatch.setattr(drag, "solved", lambda *_, answer=answer, **__: answer)
         assert (_surely_small(OneStep(step), 0, step) is not None) == is_sure
 
 

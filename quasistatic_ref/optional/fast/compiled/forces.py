@@ -8,7 +8,7 @@ from threading import Lock
 
 import numpy as np
 
-from quasistatic_ref.certify.contact_forces import forces_near
+from quasistatic_ref.certify.contact_forces import ForcesOfGroups, forces_near
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.optional.between import FACE, SIDES
 from quasistatic_ref.optional.fast.compiled.certificate import (
@@ -49,8 +49,8 @@ class Forces:
         divided = group_steps(step)
         self._form = library().groups_forces
         self._none = np.zeros((step.contacts.n_c, 4))
-        self._groups = [group for group, _ in divided]
-        of_each = places(step, None, self._groups)
+        self.groups = [group for group, _ in divided]
+        of_each = places(step, None, self.groups)
         self.parts = [
             _GroupForces(*one, where) for one, where in zip(divided, of_each, strict=True)
         ]
@@ -81,12 +81,12 @@ class Forces:
         self.s.write("near", self._none if near is None else near)
         self._form(self.s.address)
         left = self.s.integers("code").nonzero()[0].tolist()
-        return self.s["wrench"].copy(), [i for i in left if len(self._groups[i].contacts)]
+        return self.s["wrench"].copy(), [i for i in left if len(self.groups[i].contacts)]
 
     def compliance(self) -> Array:
         """Of each contact in the last step of :meth:`in_c`, which has decided all, (n_c,) [m/N]."""
         found = np.zeros(len(self._none))
-        for group, part in zip(self._groups, self.parts, strict=True):
+        for group, part in zip(self.groups, self.parts, strict=True):
             if len(group.contacts):
                 found[group.contacts] = part.s["compliance"]
         return found
@@ -126,8 +126,8 @@ class ForcesOfSteps:
         with self._one_at_a_time:
             return self._of_steps_like(step).wrench(step, near)
 
-    def decided(self, step: StepData, near: Array) -> tuple[Array, Array] | None:
-        """The same, shape (n_c, 4) [N, N m], and compliances, (n_c,) [m/N]; None if one is open.
+    def decided(self, step: StepData, near: Array) -> ForcesOfGroups | None:
+        """The same; None if a force is open.
 
         Parameters
         ----------
@@ -142,7 +142,7 @@ class ForcesOfSteps:
                 return None
             compliance = forces.compliance()
         check_forces(step, wrench)
-        return read_only(wrench), read_only(compliance)
+        return read_only(wrench), read_only(compliance), forces.groups
 
     def _of_steps_like(self, step: StepData) -> Forces:
         of = coupled_by(step)
