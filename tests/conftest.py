@@ -4,7 +4,6 @@ import contextlib
 import gc
 import io
 import os
-from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from quasistatic_ref import Scenario, System, load_scenario
+from quasistatic_ref import load_scenario
 from tests.extras import is_missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
@@ -22,20 +21,20 @@ settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 
-def pytest_configure(config: pytest.Config) -> None:
+def pytest_configure(config):
     """Declare the marker of tests that need an extra."""
     os.environ.pop("PYTEST_ADDOPTS", None)  # of this run, not of those that tests start
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
+def pytest_addoption(parser):
     """``--left-out FILE``: what is skipped, an id a line, for a run with every extra."""
     parser.addoption(
         "--left-out", type=Path, metavar="FILE", help="write the ids of what is skipped"
     )
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items):
     """Skip what needs an extra that is not installed."""
     for item in items:
         for mark in item.iter_markers("extra"):
@@ -43,9 +42,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
                 item.add_marker(pytest.mark.skip(reason=reason(*mark.args)))
 
 
-def pytest_terminal_summary(
-    terminalreporter: pytest.TerminalReporter, config: pytest.Config
-) -> None:
+def pytest_terminal_summary(terminalreporter, config):
     """Write what ``--left-out`` asks for."""
     if (file := config.getoption("left_out")) is not None:
         skipped = [report.nodeid for report in terminalreporter.stats.get("skipped", ())]
@@ -53,7 +50,7 @@ def pytest_terminal_summary(
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Generator[None, object, object]:
+def pytest_collection():
     """Collect the tests without a search for garbage: what is imported stays.
 
     The search would take a quarter of the time, in each worker.
@@ -66,7 +63,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 @pytest.fixture
-def rng() -> np.random.Generator:
+def rng():
     """Random numbers, the same in every run."""
     return np.random.default_rng(20231)
 
@@ -82,7 +79,7 @@ class CommandRun:
 
 
 @pytest.fixture(scope="session")
-def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
+def demo(tmp_path_factory):
     """`demo --fast --json`, run once: both cases of the grasp, 300 steps each."""
     from quasistatic_ref.cli.main import main  # here, so that light tests stay light
 
@@ -94,8 +91,20 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
     return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
 
 
+@pytest.fixture
+def cli(capsys):
+    """A command's ``out`` and ``err``, once it has ended with the exit status that is expected."""
+    from quasistatic_ref.cli.main import main  # here, so that light tests stay light
+
+    def printed(*arguments, status=0):
+        assert main([*map(str, arguments)]) == status
+        return capsys.readouterr()
+
+    return printed
+
+
 @pytest.fixture(scope="session")
-def things(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
+def things(tmp_path_factory):
     """One of every kind of public data, by name."""
     from tests.step.public_data import public_data  # here, so that light tests stay light
 
@@ -103,22 +112,22 @@ def things(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
 
 
 @pytest.fixture
-def scene(tmp_path: Path) -> System:
+def scene(tmp_path):
     """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
     return chain_scene(tmp_path)
 
 
 @pytest.fixture
-def q(scene: System, rng: np.random.Generator) -> np.ndarray:
+def q(scene, rng):
     """A configuration without symmetries."""
     return scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
 
 
 @pytest.fixture
-def load(tmp_path: Path) -> Callable[..., Scenario]:
+def load(tmp_path):
     """The scenario PUSH with some of its lines replaced."""
 
-    def loaded(*changes: tuple[str, str], settings: Sequence[str] = ()) -> Scenario:
+    def loaded(*changes, settings=()):
         text = PUSH
         for old, new in changes:
             assert text.count(old) == 1, old

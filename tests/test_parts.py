@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import quasistatic_ref
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
@@ -80,7 +79,7 @@ def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
         getattr(quasistatic_ref, name)
 
 
-def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path):
+def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path, cli):
     scenario = load_scenario("sphere_spin", steps=2)
     whole = scenario.run(progress=False)
     without("doctor")
@@ -91,9 +90,9 @@ def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path
     without("runs")
     with pytest.raises(InputError, match=r"^save needs quasistatic_ref/optional/runs$"):
         scenario.run(progress=False, save=tmp_path / "run.npz")
-    assert main(["run", "sphere_spin", "--set", "steps=2", "--out", str(tmp_path), "--quiet"]) == 0
+    cli("run", "sphere_spin", "--set", "steps=2", "--out", tmp_path, "--quiet")
     assert trajectory_read(tmp_path / "sphere_spin.npz").steps == 2
-    assert main(["run", "sphere_spin", "--out", str(tmp_path), "--resume"]) == 2
+    cli("run", "sphere_spin", "--out", tmp_path, "--resume", status=2)
 
 
 def test_without_pages_data_show_their_fields_and_objects_their_class(without):

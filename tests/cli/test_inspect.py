@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.options import WIDTH
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
@@ -13,10 +12,9 @@ from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 
 
-def test_inspect_shows_a_urdf(tmp_path, capsys):
-    path = str(urdf_of_text(tmp_path, RAIL, "rail.urdf"))
-    assert main(["inspect", path, "--json"]) == 0
-    record = json.loads(capsys.readouterr().out)
+def test_inspect_shows_a_urdf(tmp_path, cli):
+    path = urdf_of_text(tmp_path, RAIL, "rail.urdf")
+    record = json.loads(cli("inspect", path, "--json").out)
     assert [c["name"] for c in record["coordinates"]] == ["rail/slide", "rail/turn"]
     assert [c["unit"] for c in record["coordinates"]] == ["m", "rad"]
     assert (record["n_a"], record["n_u"]) == (2, 0)
@@ -27,14 +25,13 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     ]
     assert "rail: joint limits: position, effort and velocity (2)" in record["ignored"]
     assert record["read_as"] == "a fixed base, all joints actuated"
-    assert main(["inspect", path]) == 0
-    text = capsys.readouterr().out
+    text = cli("inspect", path).out
     assert "read with a fixed base, all joints actuated" in text
     assert "rail/slide" in text
     assert "the model ignores:" in text
 
 
-def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, capsys):
+def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, cli):
     rubbed = '<dynamics damping="1" friction="2"/>'
     arm = robot(
         link("a", inertial=""), link("b"), link("c"), link("d"),
@@ -48,63 +45,56 @@ def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, capsys):
         text = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
         text += f'[bodies.arm]\nurdf = "arm.urdf"\njoint_friction = {friction}\n'
         path = urdf_of_text(tmp_path, text, "scene.toml")
-        assert main(["inspect", str(path), "--json"]) == 0
-        lines[friction] = json.loads(capsys.readouterr().out)["ignored"]
+        lines[friction] = json.loads(cli("inspect", path, "--json").out)["ignored"]
     assert "arm: joint friction (1)" in lines['"urdf"']  # of the weld
     assert "arm: joint friction (3)" in lines["{ slide = 1 }"]
     assert all("arm: joint damping (3)" in each for each in lines.values())
 
 
-def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):
-    path = str(urdf_of_text(tmp_path, CHAIN, "arm.urdf"))
-    assert main(["inspect", path]) == 0
-    assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in capsys.readouterr().out
-    assert main(["inspect", path, "--json"]) == 0
+def test_inspect_says_what_a_mimic_follows(tmp_path, cli):
+    path = urdf_of_text(tmp_path, CHAIN, "arm.urdf")
+    assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in cli("inspect", path).out
     follows = {"name": "arm/swing_mimic", "of": "arm/swing", "multiplier": -0.7, "offset": 0.2}
-    assert json.loads(capsys.readouterr().out)["mimics"] == [follows]
+    assert json.loads(cli("inspect", path, "--json").out)["mimics"] == [follows]
 
 
-def test_inspect_shows_a_scenario(scene, capsys):
-    assert main(["inspect", scene, "--json", "--set", "contacts.floor.mu_omega=0.5"]) == 0
-    record = json.loads(capsys.readouterr().out)
+def test_inspect_shows_a_scenario(scene, cli):
+    record = json.loads(cli("inspect", scene, "--json", "--set", "contacts.floor.mu_omega=0.5").out)
     stiffness = {c["name"]: c["K_q"] for c in record["coordinates"] if c["actuated"]}
     assert stiffness == {"rail/slide": 500, "rail/turn": 2.5}
     assert "read_as" not in record  # a scenario says how its bodies are held
     assert [pair["mu_omega"] for pair in record["pairs"]] == [0.5, 0.0]
     assert record["size"] == [8, 10]
-    assert main(["inspect", scene]) == 0
-    text = capsys.readouterr().out
+    text = cli("inspect", scene).out
     assert "each step: 8 variables, 10 rows; h = 0.01 s" in text
     assert "500 N/m" in text
     assert "2.5 N m/rad" in text
 
 
-def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
-    assert main(["inspect", scene, "--json"]) == 0
-    fields = json.loads(capsys.readouterr().out)["fields"]
+def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, cli):
+    fields = json.loads(cli("inspect", scene, "--json").out)["fields"]
     assert fields["h"] == 0.01
     numbers = {
         name: x for name, x in fields.items() if type(x) in (int, float) and name != "version"
     }
     assert any(name.startswith("contacts.floor.") for name in numbers)
     for name, value in numbers.items():
-        assert main(["inspect", scene, "--json", "--set", f"{name}={value}"]) == 0
-        capsys.readouterr()
-    assert main(["inspect", scene]) == 0
-    assert "  h = 0.01\n" in capsys.readouterr().out
+        cli("inspect", scene, "--json", "--set", f"{name}={value}")
+    assert "  h = 0.01\n" in cli("inspect", scene).out
 
 
 @pytest.mark.parametrize("name", SCENARIOS)
-def test_what_is_inspected_fits_a_terminal(name, capsys):
-    assert main(["inspect", name]) == 0
-    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
+def test_what_is_inspected_fits_a_terminal(name, cli):
+    assert max(map(len, cli("inspect", name).out.splitlines())) <= WIDTH
 
 
-def test_inspect_names_links_that_nothing_can_touch(tmp_path, capsys):
+def test_inspect_names_links_that_nothing_can_touch(tmp_path, cli):
     visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
     text = robot(link("a", visual), link("b"), joint("j", "a", "b"))
-    assert main(["inspect", str(urdf_of_text(tmp_path, text, "one.urdf"))]) == 0
-    assert "- one: links with visual but no collision geometry: a\n" in capsys.readouterr().out
+    assert (
+        "- one: links with visual but no collision geometry: a\n"
+        in cli("inspect", urdf_of_text(tmp_path, text, "one.urdf")).out
+    )
 
 
 TURNED = inertial(
@@ -113,39 +103,33 @@ TURNED = inertial(
 )
 
 
-def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, capsys):
+def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, cli):
     """A quarter turn about z: ixx along the frame of the inertia is iyy along the link's."""
-    path = str(urdf_of_text(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf"))
-    assert main(["inspect", path, "--json"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)["links"]
+    path = urdf_of_text(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf")
+    (found,) = json.loads(cli("inspect", path, "--json").out)["links"]
     assert found["centre"] == [0.5, 0.25, 0.125]
     assert np.diag(found["inertia"]) == pytest.approx([0.2, 0.1, 0.25], abs=ROUNDING)
-    assert main(["inspect", path]) == 0
-    out = capsys.readouterr().out
+    out = cli("inspect", path).out
     assert "inertias: about the centre of mass, along the link's axes" in out
     assert "0.5 0.25 0.125" in out
 
 
-def test_findings_are_listed_before_a_run(capsys):
+def test_findings_are_listed_before_a_run(cli):
     arguments = ["inspect", "block_push", "--set", "contacts.floor.k=1"]
-    assert main(arguments) == 0
-    printed = " ".join(capsys.readouterr().out.split())
+    printed = " ".join(cli(*arguments).out.split())
     assert "findings, before a run: - raise k of contacts.floor to 4: block lies flat" in printed
-    assert main([*arguments, "--json"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)["findings"]
+    (found,) = json.loads(cli(*arguments, "--json").out)["findings"]
     assert (found["name"], found["grave"]) == ("too few points", True)
 
 
-def record_and_words(capsys, *arguments):
-    assert main(["inspect", *arguments, "--json"]) == 0
-    record = json.loads(capsys.readouterr().out)["time_step"]
-    assert main(["inspect", *arguments]) == 0
-    return record, " ".join(capsys.readouterr().out.split())
+def record_and_words(cli, *arguments):
+    record = json.loads(cli("inspect", *arguments, "--json").out)["time_step"]
+    return record, " ".join(cli("inspect", *arguments).out.split())
 
 
-def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
+def test_inspect_says_from_which_time_step_on_drag_is_small(scene, cli):
     """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
-    record, text = record_and_words(capsys, scene)
+    record, text = record_and_words(cli, scene)
     v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
     assert record["target_speed"] == pytest.approx(v, rel=ROUNDING)
     assert record["small_drag_from"] == pytest.approx(10 * v / (mu_v * g), rel=ROUNDING)
@@ -153,15 +137,15 @@ def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
     assert record["between_waypoints"] == 0.1
     assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
     assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
-    weightless, text = record_and_words(capsys, scene, "--set", "gravity=[0, 0, 0]")
+    weightless, text = record_and_words(cli, scene, "--set", "gravity=[0, 0, 0]")
     assert weightless == record | {"small_drag_from": None}
     assert "drag" not in text
 
 
-def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, capsys):
+def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, cli):
     """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
     club = str(written_scenario(tmp_path, SWING))
-    record, text = record_and_words(capsys, club, "--set", "h=0.002", "--set", "steps=30")
+    record, text = record_and_words(cli, club, "--set", "h=0.002", "--set", "steps=30")
     turn = 1.5 * np.pi / 5
     r = 0.2
     assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)

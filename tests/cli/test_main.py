@@ -14,14 +14,13 @@ from quasistatic_ref.cli.main import COMMANDS, main
 from tests.helpers import one_sentence, point_on_floor
 
 
-def test_any_command_can_be_interrupted(tmp_path, capsys, monkeypatch):
+def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
     def interrupted(*arguments, **options):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(solve_command, "solve_step", interrupted)
     path = step_written(tmp_path / "step.json", point_on_floor())
-    assert main(["solve", str(path)]) == 130
-    assert one_sentence(capsys.readouterr().err) == "interrupted"
+    assert one_sentence(cli("solve", path, status=130).err) == "interrupted"
 
 
 @pytest.mark.parametrize(
@@ -49,13 +48,11 @@ def test_wrong_usage_is_status_2(capsys, arguments, words):
     assert words in capsys.readouterr().err
 
 
-def test_backends_lists_what_is_installed(capsys):
-    assert main(["backends", "--json"]) == 0
-    printed = json.loads(capsys.readouterr().out)
+def test_backends_lists_what_is_installed(cli):
+    printed = json.loads(cli("backends", "--json").out)
     assert (printed["default"], printed["default_of_fast"]) == ("clarabel", "daqp")
     assert {"clarabel", "osqp", "piqp", "daqp"} <= set(printed["installed"])
-    assert main(["backends"]) == 0
-    page = capsys.readouterr().out
+    page = cli("backends").out
     assert "daqp (default with --fast)" in page
     assert "clarabel (default)" in page
 
@@ -72,15 +69,16 @@ def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
         assert (demo.folder / name).stat().st_size > 1000
 
 
-def test_figures_are_made_by_name(out, capsys):
+def test_figures_are_made_by_name(out, capsys, cli):
     assert main(["figures", "cone_surfaces", "--numbers", "--out", str(out)]) == 0
     paths = [out / "cone_surfaces.png", out / "cone_surfaces.pdf"]
     volume, *_, png, pdf = capsys.readouterr().out.splitlines()
     assert volume == "volume of the pyramid [-]: 1.33333"  # 4 / 3, of an octahedron
     assert [png, pdf] == [str(path) for path in paths]
     assert all(path.stat().st_size > 1000 for path in paths)
-    assert main(["figures", "cone_surface", "--out", str(out)]) == 2
-    assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)
+    assert "did you mean 'cone_surfaces'?" in one_sentence(
+        cli("figures", "cone_surface", "--out", out, status=2).err
+    )
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -148,32 +146,30 @@ def test_every_command_takes_quiet(words, capsys):
     assert "--quiet" in capsys.readouterr().out
 
 
-def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
+def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch, cli):
     """A folder called bench is a folder: the module of that command is not even imported."""
     monkeypatch.setitem(sys.modules, "quasistatic_ref.lab.commands.bench", None)
     monkeypatch.chdir(tmp_path)
-    assert main(["run", scene, "--out", "bench"]) == 0
+    cli("run", scene, "--out", "bench")
     assert (tmp_path / "bench" / "scene.npz").is_file()
 
 
-def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsys):
+def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, cli):
     def full(options):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "study.sqlite")
 
     monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
-    assert main(["backends"]) == 2
-    printed = capsys.readouterr().err
+    printed = cli("backends", status=2).err
     assert printed == "quasistatic-ref: study.sqlite: cannot be used: No space left on device\n"
 
 
-def test_a_library_that_the_system_lacks_is_named_with_what_installs_it(monkeypatch, capsys):
+def test_a_library_that_the_system_lacks_is_named_with_what_installs_it(monkeypatch, cli):
     def importing(*arguments):
         message = "libgomp.so.1: cannot open shared object file: No such file or directory"
         raise ImportError(message)
 
     monkeypatch.setattr(solve_command, "run", importing)
-    assert main(["solve", "step.json"]) == 2
-    assert capsys.readouterr().err == (
+    assert cli("solve", "step.json", status=2).err == (
         "quasistatic-ref: libgomp.so.1, which a package needs, is not installed on this system; "
         "libgomp.so.1 comes by: apt-get install libgomp1\n"
     )

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, step_read, trajectory_read
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate import simulator
 from tests.helpers import one_sentence
 from tests.scenes import SWING, written_scenario
@@ -20,9 +19,8 @@ def swing(tmp_path):
     return str(written_scenario(tmp_path, SWING, "swing.toml"))
 
 
-def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
-    assert main(["run", scene, "--out", str(out)]) == 0
-    printed = capsys.readouterr().out
+def test_run_writes_the_trajectory_and_tells_of_it(scene, out, cli):
+    printed = cli("run", scene, "--out", out).out
     assert printed.startswith(
         "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, plain path, "
     )
@@ -30,9 +28,8 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert trajectory_read(out / "scene.npz").steps == 5
 
 
-def test_run_prints_one_json_object(scene, out, capsys):
-    assert main(["run", scene, "--out", str(out), "--json"]) == 0
-    printed = json.loads(capsys.readouterr().out)
+def test_run_prints_one_json_object(scene, out, cli):
+    printed = json.loads(cli("run", scene, "--out", out, "--json").out)
     assert printed["trajectory"] == str(out / "scene.npz")
     assert (printed["steps"], printed["variables"], printed["rows"]) == (5, 8, 10)
     assert (printed["backend"], printed["fast"]) == ("clarabel", False)
@@ -46,15 +43,14 @@ def test_run_prints_one_json_object(scene, out, capsys):
     }
 
 
-def test_options_change_the_scenario(scene, out, capsys):
+def test_options_change_the_scenario(scene, out, cli):
     options = ["--backend", "osqp", "--certify", "off", "--set", "steps=2", "--set", "h=0.02"]
-    assert main(["run", scene, "--out", str(out), "--json", *options]) == 0
-    printed = json.loads(capsys.readouterr().out)
+    printed = json.loads(cli("run", scene, "--out", out, "--json", *options).out)
     assert (printed["backend"], printed["steps"], printed["worst_residual"]) == ("osqp", 2, None)
     np.testing.assert_array_equal(trajectory_read(out / "scene.npz")["t"], [0.02, 0.04])
 
 
-def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
+def test_an_interrupted_run_leaves_its_steps(scene, out, cli, monkeypatch):
     honest = simulator.Simulator.step
     calls = []
 
@@ -65,14 +61,13 @@ def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
         return honest(*arguments, **options)
 
     monkeypatch.setattr(simulator.Simulator, "step", interrupted)
-    assert main(["run", scene, "--out", str(out)]) == 130
-    assert one_sentence(capsys.readouterr().err).startswith(
+    assert one_sentence(cli("run", scene, "--out", out, status=130).err).startswith(
         "step 2: interrupted; the first 2 steps"
     )
     assert trajectory_read(out / "scene.npz").steps == 2
 
 
-def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
+def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch, cli):
     class Terminal(io.StringIO):
         def isatty(self):
             return True
@@ -80,22 +75,23 @@ def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, mo
     for words, shown in (([], True), (["--quiet"], False)):
         terminal = Terminal()
         monkeypatch.setattr(sys, "stderr", terminal)
-        assert main(["run", scene, "--out", str(tmp_path), *words]) == 0
+        cli("run", scene, "--out", tmp_path, *words)
         assert ("step/s" in terminal.getvalue()) is shown
 
 
-def test_a_quiet_run_still_says_its_findings(tmp_path, capsys):
-    assert main(["run", "block_incline", "--fast", "--quiet", "--out", str(tmp_path)]) == 0
-    assert "the spurious drag" in capsys.readouterr().err
+def test_a_quiet_run_still_says_its_findings(tmp_path, cli):
+    assert (
+        "the spurious drag"
+        in cli("run", "block_incline", "--fast", "--quiet", "--out", tmp_path).err
+    )
 
 
 NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, capsys):
-    assert main(["run", scene, "--cone", name, "--out", str(tmp_path), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
+def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, cli):
+    said = json.loads(cli("run", scene, "--cone", name, "--out", tmp_path, "--json").out)
     trajectory = trajectory_read(tmp_path / "scene.npz")
     assert trajectory.header["cone"] == name
     step = trajectory.step_data(3)
@@ -104,6 +100,5 @@ def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_pa
     again = solve_step(step, "none")
     np.testing.assert_array_equal(again.delta_q, trajectory["delta_q"][3])
     out = tmp_path / "step.json"
-    arguments = ["extract", str(tmp_path / "scene.npz"), "--step", "3", "-o", str(out)]
-    assert main(arguments) == 0
+    cli("extract", tmp_path / "scene.npz", "--step", "3", "-o", out)
     assert step_read(out) == step

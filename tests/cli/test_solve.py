@@ -7,7 +7,6 @@ from fractions import Fraction
 import pytest
 
 from quasistatic_ref import step_written
-from quasistatic_ref.cli.main import main
 from tests.helpers import point_on_floor
 
 
@@ -22,9 +21,8 @@ def decimals_of(text):
 
 
 @pytest.mark.parametrize("digits", [1, 5, 30])
-def test_decimals_are_those_of_the_exact_fraction(falling, capsys, digits):
-    assert main(["solve", str(falling), "--digits", str(digits)]) == 0
-    said = decimals_of(capsys.readouterr().out)
+def test_decimals_are_those_of_the_exact_fraction(falling, cli, digits):
+    said = decimals_of(cli("solve", falling, "--digits", digits).out)
     assert list(said) == ["delta_q_u[0]", "delta_q_u[1]", "delta_q_u[2]"]
     h = Fraction(0.01)
     m = Fraction(0.3)
@@ -35,18 +33,16 @@ def test_decimals_are_those_of_the_exact_fraction(falling, capsys, digits):
         assert abs(Fraction(text) - exact) <= last / 2
 
 
-def test_decimals_stand_alone_and_the_solution_goes_to_its_file(falling, capsys, tmp_path):
+def test_decimals_stand_alone_and_the_solution_goes_to_its_file(falling, cli, tmp_path):
     solution = tmp_path / "solution.json"
-    assert main(["solve", str(falling), "--digits", "20", "-o", str(solution)]) == 0
-    printed = capsys.readouterr()
+    printed = cli("solve", falling, "--digits", "20", "-o", solution)
     delta_q = json.loads(solution.read_text())["delta_q"]
     assert [float(text) for text in decimals_of(printed.out).values()] == delta_q
     assert printed.err.startswith("exact: the optimum of the step")
 
 
-def test_without_decimals_standard_output_is_the_solution(falling, capsys):
-    assert main(["solve", str(falling)]) == 0
-    assert json.loads(capsys.readouterr().out)["certificate"]["kind"] == "exact"
+def test_without_decimals_standard_output_is_the_solution(falling, cli):
+    assert json.loads(cli("solve", falling).out)["certificate"]["kind"] == "exact"
 
 
 @pytest.mark.parametrize(
@@ -56,8 +52,7 @@ def test_without_decimals_standard_output_is_the_solution(falling, capsys):
         (["--digits", "30", "--certify", "residual"], "exact optimum"),
     ],
 )
-def test_decimals_that_do_not_exist_are_refused(falling, capsys, options, reason):
-    assert main(["solve", str(falling), *options]) == 2
-    printed = capsys.readouterr()
+def test_decimals_that_do_not_exist_are_refused(falling, cli, options, reason):
+    printed = cli("solve", falling, *options, status=2)
     assert reason in printed.err
     assert printed.out == ""

@@ -9,30 +9,31 @@ from quasistatic_ref.cli.main import main
 from tests.helpers import one_sentence, pinch, point_on_floor
 
 
-def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(tmp_path, capsys):
+def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(
+    tmp_path, capsys, cli
+):
     step = str(step_written(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
     false = tmp_path / "false.json"
     assert main(["solve", step, "-o", str(false)]) == 0
     false.write_text(false.read_text().replace('"delta_q": [', '"delta_q": [1'))
     capsys.readouterr()
-    assert main(["verify", step, str(false), "--json"]) == 1
-    assert json.loads(capsys.readouterr().out)["verified"] is False
-    assert main(["verify", step, str(false)]) == 1
-    assert capsys.readouterr().out.startswith("refuted: delta_q[0] is 1")
-    assert main(["verify", step, str(tmp_path / "none.json")]) == 2
-    assert one_sentence(capsys.readouterr().err).endswith("none.json: no such file")
+    assert json.loads(cli("verify", step, false, "--json", status=1).out)["verified"] is False
+    assert cli("verify", step, false, status=1).out.startswith("refuted: delta_q[0] is 1")
+    assert one_sentence(cli("verify", step, tmp_path / "none.json", status=2).err).endswith(
+        "none.json: no such file"
+    )
 
 
 NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_solution_in_another_cone_is_verified_in_that_cone_only(name, tmp_path, capsys):
+def test_a_solution_in_another_cone_is_verified_in_that_cone_only(name, tmp_path, cli):
     step = tmp_path / "step.json"
     solution = tmp_path / "solution.json"
     step_written(step, pinch(grip=5.0, offset=0.2))
-    assert main(["solve", str(step), "--cone", name, "-o", str(solution)]) == 0
-    assert main(["verify", str(step), str(solution), "--cone", name]) == 0
-    assert "verified" in capsys.readouterr().out
-    assert main(["verify", str(step), str(solution)]) == 2
-    assert "cone: must be that of the step, 'pyramid'" in capsys.readouterr().err
+    cli("solve", step, "--cone", name, "-o", solution)
+    assert "verified" in cli("verify", step, solution, "--cone", name).out
+    assert (
+        "cone: must be that of the step, 'pyramid'" in cli("verify", step, solution, status=2).err
+    )

@@ -46,16 +46,16 @@ def test_a_path_in_a_scenario_stays_in_its_folder(outside, refused, tmp_path, fi
 
 
 @pytest.mark.parametrize("value", ["ball.urdf", "./ball.urdf", "sub/../ball.urdf", "{}/ball.urdf"])
-def test_a_path_that_comes_back_is_good(outside, value):
+def test_a_path_that_comes_back_is_good(outside, value, cli):
     (outside / "sub").mkdir()
     scene = changed(SCENE, ("bodies/ball/urdf", value.replace("{}", str(outside))))
-    assert main(["inspect", str(scene_written(outside, scene))]) == 0
+    cli("inspect", scene_written(outside, scene))
 
 
 @pytest.mark.parametrize("value", ["../outside.urdf", "{}/outside.urdf"])
-def test_a_path_on_the_command_line_leads_anywhere(outside, tmp_path, value):
+def test_a_path_on_the_command_line_leads_anywhere(outside, tmp_path, value, cli):
     setting = f"bodies.ball.urdf={value.replace('{}', str(tmp_path))}"
-    assert main(["inspect", str(scene_written(outside)), "--set", setting]) == 0
+    cli("inspect", scene_written(outside), "--set", setting)
 
 
 def test_a_path_with_a_nul_character_is_none(tmp_path, refused):

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
-from quasistatic_ref.cli.main import main
 from tests.errors.scene import scene_written
 from tests.oracles.spoilt_files import zip_bytes
 
@@ -131,10 +130,12 @@ CAUSES = {
 
 
 @pytest.mark.parametrize("kind", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED])
-def test_the_trajectory_is_good_before_it_is_spoilt(tmp_path, run, capsys, kind):
+def test_the_trajectory_is_good_before_it_is_spoilt(tmp_path, run, cli, kind):
     (tmp_path / "run.npz").write_bytes(rewritten(run, header={}, kind=kind))
-    assert main(["extract", str(tmp_path / "run.npz"), "--step", "1"]) == 0
-    assert json.loads(capsys.readouterr().out)["format"] == "quasistatic-ref/step"
+    assert (
+        json.loads(cli("extract", tmp_path / "run.npz", "--step", "1").out)["format"]
+        == "quasistatic-ref/step"
+    )
 
 
 @pytest.mark.filterwarnings("ignore:Duplicate name")

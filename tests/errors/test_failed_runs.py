@@ -44,12 +44,11 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, capsys, case):
+def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cli, case):
     changes, steps, words = CASES[case]
     path = scene_written(tmp_path, changed(SCENE, *changes))
     out = tmp_path / "out"
-    assert main(["run", str(path), "--out", str(out)]) == 3
-    captured = capsys.readouterr()
+    captured = cli("run", path, "--out", out, status=3)
     assert captured.out == ""
     *warned, said = captured.err.splitlines()
     assert said.startswith(f"quasistatic-ref: step {steps}: ")
@@ -69,17 +68,16 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cap
     assert caught.value.step == failed
     assert sorted(os.listdir(out)) == ["scene.npz", "scene_failed_step.json"]
     if steps:
-        assert main(["extract", str(out / "scene.npz"), "--step", str(steps - 1)]) == 0
+        cli("extract", out / "scene.npz", "--step", steps - 1)
 
 
-def test_the_failing_step_fails_again_by_itself(tmp_path, capsys):
+def test_the_failing_step_fails_again_by_itself(tmp_path, cli):
     path = scene_written(tmp_path, changed(SCENE, *WEDGE))
     main(["run", str(path), "--out", str(tmp_path)])
-    step = str(tmp_path / "scene_failed_step.json")
-    proof = str(tmp_path / "proof.json")
-    assert main(["solve", step, "-o", proof]) == 3
-    assert main(["verify", step, proof]) == 0
-    assert "the step has no solution" in capsys.readouterr().out
+    step = tmp_path / "scene_failed_step.json"
+    proof = tmp_path / "proof.json"
+    cli("solve", step, "-o", proof, status=3)
+    assert "the step has no solution" in cli("verify", step, proof).out
 
 
 @pytest.mark.parametrize(("depth", "fails"), [(0.0799, True), (0.0801, False)])

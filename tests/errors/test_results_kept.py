@@ -17,7 +17,7 @@ LOST = {
 
 
 @pytest.mark.parametrize("cause", LOST)
-def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cause):
+def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cli, cause):
     changes, more, status, says = LOST[cause]
     out = tmp_path / "out"
     command = ["run", str(scene_written(tmp_path)), "--out", str(out), "--quiet"]
@@ -25,18 +25,16 @@ def test_a_run_never_replaces_a_longer_one(tmp_path, capsys, cause):
     before = contents(out)
     scene_written(tmp_path, changed(SCENE, *changes))
     capsys.readouterr()
-    assert main([*command, *more]) == status
-    assert says.format(out) in capsys.readouterr().err
+    assert says.format(out) in cli(*command, *more, status=status).err
     assert before.items() <= contents(out).items()
     assert status == 3 or contents(out) == before
 
 
-def test_what_is_no_trajectory_is_not_replaced_by_one(tmp_path, capsys):
+def test_what_is_no_trajectory_is_not_replaced_by_one(tmp_path, cli):
     scene = scene_written(tmp_path)
     points = tmp_path / "scene.npz"
     np.savez(points, points=np.zeros((4, 3)))
     before = points.read_bytes()
-    assert main(["run", str(scene), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
+    said = cli("run", scene, "--out", tmp_path, status=2).err
     assert "is not a trajectory written by this program: it has no header; it is not rep" in said
     assert points.read_bytes() == before

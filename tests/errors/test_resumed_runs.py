@@ -102,7 +102,7 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
     )
 
 
-def test_a_killed_run_is_resumed_from_the_command_line(tmp_path, scene, capsys):
+def test_a_killed_run_is_resumed_from_the_command_line(tmp_path, scene, capsys, cli):
     arguments = ["run", str(scene), "--fast", "--set", f"steps={STEPS}"]
     path = tmp_path / "again" / "scene.npz"
     once = tmp_path / "once" / "scene.npz"
@@ -111,14 +111,14 @@ def test_a_killed_run_is_resumed_from_the_command_line(tmp_path, scene, capsys):
     assert main([*arguments, "--out", str(path.parent)]) == 2  # nothing is lost for want of a word
     said = capsys.readouterr().err
     assert "holds the first 5 steps of a run that did not end; go on from there" in said
-    assert main([*arguments, "--out", str(path.parent), "--resume", "--json"]) == 0
-    captured = capsys.readouterr()
+    captured = cli(*arguments, "--out", path.parent, "--resume", "--json")
     assert captured.err.splitlines()[0] == "goes on from step 5"
     summary = json.loads(captured.out)
     assert (summary["steps"], summary["certified"]) == (STEPS, f"{STEPS} of {STEPS} steps exact")
 
-    assert main([*arguments, "--out", str(once.parent), "--resume", "--quiet"]) == 0
-    assert "nothing is saved" not in capsys.readouterr().err
+    assert (
+        "nothing is saved" not in cli(*arguments, "--out", once.parent, "--resume", "--quiet").err
+    )
     assert path.read_bytes() == once.read_bytes()
     assert not saved_folder(path).exists()
 
@@ -184,12 +184,14 @@ def test_a_resumed_run_may_end_where_it_was_saved_or_later(tmp_path, scene, step
     assert path.read_bytes() == plain.read_bytes()
 
 
-def test_a_resumed_run_that_is_shorter_is_refused_and_nothing_is_removed(tmp_path, scene, capsys):
+def test_a_resumed_run_that_is_shorter_is_refused_and_nothing_is_removed(tmp_path, scene, cli):
     path = tmp_path / "scene.npz"
     ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
     before = contents(tmp_path)
-    assert main(["run", str(scene), "--set", "steps=3", "--out", str(tmp_path), "--resume"]) == 2
-    assert "holds the first 4 steps of a run, and this one has 3;" in capsys.readouterr().err
+    assert (
+        "holds the first 4 steps of a run, and this one has 3;"
+        in cli("run", scene, "--set", "steps=3", "--out", tmp_path, "--resume", status=2).err
+    )
     assert contents(tmp_path) == before
 
 
@@ -251,7 +253,7 @@ SPOILT = {
 
 @pytest.mark.parametrize("spoil", SPOILT)
 def test_a_run_goes_on_from_the_good_files_and_keeps_the_others_aside(
-    tmp_path, scene, capsys, spoil
+    tmp_path, scene, capsys, cli, spoil
 ):
     path = tmp_path / "scene.npz"
     whole = tmp_path / "whole" / "scene.npz"
@@ -263,8 +265,7 @@ def test_a_run_goes_on_from_the_good_files_and_keeps_the_others_aside(
     arguments = ["run", str(scene), "--out", str(tmp_path), "--quiet"]
     assert main(arguments) == 2  # nothing is lost for want of a word
     assert "--resume" in capsys.readouterr().err
-    assert main([*arguments, "--resume"]) == 0
-    said = next(line for line in capsys.readouterr().err.splitlines() if "kept in" in line)
+    said = next(line for line in cli(*arguments, "--resume").err.splitlines() if "kept in" in line)
     aside = tmp_path / "scene.npz.left_out"
     assert f"{saved_folder(path)}/000000001.npz: " in said
     assert f"are kept in {aside};" in said

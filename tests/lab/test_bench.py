@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.bench.acceptance import promises
 from quasistatic_ref.lab.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.bench.grasp import bare_daqp, places
@@ -27,9 +26,8 @@ def at():
     return places(3)
 
 
-def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
-    assert main(["bench", "--quick", "--json", "--out", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
+def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, cli):
+    found = json.loads(cli("bench", "--quick", "--json", "--out", tmp_path).out)
     assert json.loads((tmp_path / "bench.json").read_text()) == found
     assert set(found["grasp"]) == {"step", "over_solver", "certified", "certified, p99"}
     in_jax = set() if is_missing("jax") else {MAPPED, "step_jax"}

@@ -3,7 +3,6 @@
 import pytest
 
 from quasistatic_ref import ScenarioError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.grasp import grasp_scenarios
 
 
@@ -21,7 +20,9 @@ def test_a_lift_that_does_not_end_is_not_compared():
         grasp_scenarios(["steps=100"])
 
 
-def test_demo_takes_settings_and_refuses_a_wrong_one_before_any_work(tmp_path, capsys):
-    assert main(["demo", "--out", str(tmp_path), "--set", "contacts.grip.mu_w=1"]) == 2
-    assert "contacts.grip.mu_w" in capsys.readouterr().err
+def test_demo_takes_settings_and_refuses_a_wrong_one_before_any_work(tmp_path, cli):
+    assert (
+        "contacts.grip.mu_w"
+        in cli("demo", "--out", tmp_path, "--set", "contacts.grip.mu_w=1", status=2).err
+    )
     assert list(tmp_path.iterdir()) == []

@@ -9,7 +9,6 @@ from jsonschema import Draft4Validator
 
 from docs.fields_page import reference_page
 from quasistatic_ref import InputError, load_scenario
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.commands.schema import scenario_schema
 from quasistatic_ref.scenario.scenario_table import TABLES
@@ -132,6 +131,5 @@ def test_the_defaults_that_the_table_states_are_those_of_the_loader(tmp_path):
     assert load_scenario(scene_written(tmp_path, changed(bare, *stated))) == plain
 
 
-def test_the_command_prints_the_schema(capsys):
-    assert main(["schema"]) == 0
-    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(scenario_schema()))
+def test_the_command_prints_the_schema(cli):
+    assert json.loads(cli("schema").out) == json.loads(json.dumps(scenario_schema()))

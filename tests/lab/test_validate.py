@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.claims.claim import (
     FAILS,
     HOLDS,
@@ -92,9 +91,8 @@ def test_closed_forms_and_derivations_cite_each_other():
     assert {int(n) for n in re.findall(r"\(R(\d+)\)", artifacts)} <= set(derived)
 
 
-def test_the_command_prints_a_table_and_writes_the_page(tmp_path, capsys):
-    assert main(["validate", "approach", "flat_patch", "--out", str(tmp_path)]) == 0
-    printed = capsys.readouterr()
+def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):
+    printed = cli("validate", "approach", "flat_patch", "--out", tmp_path)
     assert re.search(r"^approach +holds +162 ", printed.out, re.MULTILINE)
     assert "2 holds" in printed.out
     assert "[2/2] flat_patch ... holds" in printed.err
@@ -105,18 +103,17 @@ def test_the_command_prints_a_table_and_writes_the_page(tmp_path, capsys):
     assert (tmp_path / "figures" / "flat_patch.png").stat().st_size > 0
 
 
-def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys, monkeypatch):
+def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, monkeypatch):
     bad = claim_of(comparison("weight [N]", [1.0, np.nan], 2.0, 0.1))
     monkeypatch.setattr(command, "BY_NAME", {"planted": bad})
     monkeypatch.setattr(command, "CLAIMS", {"Planted": {"planted": bad}})
-    assert main(["validate", "--out", str(tmp_path)]) == 1
-    printed = capsys.readouterr()
+    printed = cli("validate", "--out", tmp_path, status=1)
     assert "quasistatic-ref: planted fails: weight [N] is None, not 2.0" in printed.err
     assert "FAILS" in (tmp_path / "claims.md").read_text()
-    assert main(["validate", "--json", "--out", str(tmp_path)]) == 1
-    assert json.loads(capsys.readouterr().out)["failed"] == ["planted"]
+    assert json.loads(cli("validate", "--json", "--out", tmp_path, status=1).out)["failed"] == [
+        "planted"
+    ]
 
 
-def test_an_unknown_claim_is_bad_input(tmp_path, capsys):
-    assert main(["validate", "aproach", "--out", str(tmp_path)]) == 2
-    assert "did you mean 'approach'" in capsys.readouterr().err
+def test_an_unknown_claim_is_bad_input(tmp_path, cli):
+    assert "did you mean 'approach'" in cli("validate", "aproach", "--out", tmp_path, status=2).err

@@ -2,7 +2,6 @@
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.lab.vectors.committed_cases import answer_file, cases
 from tests.quoted import QUOTED, ROOT, expected_phrases, flat, outside, printed_blocks, stale
@@ -42,13 +41,11 @@ def test_every_page_with_printed_text_has_a_test_of_it():
     assert [page for page in PAGES if printed_blocks(text(page))] == sorted(PRINTED)
 
 
-def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys):
+def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, cli):
     for layer, change in (("rows", {}), ("wrench", {"h": 1.0})):
         outputs = {c.id: program()(layer, c.input | change) for c in cases(layer)}
         answer_file(tmp_path, layer, outputs, implementation="mine")
-    layers = ["--layer", "rows", "--layer", "wrench"]
-    assert main(["vectors", "check", str(tmp_path), *layers]) == 1
-    said = capsys.readouterr()
+    said = cli("vectors", "check", tmp_path, "--layer", "rows", "--layer", "wrench", status=1)
     (shown,) = printed_blocks(text("docs/guides/check_your_implementation.md"))
     assert flat(said.out + said.err) == flat(shown)
 

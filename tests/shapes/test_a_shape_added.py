@@ -11,7 +11,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import Box, ContactError, HalfSpace, Sphere, load_scenario
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.formats.declared import Field
@@ -77,7 +76,7 @@ def test_its_distances_of_points_are_those_of_the_formula():
     assert PAD.extent == pytest.approx(2 * (HALF.max() + RADIUS), rel=ROUNDING)
 
 
-@pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
+@pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace((0, 0, -1.0), 0.05)])
 def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.
     gap = 0.02
@@ -105,7 +104,7 @@ def test_a_ball_comes_to_rest_on_it_in_a_scenario(scene):
     assert_relative(run["wrench"][0, 0, 2], 0.3 * 9.81, SCENARIO)
 
 
-def test_it_is_drawn_and_inspected(scene, capsys):
+def test_it_is_drawn_and_inspected(scene, cli):
     scenario = load_scenario(scene)
     run = scenario.run(progress=False)
     page, (axes,) = panels(4.6, 4.0)
@@ -113,5 +112,4 @@ def test_it_is_drawn_and_inspected(scene, capsys):
     reached = np.concatenate([patch.get_xy() for patch in axes.patches])
     assert np.ptp(reached[:, 0]) >= 2 * (HALF[0] + RADIUS) - ROUNDING
     plt.close(page)
-    assert main(["inspect", scene]) == 0
-    assert PAD.words() in capsys.readouterr().out
+    assert PAD.words() in cli("inspect", scene).out

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.solution_files import solution_read
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.step.files import step_from_record
@@ -30,19 +29,17 @@ def test_the_files_are_of_version_1_and_of_every_kind():
 
 
 @pytest.mark.parametrize("kind", PROVED)
-def test_what_was_true_is_verified(tmp_path, capsys, kind):
+def test_what_was_true_is_verified(tmp_path, cli, kind):
     step = tmp_path / "step.json"
     solution = tmp_path / "solution.json"
     step.write_text(json.dumps(FILES[kind]["step"]))
     solution.write_text(json.dumps(FILES[kind]["solution"]))
-    assert main(["verify", str(step), str(solution)]) == 0
-    said = capsys.readouterr().out
+    said = cli("verify", step, solution).out
     assert said.startswith("verified: ")
     assert "not checked: backend" in said
     assert ("certificate.residuals" in said) == (kind != "infeasible")
     assert ("certificate.multipliers_unique" in said) == (kind in PROVED[1:3])
-    assert main(["verify", str(step), str(solution), "--json"]) == 0
-    assert "backend" in json.loads(capsys.readouterr().out)["not_checked"]
+    assert "backend" in json.loads(cli("verify", step, solution, "--json").out)["not_checked"]
 
 
 @pytest.mark.parametrize("kind", ["residual", "none"])

@@ -54,16 +54,14 @@ def test_the_plain_program_takes_the_step_of_a_scenario(name):
     assert np.abs(scenario.system.difference(q, own)).max() < 1e-14
 
 
-def test_the_packages_own_run_is_right_from_npz_and_from_a_table(tmp_path, capsys):
+def test_the_packages_own_run_is_right_from_npz_and_from_a_table(tmp_path, cli):
     scene = str(SCENES / "pushed.toml")  # whose targets and wrenches change with time
     scenario = qr.load_scenario(scene, steps=5)
     trajectory = scenario.run(progress=False)
-    run = str(trajectory.save(tmp_path / "run.npz"))
-    assert main(["compare", scene, run, "--quiet"]) == 0
-    assert "5 steps, each as the reference takes it" in capsys.readouterr().out
+    run = trajectory.save(tmp_path / "run.npz")
+    assert "5 steps, each as the reference takes it" in cli("compare", scene, run, "--quiet").out
     path = table(tmp_path / "run.csv", scenario, trajectory.q[1:], first=1)
-    assert main(["compare", scene, str(path), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["steps"] == 5
+    assert json.loads(cli("compare", scene, path, "--json").out)["steps"] == 5
 
 
 def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys):
@@ -74,19 +72,17 @@ def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys)
     assert flat(capsys.readouterr().out) == flat(shown)
 
 
-def test_what_wrong_steps_of_two_runs_have_in_common_is_said(tmp_path, capsys):
+def test_what_wrong_steps_of_two_runs_have_in_common_is_said(tmp_path, cli):
     patch = "mechanism.py:\n- own[moving, 0] = pace * along"
     patch += '\n+ own[moving, 0] = pace * along * (3 if body["joint"] == "prismatic" else 1)'
     given = []
     for scene in OF_SCENES[0], OF_SCENES[2]:  # the second has no such joint
         run = run_with(tmp_path, str(scene), patch, 10).rename(tmp_path / f"{scene.stem}.csv")
         given += [str(scene), str(run)]
-    assert main(["compare", *given, "--quiet"]) == 1
-    said = flat(capsys.readouterr().out)
+    said = flat(cli("compare", *given, "--quiet", status=1).out)
     assert "pushed.toml: 10 steps, each as the reference takes it" in said
     assert "delta_q is wrong with joint prismatic in 10 of 10 failing cases, and right" in said
-    assert main(["compare", *given[:3]]) == 2
-    assert "is a scene without a run" in capsys.readouterr().err
+    assert "is a scene without a run" in cli("compare", *given[:3], status=2).err
 
 
 def test_what_nothing_explains_has_a_layer_by_its_forces_alone(tmp_path, monkeypatch):
@@ -116,13 +112,12 @@ BAD = {
 
 
 @pytest.mark.parametrize(("words", "change"), BAD.values(), ids=BAD)
-def test_a_table_that_is_no_run_gets_one_sentence(words, change, tmp_path, capsys):
+def test_a_table_that_is_no_run_gets_one_sentence(words, change, tmp_path, cli):
     path = run_with(tmp_path, PUSHED, "", 3)
     rows = list(csv.reader(path.read_text().splitlines()))
     with path.open("w", newline="") as file:
         csv.writer(file).writerows(change(rows))
-    assert main(["compare", PUSHED, str(path)]) == 2
-    assert words in capsys.readouterr().err
+    assert words in cli("compare", PUSHED, path, status=2).err
 
 
 def test_a_scene_that_cases_cannot_hold_is_compared_without_causes():

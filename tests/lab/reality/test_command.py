@@ -76,9 +76,8 @@ def test_pushes_that_the_model_made_are_predicted_from_planted_loads(folder, tmp
         (("incline", "--fraction", "0.1"), "validate reality"),
     ],
 )
-def test_what_is_not_usable_ends_in_one_sentence(tmp_path, monkeypatch, capsys, arguments, says):
+def test_what_is_not_usable_ends_in_one_sentence(tmp_path, monkeypatch, cli, arguments, says):
     monkeypatch.chdir(tmp_path)
-    assert main(["validate", *arguments]) == 2
-    said = capsys.readouterr().err
+    said = cli("validate", *arguments, status=2).err
     assert says in said
     assert said.count("\n") == 1

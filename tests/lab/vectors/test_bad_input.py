@@ -2,7 +2,6 @@
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from tests.lab.vectors.committed_cases import VECTORS, answer_file, right_answers
 
 CHECK = ["check", "answers"]
@@ -38,13 +37,12 @@ BAD = [
 
 
 @pytest.mark.parametrize(("given", "says"), BAD)
-def test_it_is_refused_in_one_sentence(given, says, tmp_path, monkeypatch, capsys):
+def test_it_is_refused_in_one_sentence(given, says, tmp_path, monkeypatch, cli):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "answers").mkdir()
     answer_file(tmp_path / "answers", "selection", right_answers("selection"))
     if given[0] in ("own", "check", "report") and "--vectors" not in given:
         given = [*given, "--vectors", str(VECTORS)]
-    assert main(["vectors", *given]) == 2
-    errors = capsys.readouterr().err
+    errors = cli("vectors", *given, status=2).err
     assert says in errors
     assert errors.count("\n") == 1

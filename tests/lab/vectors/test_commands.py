@@ -23,24 +23,23 @@ def few(tmp_path):
     return tmp_path / "vectors"
 
 
-def test_the_packages_own_answers_pass_and_a_changed_one_fails(few, tmp_path, capsys):
+def test_the_packages_own_answers_pass_and_a_changed_one_fails(few, tmp_path, cli):
     answers = tmp_path / "answers"
-    assert main(["vectors", "own", "--vectors", str(few), "--out", str(answers)]) == 0
-    assert main(["vectors", "check", str(answers), "--vectors", str(few)]) == 0
-    assert main(["vectors", "check", str(answers), "--vectors", str(few), "--json"]) == 0
-    report = json.loads(capsys.readouterr().out.splitlines()[-1])
+    cli("vectors", "own", "--vectors", few, "--out", answers)
+    cli("vectors", "check", answers, "--vectors", few)
+    report = json.loads(
+        cli("vectors", "check", answers, "--vectors", few, "--json").out.splitlines()[-1]
+    )
     assert report["ok"] is True
     content = json.loads((answers / "qp.json").read_text())
     content["answers"][0]["output"]["delta_q"][0] += 1.0
     (answers / "qp.json").write_text(json.dumps(content))
-    assert main(["vectors", "check", str(answers), "--vectors", str(few)]) == 1
-    assert "qp" in capsys.readouterr().err
+    assert "qp" in cli("vectors", "check", answers, "--vectors", few, status=1).err
 
 
-def test_one_layer_alone_can_be_answered(few, tmp_path):
+def test_one_layer_alone_can_be_answered(few, tmp_path, cli):
     out = tmp_path / "answers"
-    arguments = ["vectors", "own", "--vectors", str(few), "--out", str(out), "--layer", "rows"]
-    assert main(arguments) == 0
+    cli("vectors", "own", "--vectors", few, "--out", out, "--layer", "rows")
     assert [path.name for path in out.iterdir()] == ["rows.json"]
 
 
@@ -59,20 +58,22 @@ def test_one_layer_alone_can_be_answered(few, tmp_path):
         ),
     ],
 )
-def test_a_bad_file_of_inputs_is_refused_by_name(record, says, tmp_path, capsys):
+def test_a_bad_file_of_inputs_is_refused_by_name(record, says, tmp_path, cli):
     head = {"format": "quasistatic-ref/vectors-inputs", "version": 1, "layer": "distance"}
     text_written(tmp_path / "inputs" / "distance.json", json.dumps(head | {"cases": []} | record))
-    arguments = ["vectors", "generate", "--vectors", str(tmp_path), "--out", str(tmp_path / "o")]
-    assert main(arguments) == 2
-    errors = capsys.readouterr().err
+    errors = cli(
+        "vectors", "generate", "--vectors", tmp_path, "--out", tmp_path / "o", status=2
+    ).err
     assert "distance.json" in errors
     assert says in errors
 
 
-def test_a_case_that_cannot_be_answered_is_named(few, capsys):
+def test_a_case_that_cannot_be_answered_is_named(few, cli):
     path = few / "inputs" / "distance.json"
     content = json.loads(path.read_text())
     content["cases"][0]["input"]["alpha"] = {"kind": "blob"}
     path.write_text(json.dumps(content))
-    assert main(["vectors", "generate", "--vectors", str(few), "--out", str(few)]) == 2
-    assert content["cases"][0]["id"] in capsys.readouterr().err
+    assert (
+        content["cases"][0]["id"]
+        in cli("vectors", "generate", "--vectors", few, "--out", few, status=2).err
+    )

@@ -7,7 +7,6 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.conformance import badge
 from quasistatic_ref.lab.vectors.conformance.conformance import conformance
@@ -171,22 +170,20 @@ def test_the_same_answers_give_the_same_bytes(whole):
     assert badge.badge(found) == svg
 
 
-def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, capsys):
+def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, cli):
     answers = answer_folder(tmp_path / "answers", ["selection"])
     out = tmp_path / "badge.svg"
-    given = ["vectors", "report", str(answers), "--out", str(out)]
-    assert main([*given, "--implementation", "other 2"]) == 0
-    said = capsys.readouterr().out.splitlines()
+    given = ["vectors", "report", answers, "--out", out]
+    said = cli(*given, "--implementation", "other 2").out.splitlines()
     size = SIZE["selection"]
     assert f"{LABEL}: 1 of 9 layers: selection {size}/{size}" in said
     assert said[-1] == f"wrote {out}"
     assert record_of(out.read_text())["implementation"] == "other 2"
-    assert main([*given, "--quiet"]) == 0
-    assert capsys.readouterr().out == ""
+    assert cli(*given, "--quiet").out == ""
     content = json.loads((answers / "selection.json").read_text())
     content["answers"][0]["output"]["indices"][0] = [99]
     (answers / "selection.json").write_text(json.dumps(content))
-    assert main([*given, "--json"]) == 1
-    assert json.loads(capsys.readouterr().out)["layers"][1]["failed"] == 1
-    assert main([*given, "--quiet"]) == 1
-    assert capsys.readouterr().err.startswith("quasistatic-ref: 1 of 9 layers: selection ")
+    assert json.loads(cli(*given, "--json", status=1).out)["layers"][1]["failed"] == 1
+    assert cli(*given, "--quiet", status=1).err.startswith(
+        "quasistatic-ref: 1 of 9 layers: selection "
+    )

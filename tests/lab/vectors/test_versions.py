@@ -8,7 +8,6 @@ import zipfile
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.pack import write_zip
@@ -73,8 +72,8 @@ def test_the_archive_s_bytes_do_not_depend_on_times_and_modes(copy, tmp_path):
     assert (path.parent / f"{path.name}.sha256").read_text() == f"{code}  {path.name}\n"
 
 
-def test_the_archive_holds_the_folder_its_licences_and_sums_that_hold(tmp_path):
-    assert main(["vectors", "pack", "--vectors", str(VECTORS), "--out", str(tmp_path)]) == 0
+def test_the_archive_holds_the_folder_its_licences_and_sums_that_hold(tmp_path, cli):
+    cli("vectors", "pack", "--vectors", VECTORS, "--out", tmp_path)
     (path,) = tmp_path.glob("*.zip")
     with zipfile.ZipFile(path) as archive:
         assert {member.compress_type for member in archive.infolist()} == {zipfile.ZIP_STORED}
@@ -112,21 +111,19 @@ def test_the_licences_of_the_vectors_are_those_of_the_repository():
         ("manifest.json", None, "manifest.json: no such file"),
     ],
 )
-def test_what_is_not_as_it_should_be_is_not_packed(copy, tmp_path, capsys, file, content, says):
+def test_what_is_not_as_it_should_be_is_not_packed(copy, tmp_path, cli, file, content, says):
     if content is None:
         (copy / file).unlink()
     else:
         (copy / file).write_text(content)
-    assert main(["vectors", "pack", "--vectors", str(copy), "--out", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err
+    said = cli("vectors", "pack", "--vectors", copy, "--out", tmp_path / "out", status=2).err
     assert says in said
     assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
 
-def test_a_path_that_leads_out_of_the_folder_is_refused(copy, capsys):
+def test_a_path_that_leads_out_of_the_folder_is_refused(copy, cli):
     path = copy / "manifest.json"
     path.write_text(path.read_text().replace('"README.md"', '"../README.md"'))
-    assert main(["vectors", "pack", "--vectors", str(copy)]) == 2
-    assert "is no path inside the folder" in capsys.readouterr().err
+    assert "is no path inside the folder" in cli("vectors", "pack", "--vectors", copy, status=2).err
     assert not versions.PLAIN.fullmatch("a/../b")

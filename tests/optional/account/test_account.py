@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.optional.account.spans import spans
 from quasistatic_ref.optional.account.words import events, lines, slid, tables
 from quasistatic_ref.simulate.account import Span
@@ -198,23 +197,19 @@ def test_a_brief_change_is_none():
     assert spans(one) == [Span(7, 7 + BRIEF)]
 
 
-def test_the_command_writes_text_json_a_page_and_a_figure(tmp_path, capsys):
-    assert main(["run", "block_push", "--fast", "--set", "steps=60", "--out", str(tmp_path)]) == 0
-    short = capsys.readouterr().out
+def test_the_command_writes_text_json_a_page_and_a_figure(tmp_path, cli):
+    short = cli("run", "block_push", "--fast", "--set", "steps=60", "--out", tmp_path).out
     path = tmp_path / "block_push.npz"
     html = tmp_path / "page.html"
     png = tmp_path / "figure.png"
-    command = ["account", str(path), "--figure", str(png), "--html", str(html)]
-    assert main(command) == 0
-    whole = capsys.readouterr().out
+    whole = cli("account", path, "--figure", png, "--html", html).out
     x = trajectory_read(path)["q"][:, 1]  # of the block, which does not turn
     event = f"0.40 s block slides {1e3 * (x[-1] - x[39]):.3g} mm along floor to the end"
     assert event in short
     assert event in whole
     assert event in html.read_text("utf-8")
     assert png.read_bytes().startswith(b"\x89PNG")
-    assert main(["account", str(path), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == tables(trajectory_read(path).account())
+    assert json.loads(cli("account", path, "--json").out) == tables(trajectory_read(path).account())
 
 
 def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(run):

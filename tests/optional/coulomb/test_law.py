@@ -24,7 +24,6 @@ from quasistatic_ref import (
     trajectory_read,
     verify,
 )
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.optional.coulomb import fixed_point
 from quasistatic_ref.optional.doctor.table import scene_findings
 from tests.closeness import assert_relative
@@ -80,12 +79,12 @@ def test_an_l_on_its_support_is_pushed_along_a_wall_without_leaving_it(tmp_path)
     assert (np.abs(run["phi"]) < RISE * x).sum(axis=1).min() >= 3  # the side and the support
 
 
-def test_the_command_says_how_many_iterations_there_were(tmp_path, capsys):
-    path = str(written_scenario(tmp_path))
-    assert main(["run", path, "--law", "coulomb", "--out", str(tmp_path), "--quiet"]) == 0
-    assert "Coulomb's law: " in capsys.readouterr().out
-    assert main(["run", path, "--law", "coulomb", "--out", str(tmp_path), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
+def test_the_command_says_how_many_iterations_there_were(tmp_path, cli):
+    path = written_scenario(tmp_path)
+    assert (
+        "Coulomb's law: " in cli("run", path, "--law", "coulomb", "--out", tmp_path, "--quiet").out
+    )
+    said = json.loads(cli("run", path, "--law", "coulomb", "--out", tmp_path, "--json").out)
     run = trajectory_read(tmp_path / "scene.npz")
     assert said["law"] == "coulomb"
     assert said["s_iterations"] == run["s_iterations"].tolist()
@@ -96,11 +95,11 @@ def slot(clearance, **settings):
     """A block of 1 kg without weight between two walls, each `clearance` away [m]."""
     block = Body.of_shape("block", Box(size=(0.1, 0.1, 0.1)), 1.0)
     system = System([block])
+    wall = Box(size=(2.0, 0.1, 2.0))
     pairs = [
         ContactPair(
             f"wall(wall, {side:+})",
-            PlacedShape("wall", 0, np.eye(3), [0.0, side * (0.1 + clearance), 0.0],
-                        Box(size=(2.0, 0.1, 2.0))),
+            PlacedShape.in_world("wall", wall, (0.0, side * (0.1 + clearance), 0.0)),
             system.shapes[0], mu_v=0.5, mu_omega=0.0, rows=4, k=4,
         )
         for side in (-1, 1)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, trajectory_read
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
@@ -164,16 +163,15 @@ def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
     assert_relative(found, [expected], ROUNDING)
 
 
-def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):
+def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):
     # Until t = 0.4 s the sphere sticks: neither speed nor layer. At the end it turns at
     # (tau - mu m g) h / I = 14.7 rad/s and rises by mu_omega h omega = 1.47 mm.
-    arguments = ["run", "sphere_spin", "--out", str(tmp_path)]
-    assert main([*arguments, "--set", "steps=39"]) == 0
-    printed = capsys.readouterr()
+    arguments = ["run", "sphere_spin", "--out", tmp_path]
+    printed = cli(*arguments, "--set", "steps=39")
     expected = "largest drag 0 of what friction can bear, largest quasi-dynamic number 0, "
     assert f"{expected}largest boundary layer 0 um" in printed.out
     assert printed.err == ""
-    assert main(arguments) == 0
+    cli(*arguments)
     header = trajectory_read(tmp_path / "sphere_spin.npz").header
     expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5
     assert_relative(header["largest_boundary_layer"], expected, 3e-3)

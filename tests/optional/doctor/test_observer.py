@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, trajectory_read
-from quasistatic_ref.cli.main import main
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
 
@@ -88,27 +87,26 @@ POINTS = GRID[(np.abs(GRID) == 0.02).any(axis=1)]
 """The 488 points of the grid on the cube's surface."""
 
 
-def test_findings_are_those_of_the_page_and_strict_fails_on_grave_ones(tmp_path, capsys):
+def test_findings_are_those_of_the_page_and_strict_fails_on_grave_ones(tmp_path, cli):
     urdf_of_text(tmp_path, GRIPPER, "gripper.urdf")
     urdf_of_text(tmp_path, CUBE, "cube.urdf")
     np.savetxt(tmp_path / "cube.csv", POINTS, delimiter=",")
     hostile = urdf_of_text(tmp_path, HOSTILE, "hostile.toml")
-    arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
-    assert main(arguments) == 0
-    printed = capsys.readouterr().err.splitlines()
+    arguments = ["run", hostile, "--out", tmp_path, "--set", "steps=40"]
+    printed = cli(*arguments).err.splitlines()
     run = trajectory_read(tmp_path / "hostile.npz")
     assert printed == [f"quasistatic-ref: {found}" for found in run.findings]
     (said,) = [str(found) for found in run.findings if found.name == "sunk contact"]
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
-    assert main([*arguments, "--strict", "--json"]) == 1
-    assert json.loads(capsys.readouterr().out)["findings"] == [asdict(f) for f in run.findings]
+    assert json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"] == [
+        asdict(f) for f in run.findings
+    ]
     assert str(run.findings[0])[:40] in repr(run)
 
 
-def test_strict_is_content_with_findings_that_are_not_grave(tmp_path, capsys):
-    arguments = ["run", "block_push", "--set", "steps=60", "--out", str(tmp_path)]
-    assert main([*arguments, "--json", "--strict"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)["findings"]
+def test_strict_is_content_with_findings_that_are_not_grave(tmp_path, cli):
+    arguments = ["run", "block_push", "--set", "steps=60", "--out", tmp_path]
+    (found,) = json.loads(cli(*arguments, "--json", "--strict").out)["findings"]
     assert (found["name"], found["grave"]) == ("drag", False)
 
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
@@ -31,9 +30,8 @@ def failing(monkeypatch):
     monkeypatch.setattr(CvxpySolver, "answer", sometimes)
 
 
-def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, capsys):
-    assert main(["run", *SCENE, "--out", str(tmp_path)]) == 0
-    said = capsys.readouterr()
+def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, cli):
+    said = cli("run", *SCENE, "--out", tmp_path)
     assert f"{STEPS} of {STEPS} steps exact (the backend failed in 3 of them)" in said.out
     sentence = (
         "choose another backend than osqp, such as clarabel or daqp: osqp failed in 3 of 8 steps, "
@@ -42,9 +40,8 @@ def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, caps
     assert sentence in said.err
 
 
-def test_strict_runs_end_with_status_1(failing, tmp_path, capsys):
-    assert main(["run", *SCENE, "--out", str(tmp_path), "--json", "--strict"]) == 1
-    record = json.loads(capsys.readouterr().out)
+def test_strict_runs_end_with_status_1(failing, tmp_path, cli):
+    record = json.loads(cli("run", *SCENE, "--out", tmp_path, "--json", "--strict", status=1).out)
     assert [one["name"] for one in record["findings"]] == ["failing backend"]
     assert record["findings"][0]["numbers"] == {"failed": 3, "short": 0, "step": 1}
 

@@ -1,7 +1,6 @@
 """Second opinions: the scenes of the guide, healthy scenes, and what is a finding by a formula."""
 
 import json
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -9,9 +8,7 @@ import pytest
 from jsonschema import Draft4Validator
 
 import quasistatic_ref as qr
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.commands.schema import opinion_schema
-from quasistatic_ref.optional.guests.opinion import Opinion
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
 from tests.quoted import ROOT, flat, printed_blocks
@@ -23,15 +20,13 @@ WEAK = {"left": 0.001, "right": 0.001}
 GRAVITY = 9.81
 
 
-def opinion_on_settled(
-    text: str, seconds: float, keyframe: str | None = None, control: Any = None
-) -> Opinion:
+def opinion_on_settled(text, seconds, keyframe=None, control=None):
     """The opinion on a scene that has settled."""
     model = mujoco.MjModel.from_xml_string(text)
     return qr.second_opinion(model, settled(model, seconds, keyframe, control))
 
 
-def torsional_fingers(text: str) -> str:
+def torsional_fingers(text):
     """A scene whose fingertips have torsional friction."""
     return text.replace('condim="3"', 'condim="4"')
 
@@ -46,7 +41,7 @@ GUIDE = {
 
 
 @pytest.fixture(scope="module")
-def opinions() -> dict[str, Opinion]:
+def opinions():
     return {name: opinion_on_settled(*given) for name, given in GUIDE.items()}
 
 
@@ -55,9 +50,7 @@ def test_the_guide_shows_what_is_found(opinions):
     assert [flat(block) for block in printed_blocks(PAGE)] == said
 
 
-def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(
-    opinions,
-):
+def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
     """Weights and slopes by hand; the pads of the capsule press with what MuJoCo says, too."""
     slope = np.radians(15)
     block = opinions["block"].bodies[0]
@@ -110,7 +103,7 @@ def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal):
     assert found.number == pytest.approx(2 * 0.8 * normal / (0.3 * GRAVITY), rel=0.02)
 
 
-def free(name: str, geom: str, at: str) -> str:
+def free(name, geom, at):
     """A body that is free, of one geom."""
     return f'<body name="{name}" pos="{at}"><freejoint/><geom name="{name}" {geom}/></body>'
 
@@ -177,20 +170,18 @@ def test_what_rests_by_rolling_friction_alone_is_found():
     assert "rolling friction" in found.remedy
 
 
-def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, capsys):
+def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, cli):
     scene = tmp_path / "block.xml"
     scene.write_text(WALK_FILES["block.xml"])
     command = ["opinion", str(scene), "--settle", "0.5", "--json", "--out", str(tmp_path / "out")]
-    assert main(command) == 1
-    record = json.loads(capsys.readouterr().out)
+    record = json.loads(cli(*command, status=1).out)
     Draft4Validator.check_schema(opinion_schema())
     Draft4Validator(opinion_schema()).validate(record)
     assert [one["kind"] for one in record["findings"]] == ["creeps"]
     made = {path.name: path.stat().st_size for path in (tmp_path / "out").iterdir()}
     assert {*made} == {"opinion.png", "opinion.pdf", "opinion.json"}
     assert min(made.values()) > 1000
-    assert main([*command[:4], "--tolerance", "0.01"]) == 0
-    assert "no finding" in capsys.readouterr().out
+    assert "no finding" in cli(*command[:4], "--tolerance", "0.01").out
 
 
 REFUSED = {
@@ -204,13 +195,12 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("named", REFUSED)
-def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, capsys):
+def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, cli):
     field = 'stiffness="1" springyield="1"' if "yield" in named else ""
     scene = tmp_path / "scene.xml"
     body = f'<body><joint name="x" {field}/><geom size=".1"/></body>'
     scene.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
-    assert main(["opinion", str(scene), *REFUSED[named][1]]) == 2
-    assert f"{named}:" in one_sentence(capsys.readouterr().err)
+    assert f"{named}:" in one_sentence(cli("opinion", scene, *REFUSED[named][1], status=2).err)
 
 
 def test_a_simulation_that_is_unstable_is_refused():

@@ -2,20 +2,17 @@
 
 import copy
 import sys
-from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError, ModelError, QuasistaticError, RunFailed
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
-from quasistatic_ref.optional.guests.scene import MujocoScenario, mujoco_scenario
+from quasistatic_ref.optional.guests.scene import mujoco_scenario
 from quasistatic_ref.optional.guests.system import MujocoSystem
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import FILLED
 from tests.closeness import assert_close
 from tests.tolerances import ROUNDING
@@ -46,18 +43,18 @@ SCENE = f"""<mujoco><size memory="1M"/><default><default class="pad">
 <key name="raised" qpos="0 0 0 0 0 .1 1 0 0 0" ctrl=".05 .04"/></keyframe></mujoco>"""
 
 
-def model(text: str = SCENE) -> Any:
+def model(text=SCENE):
     """A model of MuJoCo's."""
     return mujoco.MjModel.from_xml_string(text)
 
 
-def grasp(t: float) -> dict[str, float]:
+def grasp(t):
     """Close for 0.06 s, lift for 0.1 s by 1 mm a step, and wait."""
     return {"grip": min(t, 0.06) / 0.06 * 0.04, "up": float(np.clip(t - 0.06, 0, 0.1) * 0.1)}
 
 
 @pytest.fixture(scope="module")
-def lifted() -> tuple[MujocoScenario, Any]:
+def lifted():
     """The scene, and a run of it."""
     scene = mujoco_scenario(model(), targets=grasp, steps=24)
     return scene, scene.run(progress=False)
@@ -110,10 +107,10 @@ def test_the_step_is_that_of_the_state():
 
 def test_the_docstring_names_all_that_a_step_asks_for(lifted):
     """What files of others ask a system for while a step is taken."""
-    asked: set[str] = set()
+    asked = set()
 
     class Listening(MujocoSystem):
-        def __getattribute__(self, name: str) -> Any:
+        def __getattribute__(self, name):
             if "simulator.py" in sys._getframe(1).f_code.co_filename:
                 asked.add(name)
             return super().__getattribute__(name)
@@ -135,7 +132,7 @@ def test_gaps_change_as_their_jacobians_say(lifted):
     simulator = scene.simulator()
     q = system.q_start
 
-    def phi(delta_q: Array) -> Array:
+    def phi(delta_q):
         return simulator.closest_points(system.kinematics(system.integrate(q, delta_q))).phi
 
     contacts = simulator.step(q, run.q_bar_a[0]).step.contacts
@@ -149,7 +146,7 @@ def test_gaps_change_as_their_jacobians_say(lifted):
 class Stop(Observer):
     """Ctrl-C before a step."""
 
-    def before(self, recorder: Any) -> None:
+    def before(self, recorder):
         """After five steps."""
         if recorder.steps == 5:
             raise KeyboardInterrupt
@@ -252,19 +249,21 @@ def test_joints_without_servos_have_springs_and_fields_their_names():
 
 
 @pytest.mark.extra("view")
-def test_the_command_runs_a_scene(tmp_path, capsys):
+def test_the_command_runs_a_scene(tmp_path, cli):
     """With keyframes, a table and a page."""
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
-    out = ["--out", str(tmp_path), "--set", "steps=4"]
-    assert main(["run", str(path), "--targets", "open,closed,raised", "--view", *out]) == 0
-    assert "4 of 4 steps exact" in capsys.readouterr().out
+    out = ["--out", tmp_path, "--set", "steps=4"]
+    assert (
+        "4 of 4 steps exact"
+        in cli("run", path, "--targets", "open,closed,raised", "--view", *out).out
+    )
     assert (tmp_path / "scene.html").stat().st_size > 1000
     run = trajectory_read(tmp_path / "scene.npz")
     # Halfway the controls are those of "closed".
     assert run.q_bar_a[1, 0] == pytest.approx(0.0, abs=1e-12)
     assert run.q_bar_a[3, 0] == pytest.approx(0.05, abs=1e-12)
-    assert main(["run", "bunny_grasp", "--targets", "x.csv"]) == 2
+    cli("run", "bunny_grasp", "--targets", "x.csv", status=2)
 
 
 def test_a_load_on_welded_bodies_acts_at_their_common_centre():

@@ -11,7 +11,7 @@ from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import Solid
 from quasistatic_ref.scenario.scenario import scenario_path
 from tests.closeness import assert_relative, assert_within
-from tests.oracles.scanned import SCANS, SOLIDS, Exact, on_block
+from tests.oracles.scanned import SCANS, SOLIDS, on_block
 from tests.tolerances import ROUNDING
 
 WITHIN, WITH_HOLES = 0.05, 0.10
@@ -25,7 +25,7 @@ def body(folder, points, **more):
     return qr.scanned_body(path, **{"mass": MASS, "name": "thing", **more})
 
 
-def off(made, exact: Exact) -> float:
+def off(made, exact):
     """Largest error of centre and inertia, over the extent and the largest moment [-]."""
     _, centre, gyration = exact
     extent = np.ptp(made.points, axis=0).max()
@@ -147,14 +147,11 @@ def test_as_many_points_as_a_cube_lies_on(each, expected):
     assert k == expected
 
 
-def test_the_command_writes_a_scene_that_runs(tmp_path, capsys):
+def test_the_command_writes_a_scene_that_runs(tmp_path, cli):
     """A can that stands where it was scanned stays there, and bears its weight."""
     points, _ = SOLIDS["can"](np.random.default_rng(7), 3000)
     np.save(tmp_path / "my can.npy", points)
-    assert (
-        main(["body", str(tmp_path / "my can.npy"), "--mass", "0.35", "--out", str(tmp_path)]) == 0
-    )
-    said = capsys.readouterr()
+    said = cli("body", tmp_path / "my can.npy", "--mass", "0.35", "--out", tmp_path)
     assert "my_can: k = " in said.err
     scene = tmp_path / "scene.toml"
     scene.write_text(said.out)
@@ -165,4 +162,4 @@ def test_the_command_writes_a_scene_that_runs(tmp_path, capsys):
     assert_relative(run["wrench"][-1, :, 2].sum(), 0.35 * 9.81, 1e-6)
     with pytest.raises(SystemExit):
         main(["body", str(scene)])  # neither mass nor density
-    assert main(["body", str(tmp_path / "none.csv"), "--mass", "1"]) == 2
+    cli("body", tmp_path / "none.csv", "--mass", "1", status=2)

@@ -8,7 +8,6 @@ import pandas
 import pytest
 
 from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
-from quasistatic_ref.cli.main import main
 from tests.scenes import written_scenario
 
 PUSH, FLOOR = "push(rail/plate#0, ball/ball#0)/0", "floor(floor, ball/ball#0)/0"
@@ -80,29 +79,29 @@ def exact_csv(path):
 
 
 @pytest.mark.parametrize(("kind", "read"), [("csv", exact_csv), ("parquet", pandas.read_parquet)])
-def test_run_writes_the_wide_table(tmp_path, scene, capsys, kind, read):
+def test_run_writes_the_wide_table(tmp_path, scene, cli, kind, read):
     file = tmp_path / f"table.{kind}"
-    assert main(["run", str(scene), "--fast", "--out", str(tmp_path), "--table", str(file)]) == 0
-    assert f"and {file}" in capsys.readouterr().out
+    assert f"and {file}" in cli("run", scene, "--fast", "--out", tmp_path, "--table", file).out
     table = read(file)
     run = trajectory_read(tmp_path / f"{scene.stem}.npz")
     found = table["ball.z [m]"].astype(float)
     np.testing.assert_array_equal(found, run.to_pandas()["ball.z [m]"])
 
 
-def test_run_writes_a_row_a_contact_and_step(tmp_path, scene):
+def test_run_writes_a_row_a_contact_and_step(tmp_path, scene, cli):
     file = tmp_path / "contacts.csv"
-    arguments = ["run", str(scene), "--fast", "--out", str(tmp_path), "--contacts-table", str(file)]
-    assert main(arguments) == 0
+    cli("run", scene, "--fast", "--out", tmp_path, "--contacts-table", file)
     run = trajectory_read(tmp_path / f"{scene.stem}.npz")
     table = exact_csv(file)
     assert len(table) == run.phi.size
     np.testing.assert_array_equal(table["phi [m]"].astype(float), run.phi.ravel())
 
 
-def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, capsys):
-    assert main(["run", str(scene), "--out", str(tmp_path), "--table", "table.xls"]) == 2
-    assert "--table: must end in .csv or .parquet (got 'table.xls')" in capsys.readouterr().err
+def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli):
+    assert (
+        "--table: must end in .csv or .parquet (got 'table.xls')"
+        in cli("run", scene, "--out", tmp_path, "--table", "table.xls", status=2).err
+    )
     assert not list(tmp_path.glob("*.npz"))
 
 

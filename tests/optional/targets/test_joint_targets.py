@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.model.rotation import rotation
@@ -112,19 +111,20 @@ def test_a_chain_with_a_joint_that_is_not_sought_is_refused(joint, moving, words
         qr.joint_targets(scenario, "crane/hook", [{"t": 1.0, "xyz": (0, 0, 0)}])
 
 
-def test_the_command_writes_what_the_scenario_of_the_package_holds(tmp_path, capsys):
+def test_the_command_writes_what_the_scenario_of_the_package_holds(tmp_path, cli):
     folder = scenario_path("arm_push").parent
     shutil.copytree(folder, tmp_path / "copy")
     poses = (folder / "poses" / "line.toml").read_text()
     line = re.search(r"^# quasistatic-ref (.*)$", poses, re.M)
     copy = tmp_path / "copy"
     words = [str(copy / word) if word.endswith(".toml") else word for word in line[1].split()]
-    assert main(words) == 0
+    cli(*words)
     assert (copy / "arm_push.toml").read_text() == (folder / "arm_push.toml").read_text()
-    assert main(words[:-2]) == 0
-    assert "[[bodies.arm.targets]]\nt = 0.0\nshoulder = -0.6\n" in capsys.readouterr().out
-    assert main([*words[:-1], str(tmp_path / "elsewhere.toml")]) == 2
-    assert "must be in the scenario's folder" in capsys.readouterr().err
+    assert "[[bodies.arm.targets]]\nt = 0.0\nshoulder = -0.6\n" in cli(*words[:-2]).out
+    assert (
+        "must be in the scenario's folder"
+        in cli(*words[:-1], tmp_path / "elsewhere.toml", status=2).err
+    )
 
 
 def test_the_tip_lags_behind_its_target_by_the_yielding_of_the_springs():

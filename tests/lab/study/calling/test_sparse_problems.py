@@ -5,7 +5,6 @@ from time import perf_counter
 import pytest
 from scipy.sparse import issparse
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
 from quasistatic_ref.lab.study.calling.calls import call_of
 from quasistatic_ref.lab.study.calling.options import takes_sparse
@@ -59,6 +58,7 @@ def test_which_solvers_are_given_sparse_matrices_is_what_qpsolvers_says():
     assert not takes_sparse("./program", "executable")
 
 
-def test_a_sparse_problem_is_asked_in_a_process_of_its_own(capsys):
-    assert main(["study", "ask", "sparse/10/0", "native:piqp", "high"]) == 0
-    assert "60 coordinates, 128 rows" in capsys.readouterr().out
+def test_a_sparse_problem_is_asked_in_a_process_of_its_own(cli):
+    assert (
+        "60 coordinates, 128 rows" in cli("study", "ask", "sparse/10/0", "native:piqp", "high").out
+    )

@@ -3,7 +3,6 @@
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.calling.options import has_accuracy, options_at
 from quasistatic_ref.lab.study.calling.study_only import EVERY
 from quasistatic_ref.lab.study.measuring.plan import plan
@@ -46,7 +45,7 @@ def test_a_mistake_is_one_sentence_that_names_file_field_and_remedy(name, study)
     assert "\n" not in str(refused.value)
 
 
-def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
+def test_bad_files_end_the_command_with_status_2(tmp_path, cli):
     for name, content, says in (
         ("a.toml", "x = ", "is not TOML"),
         ("b.toml", "format = 3", "format"),
@@ -56,12 +55,10 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
         path = tmp_path / name
         if content is not None:
             path.write_text(content)
-        assert main(["study", "run", str(path), "--out", str(tmp_path / "out")]) == 2
-        said = capsys.readouterr().err
+        said = cli("study", "run", path, "--out", tmp_path / "out", status=2).err
         assert says in said
         assert said.removeprefix("loads solvers\n").count("\n") == 1
-    assert main(["study", "run", "defalt"]) == 2
-    assert "did you mean 'default'?" in capsys.readouterr().err
+    assert "did you mean 'default'?" in cli("study", "run", "defalt", status=2).err
 
 
 @pytest.mark.parametrize("name", [name for name in EVERY if has_accuracy(name)])

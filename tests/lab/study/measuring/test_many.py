@@ -22,10 +22,9 @@ def table(folder):
         return list(csv.DictReader(file))
 
 
-def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
-    argv = ["run", *SLOPE, "--sweep", "h=0.01,0.02", "--jobs", "1", "--out", str(tmp_path)]
-    assert main(argv) == 0
-    assert "4 runs (plain path), 0 of which not done" in capsys.readouterr().out
+def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, cli):
+    argv = ["run", *SLOPE, "--sweep", "h=0.01,0.02", "--jobs", "1", "--out", tmp_path]
+    assert "4 runs (plain path), 0 of which not done" in cli(*argv).out
     lines = table(tmp_path)
     found = [(float(line["contacts.rough.mu_v"]), float(line["h"])) for line in lines]
     assert found == [(mu, h) for mu in (0.0, 0.9) for h in (0.01, 0.02)]
@@ -39,8 +38,7 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     content = missing.read_bytes()
     missing.unlink()
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
-    assert main([*argv, "--json"]) == 0
-    printed = json.loads(capsys.readouterr().out)
+    printed = json.loads(cli(*argv, "--json").out)
     assert (printed["runs"], printed["fast"]) == (4, False)
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert missing.read_bytes() == content
@@ -131,7 +129,7 @@ def test_more_values_add_runs_and_a_spoilt_one_is_made_again(tmp_path):
     assert [line["run"] for line in table(tmp_path)] == [row["run"] for row in both]
 
 
-def test_an_interrupted_sweep_has_a_table_of_what_is_done(tmp_path, monkeypatch, capsys):
+def test_an_interrupted_sweep_has_a_table_of_what_is_done(tmp_path, monkeypatch, cli):
     whole = swept("block_incline", tmp_path / "whole", h=[0.01, 0.02], steps=[2])
     run = Scenario.run
 
@@ -145,8 +143,10 @@ def test_an_interrupted_sweep_has_a_table_of_what_is_done(tmp_path, monkeypatch,
         swept("block_incline", tmp_path / "map", h=[0.01, 0.02], steps=[2])
     assert table(tmp_path / "map") == table(tmp_path / "whole")[:1]
     (tmp_path / "map" / TABLE).unlink()  # as after a kill
-    assert main(["study", "report", str(tmp_path / "map")]) == 2
-    assert "holds runs without runs.csv; run the sweep again" in capsys.readouterr().err
+    assert (
+        "holds runs without runs.csv; run the sweep again"
+        in cli("study", "report", tmp_path / "map", status=2).err
+    )
     monkeypatch.undo()
     assert swept("block_incline", tmp_path / "map", h=[0.01, 0.02], steps=[2]) == whole
 
@@ -185,11 +185,12 @@ def test_a_run_that_ends_early_is_a_row_too(tmp_path):
     assert 0 < steps[1] < 100
 
 
-def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, capsys):
+def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, cli):
     sideways = "gravity=[0.0, 0.5, -9.81]"
     argv = ["run", "block_incline", "--set", sideways, "--sweep", "steps=1,2", "--jobs", "1"]
-    assert main([*argv, "--set", "fast=true", "--quiet", "--out", str(tmp_path)]) == 0
-    assert "2 runs (fast path)" in capsys.readouterr().out
+    assert (
+        "2 runs (fast path)" in cli(*argv, "--set", "fast=true", "--quiet", "--out", tmp_path).out
+    )
     header = (tmp_path / TABLE).read_text().splitlines()[0].split(",")
     assert len(set(header)) == len(header)
     lines = table(tmp_path)
@@ -251,8 +252,9 @@ def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
     assert not (tmp_path / "map").exists()
 
 
-def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, capsys):
-    assert main(["run", *SLOPE, "--view", "--out", str(tmp_path)]) == 2
-    assert "--view: is of one run" in capsys.readouterr().err
-    assert main(["run", *SLOPE, "--sweep", "contacts.rough.mu_v=1", "--out", str(tmp_path)]) == 2
-    assert "contacts.rough.mu_v: is swept twice" in capsys.readouterr().err
+def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, cli):
+    assert "--view: is of one run" in cli("run", *SLOPE, "--view", "--out", tmp_path, status=2).err
+    assert (
+        "contacts.rough.mu_v: is swept twice"
+        in cli("run", *SLOPE, "--sweep", "contacts.rough.mu_v=1", "--out", tmp_path, status=2).err
+    )

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.editions import FROZEN, edition_problem
@@ -133,24 +132,21 @@ def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path):
     assert found == "calls itself contact-qp-2 and has other problems: give it another name"
 
 
-def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):
-    export = ["study", "problems", "export", "--to", "npz", "--out", str(tmp_path)]
+def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
+    export = ["study", "problems", "export", "--to", "npz", "--out", tmp_path]
     for more, words in (
         (["--families", "wedges"], "is not a family of the set"),
         (["--id", "wedge/9/9"], "is not a problem of the set"),
         (["--every", "0"], "must be at least 1"),
         (["--families", "limits", "--tag", "nothing"], "holds no problem"),
     ):
-        assert main([*export, *more]) == 2
-        assert words in capsys.readouterr().err
+        assert words in cli(*export, *more, status=2).err
 
 
-def test_the_commands_say_what_the_set_has(capsys):
-    assert main(["study", "problems", "check"]) == 0
-    assert "problems, as the manifest lists them" in capsys.readouterr().out
+def test_the_commands_say_what_the_set_has(cli):
+    assert "problems, as the manifest lists them" in cli("study", "problems", "check").out
     for name in EDITIONS:
-        assert main(["study", "problems", "list", name]) == 0
-        assert name in capsys.readouterr().out
+        assert name in cli("study", "problems", "list", name).out
 
 
 def test_a_sample_of_each_family_is_proved_both_ways(tmp_path, monkeypatch):

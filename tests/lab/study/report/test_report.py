@@ -11,7 +11,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, figure_of
 from quasistatic_ref.lab.page.html import html_page, sorting_script
@@ -156,12 +155,12 @@ def test_digits_by_family_are_those_of_the_rows(tables, rows):
     assert len(found) == 2 * len(made_store.FAMILIES)
 
 
-def test_the_lines_of_the_report_make_its_first_table_again(mixed, tmp_path, monkeypatch):
+def test_the_lines_of_the_report_make_its_first_table_again(mixed, tmp_path, monkeypatch, cli):
     """Of every interface: setting, problems, digits, times, claims by kind, calls not made."""
     monkeypatch.chdir(tmp_path)
     page = markdown_page(study_report(mixed, tmp_path))
     (command,) = re.findall(r"`quasistatic-ref (study pack .*?)`", page)
-    assert main(command.split()) == 0
+    cli(*command.split())
     (program,) = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
     names = {}
     exec(program, names)

@@ -4,7 +4,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study_images import figure_of
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.measuring.many import TABLE
@@ -25,9 +24,8 @@ def made_of(folder, rows):
         store.add(*rows)
 
 
-def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, capsys):
-    assert main(["study", "pack", str(store), "--out", str(tmp_path)]) == 0
-    capsys.readouterr()
+def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, cli):
+    cli("study", "pack", store, "--out", tmp_path)
     short = contents(tmp_path).rows
     assert [shorter(row) for row in short] == short
     for row, whole in zip(short, contents(store).rows, strict=True):
@@ -80,12 +78,10 @@ def test_nothing_is_drawn_of_calls_that_were_not_made(rows, tmp_path):
     assert "the figure `profiles` is not drawn" in markdown_page(report)
 
 
-def test_a_report_and_a_packed_store_stand_next_to_what_they_are_of(tmp_path, capsys):
+def test_a_report_and_a_packed_store_stand_next_to_what_they_are_of(tmp_path, cli):
     (tmp_path / TABLE).write_text(made_store.SWEEP)
-    assert main(["study", "report", str(tmp_path)]) == 0
-    assert f"wrote {tmp_path / 'report' / 'report.html'}\n" in capsys.readouterr().out
+    assert f"wrote {tmp_path / 'report' / 'report.html'}\n" in cli("study", "report", tmp_path).out
     assert (tmp_path / "report" / "figures" / "sweep.png").stat().st_size > 1000
     folder = tmp_path / "store"
     made_store.write_store(folder, count=3)
-    assert main(["study", "pack", str(folder)]) == 0
-    assert f"wrote {folder / 'packed' / 'study.json.xz'}\n" in capsys.readouterr().out
+    assert f"wrote {folder / 'packed' / 'study.json.xz'}\n" in cli("study", "pack", folder).out

@@ -74,9 +74,8 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
         assert found["digits"]["delta_q"] == pytest.approx(row["digits"]["delta_q"], abs=0.5)
 
 
-def test_a_problem_of_the_set_is_run_without_any_store(capsys):
-    assert main(["study", "ask", WEDGE, "qpsolvers:daqp", "tuned"]) == 0
-    out = capsys.readouterr().out
+def test_a_problem_of_the_set_is_run_without_any_store(cli):
+    out = cli("study", "ask", WEDGE, "qpsolvers:daqp", "tuned").out
     assert "13 coordinates, 44 rows" in out
     assert "primal_tol=1e-12" in out
     assert re.search(r"digits +delta_q 1[3-6]\.\d", out)

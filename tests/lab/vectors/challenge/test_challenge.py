@@ -89,24 +89,24 @@ def test_shrinking_ends_where_no_single_move_fails_any_more():
     assert np.count_nonzero(small["contacts"][0]["J"]) == 1
 
 
-def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
+def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, cli):
     out = tmp_path / "found"
     program = command("wrong", tmp_path)
     given = ["vectors", "challenge", "--command", program, "--layer", "selection", "--cases", "6"]
-    assert main([*given, "--out", str(out), "--quiet"]) == 1
-    printed = capsys.readouterr()
+    printed = cli(*given, "--out", out, "--quiet", status=1)
     (folder,) = out.iterdir()
     assert printed.out.splitlines()[-1] == str(folder)
     page = (folder / "README.md").read_text()
     (line,) = (line for line in page.splitlines() if "--again" in line)
     wanted = ["--command", program, "--again", str(folder / "counterexample.json")]
     assert shlex.split(line)[3:] == wanted  # as a shell takes it apart
-    again = ["--again", str(folder / "counterexample.json")]
-    assert main(["vectors", "challenge", "--command", program, *again, "--json"]) == 1
-    (record,) = json.loads(capsys.readouterr().out)["findings"]
+    again = ["--again", folder / "counterexample.json"]
+    (record,) = json.loads(
+        cli("vectors", "challenge", "--command", program, *again, "--json", status=1).out
+    )["findings"]
     assert record["case"] == json.loads((folder / "counterexample.json").read_text())["case"]
     right = command("right", tmp_path)
-    assert main(["vectors", "challenge", "--command", right, *again, "--quiet"]) == 0
+    cli("vectors", "challenge", "--command", right, *again, "--quiet")
 
 
 SEEN_BY_FEW = {

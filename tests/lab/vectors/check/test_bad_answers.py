@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.folder import check_answers
 from tests.lab.vectors.committed_cases import (
     LIGHT,
@@ -106,12 +105,13 @@ def test_contacts_that_differ_in_their_fields_are_a_failure(folder):
     assert report["step"].verdicts[0].reason == "contacts[1].beta is missing"
 
 
-def test_the_json_report_says_all_of_it(folder, capsys):
+def test_the_json_report_says_all_of_it(folder, cli):
     answers = right_answers("rows")
     name = next(name for name, output in answers.items() if output["b"])
     answer_file(folder, "rows", {**answers, name: None})
-    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS), "--json"]) == 1
-    report = json.loads(capsys.readouterr().out)
+    report = json.loads(
+        cli("vectors", "check", folder, "--vectors", VECTORS, "--json", status=1).out
+    )
     assert report["format"] == "quasistatic-ref/vectors-report"
     assert not report["ok"]
     found = {layer["layer"]: layer for layer in report["layers"]}

@@ -6,7 +6,6 @@ import json
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -164,24 +163,22 @@ def answers(tmp_path):
     return tmp_path
 
 
-def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, capsys):
-    assert main(["vectors", "check", str(answers), "--only", "rows/cone", "--quiet"]) == 0
-    printed = capsys.readouterr()
+def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, cli):
+    printed = cli("vectors", "check", answers, "--only", "rows/cone", "--quiet")
     assert (printed.out, printed.err) == ("", "")
-    assert main(["vectors", "check", str(answers), "--only", "rows/random", "--json"]) == 1
-    (report,) = json.loads(capsys.readouterr().out)["layers"]
+    (report,) = json.loads(
+        cli("vectors", "check", answers, "--only", "rows/random", "--json", status=1).out
+    )["layers"]
     assert [len(report["cases"]), report["failed"]] == [12, 1]
     answers_written(answers, "wrench", "test", right_answers("wrench"))
     names = ["rows/random/2", cases("wrench")[0].id]
     words = [word for name in names for word in ("--only", name)]
-    assert main(["vectors", "check", str(answers), *words, "--json"]) == 0
-    layers = json.loads(capsys.readouterr().out)["layers"]
+    layers = json.loads(cli("vectors", "check", answers, *words, "--json").out)["layers"]
     assert [one["id"] for layer in layers for one in layer["cases"]] == names
 
 
-def test_one_case_is_shown_number_by_number(answers, capsys):
-    assert main(["vectors", "check", str(answers), "--case", "rows/random/3"]) == 1
-    printed = capsys.readouterr().out
+def test_one_case_is_shown_number_by_number(answers, cli):
+    printed = cli("vectors", "check", answers, "--case", "rows/random/3", status=1).out
     wanted = expected_of("rows")["rows/random/3"]["output"]["b"][0]
     (row,) = (line.split() for line in printed.splitlines() if line.startswith("b[0]"))
     assert row == ["b[0]", repr(wanted), repr(wanted + 0.5), "0.5"]

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Body, Box, InputError, Sphere, System, load_scenario
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.optional.show.figures import viewer
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import ROBOTS
@@ -133,19 +132,17 @@ def test_surfaces_are_lit_as_round_where_they_are():
     assert np.abs(normals(corners)).max(axis=1) == pytest.approx(1.0)
 
 
-def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, capsys):
+def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, cli):
     monkeypatch.setattr(viewer, "find_spec", lambda name: None)
-    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", str(tmp_path)]
-    assert main(arguments) == 2
-    assert "pip install 'quasistatic-ref[view]'" in capsys.readouterr().err
+    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
+    assert "pip install 'quasistatic-ref[view]'" in cli(*arguments, status=2).err
     assert list(tmp_path.iterdir()) == []  # refused before the run
 
 
-def test_a_run_with_view_says_where_the_page_is(tmp_path, monkeypatch, capsys):
+def test_a_run_with_view_says_where_the_page_is(tmp_path, monkeypatch, cli):
     monkeypatch.setattr(viewer, "viewer_script", lambda: "")
-    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", str(tmp_path)]
-    assert main([*arguments, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["view"] == str(tmp_path / "block_push.html")
+    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
+    assert json.loads(cli(*arguments, "--json").out)["view"] == str(tmp_path / "block_push.html")
     assert (tmp_path / "block_push.html").is_file()
     assert "meshcat" not in sys.modules
 
