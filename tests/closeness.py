@@ -1,22 +1,21 @@
 """How near what is found has to be to what is expected, entry by entry."""
 
 from numpy.testing import assert_allclose
-from numpy.typing import ArrayLike
 
 
-def assert_within(found: ArrayLike, expected: ArrayLike, tolerance: ArrayLike) -> None:
+def assert_within(found, expected, tolerance):
     """No entry differs by more than the tolerance, which has the entry's unit."""
     __tracebackhide__ = True
     assert_allclose(found, expected, rtol=0.0, atol=tolerance)
 
 
-def assert_relative(found: ArrayLike, expected: ArrayLike, tolerance: float) -> None:
+def assert_relative(found, expected, tolerance):
     """No entry differs by more than this share of what is expected [-]; 0 is found as 0."""
     __tracebackhide__ = True
     assert_allclose(found, expected, rtol=tolerance, atol=0.0)
 
 
-def assert_close(found: ArrayLike, expected: ArrayLike, tolerance: float) -> None:
+def assert_close(found, expected, tolerance):
     """No entry differs by more than tolerance * (1 + |expected|): numbers of size one."""
     __tracebackhide__ = True
     assert_allclose(found, expected, rtol=tolerance, atol=tolerance)

@@ -4,10 +4,8 @@ Where the extra is not installed they are skipped, and pytest's summary names it
 """
 
 import re
-from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, distribution, requires
-from typing import Any
 
 import pytest
 
@@ -20,7 +18,7 @@ OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
 
 
 @cache
-def is_missing(extra: str) -> bool:
+def is_missing(extra):
     """Whether a package of an extra is not installed; of ``fast``, whether nothing compiles C."""
     if extra == "fast":
         return why_not() is not None  # any C compiler serves as well as the extra's
@@ -30,7 +28,7 @@ def is_missing(extra: str) -> bool:
     return not all(map(_is_installed, packages))
 
 
-def _is_installed(package: str) -> bool:
+def _is_installed(package):
     try:
         distribution(package)
     except PackageNotFoundError:
@@ -38,12 +36,12 @@ def _is_installed(package: str) -> bool:
     return True
 
 
-def reason(extra: str) -> str:
+def reason(extra):
     """What pytest's summary says of a test that is skipped."""
     return f'needs the extra {extra}: pip install -e ".[test,{extra}]"'
 
 
-def marked_parameters(names: Iterable[str], needs: Mapping[str, str]) -> list[Any]:
+def marked_parameters(names, needs):
     """Parameters of a test; those that need an extra are marked with it."""
     return [
         pytest.param(name, marks=pytest.mark.extra(needs[name])) if name in needs else name

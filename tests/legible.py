@@ -1,33 +1,27 @@
 """Whether a figure can be read on a page: units, text, lines distinguished without colour."""
 
 import re
-from collections.abc import Iterator
 from itertools import combinations
-from pathlib import Path
-from typing import Any, Final
 
 import numpy as np
 from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
 from quasistatic_ref.optional.show.figures.style import DRAWING, PAGE, figure_style
 
-LEAST: Final = 7.0
+LEAST = 7.0
 """Least size of text where the figure is printed on a page [pt]."""
 
-SLACK: Final = 1.0
+SLACK = 1.0
 """How far text may reach out of a figure [pixels]: boxes are rounded."""
 
-INNER: Final = 0.2
+INNER = 0.2
 """Rim of a box of text in which there are no letters, over the size of the font [-]."""
 
-GREY: Final = 0.15
+GREY = 0.15
 """Least difference in luminance of two fills that grey can tell apart [-]; black to white is 1."""
 
 UNIT = re.compile(r"\[[^\]]+\]$")
@@ -36,7 +30,7 @@ NUMBER = re.compile(
 )
 
 
-def faults(figure: Figure, style: str | Path = "paper") -> list[str]:
+def faults(figure, style="paper"):
     """What is wrong with a figure, a sentence each; none if it is legible.
 
     Parameters
@@ -59,7 +53,7 @@ def faults(figure: Figure, style: str | Path = "paper") -> list[str]:
     return found
 
 
-def _drawn_texts(figure: Figure) -> list[Text]:
+def _drawn_texts(figure):
     """Every text that is drawn: no empty one, none of a tick beyond the ends of its axis."""
     beyond = set()
     for axes in figure.axes:
@@ -73,7 +67,7 @@ def _drawn_texts(figure: Figure) -> list[Text]:
     return [text for text in texts if text.get_text().strip()]
 
 
-def _lost_text(figure: Figure) -> Iterator[str]:
+def _lost_text(figure):
     """Text that reaches out of the figure, and text upon text."""
     width, height = figure.bbox.size
     level = []
@@ -94,19 +88,19 @@ def _lost_text(figure: Figure) -> Iterator[str]:
             yield f"{one} and {other} lie on each other"
 
 
-def _axis_map(axes: Any) -> list[tuple[str, Any]]:
+def _axis_map(axes):
     names = "xyz" if axes.name == "3d" else "xy"
     return [(name, getattr(axes, f"{name}axis")) for name in names]
 
 
-def _small_text(figure: Figure, shrunk: float, least: float) -> Iterator[str]:
+def _small_text(figure, shrunk, least):
     for text in _drawn_texts(figure):
         size = float(text.get_fontsize()) * shrunk
         if size < least - 0.01:
             yield f"{text.get_text()!r} is printed at {size:.1f} pt, less than {least:g}"
 
 
-def _labels(axes: Axes) -> Iterator[str]:
+def _labels(axes):
     """Axes whose ticks bear numbers, and whose label does not end with a unit."""
     if not axes.axison:
         return
@@ -118,7 +112,7 @@ def _labels(axes: Axes) -> Iterator[str]:
             yield f"the label {axis.get_label_text()!r} of {name} does not end with a [unit]"
 
 
-def _labelled_by_sharing(axes: Axes, name: str) -> bool:
+def _labelled_by_sharing(axes, name):
     """Whether axes that share this axis bear its label, and these do not show its ticks' text."""
     if name == "z":
         return False
@@ -130,7 +124,7 @@ def _labelled_by_sharing(axes: Axes, name: str) -> bool:
     )
 
 
-def _alike(axes: Axes) -> Iterator[str]:
+def _alike(axes):
     """Pairs that only their colour tells apart."""
     lines = [line for line in axes.lines if line.get_visible() and line.get_gid() != DRAWING]
     for one, other in combinations(lines, 2):
@@ -143,7 +137,7 @@ def _alike(axes: Axes) -> Iterator[str]:
                 yield f"the {kind} {first[0]!r} and {second[0]!r} differ in colour only"
 
 
-def _dress(line: Line2D) -> tuple[Any, ...]:
+def _dress(line):
     """What a line looks like but for its colour."""
     pattern = vars(line)["_unscaled_dash_pattern"]  # "--" and (0, (..)) alike
     mark = None if line.get_marker() in ("", " ", "None", None) else str(line.get_marker())
@@ -151,9 +145,9 @@ def _dress(line: Line2D) -> tuple[Any, ...]:
     return (str(pattern) if shown else None), mark, (line.get_fillstyle() if mark else None)
 
 
-def _fills(axes: Axes) -> dict[str, list[tuple[str, float, Any, Any]]]:
+def _fills(axes):
     """Labelled patches and scattered dots: label, luminance, other marks, colour."""
-    found: dict[str, list[tuple[str, float, Any, Any]]] = {"patches": [], "dots": []}
+    found = {"patches": [], "dots": []}
     handles, labels = axes.get_legend_handles_labels()
     for handle, label in zip(handles, labels, strict=True):
         first = handle[0] if isinstance(handle, tuple | list) and len(handle) else handle
@@ -167,7 +161,7 @@ def _fills(axes: Axes) -> dict[str, list[tuple[str, float, Any, Any]]]:
     return found
 
 
-def _luminance(colour: Any) -> float:
+def _luminance(colour):
     """How light a colour is in grey [-]."""
     red, green, blue = to_rgb(colour)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue

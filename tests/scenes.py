@@ -1,7 +1,5 @@
 """Scenes that several tests share: bodies that move in every way, and small scenario files."""
 
-from pathlib import Path
-
 from quasistatic_ref import Body, System
 from tests.model.urdf.urdf_texts import (
     BOX,
@@ -15,7 +13,7 @@ from tests.model.urdf.urdf_texts import (
 )
 
 
-def chain_scene(folder: Path) -> System:
+def chain_scene(folder):
     """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
     chain = urdf_of_text(folder, CHAIN, "chain.urdf")
     box = urdf_of_text(folder, BOX, "box.urdf")
@@ -132,7 +130,7 @@ down: there it can only move sideways, which friction forbids both ways, and ste
 solution."""
 
 
-def written_scenario(folder: Path, text: str = PUSH, name: str = "scene.toml") -> Path:
+def written_scenario(folder, text=PUSH, name="scene.toml"):
     """A scenario file with its URDFs next to it."""
     for urdf, file in ((RAIL, "rail.urdf"), (BALL, "ball.urdf"), (CLUB, "club.urdf")):
         urdf_of_text(folder, urdf, file)

@@ -1,8 +1,6 @@
 """The command line in this process, held to its manners."""
 
 import time
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -10,17 +8,16 @@ from quasistatic_ref.cli.main import main
 
 SLOWEST = 10.0
 """No input may keep the processor busy for longer before it is refused [s]."""
-Refused = Callable[..., str]
 
 
 @pytest.fixture
-def refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
+def refused(tmp_path, capsys):
     """Run a command that must fail, and return its one sentence.
 
     Nothing is printed but that sentence, nothing is written, and it does not take long.
     """
 
-    def run(*arguments: object, status: int = 2) -> str:
+    def run(*arguments, status=2):
         before = paths_below(tmp_path)
         start = time.process_time()
         assert main([str(argument) for argument in arguments]) == status
@@ -36,6 +33,6 @@ def refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Refused:
     return run
 
 
-def paths_below(folder: Path) -> set[Path]:
+def paths_below(folder):
     """All files and folders below a folder."""
     return set(folder.rglob("*"))

@@ -6,14 +6,12 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref import (
     Body,
     InputError,
-    Scenario,
     System,
     load_scenario,
     solve_step,
@@ -51,7 +49,6 @@ from tests.model.urdf.urdf_texts import collision, link, urdf_of_text
 from tests.model.urdf.urdf_texts import robot as urdf_of
 from tests.optional.mjcf.test_mjcf import ARM, WEDGE
 from tests.oracles.spoilt_files import (
-    Form,
     npy_bytes,
     spoilt_bytes,
     spoilt_json,
@@ -83,21 +80,21 @@ class Reader:
 
     file: str
     good: tuple[bytes, ...]
-    form: Form
+    form: Callable[..., bytes]
     read: Callable[[Path], object]
 
 
-def models(folder: Path) -> dict[str, Reader]:
+def models(folder):
     urdfs = tuple(
         (models_folder() / f).read_bytes() for f in ("door/door.urdf", "bunny_grasp/gripper.urdf")
     )
 
-    def robot(path: Path) -> None:
+    def robot(path):
         system = System([Body("r", path, actuated="all")])
         assert np.isfinite(system.M_u(system.q_start)).all()
         assert np.isfinite(system.kinematics(system.q_start).J).all()
 
-    def mesh(path: Path) -> None:
+    def mesh(path):
         about = collision(f'<mesh filename="{path.name}" scale="1 1 1"/>')
         System(
             [Body("r", urdf_of_text(folder, urdf_of(link("r", about)), "mesh.urdf"), "floating")]
@@ -125,7 +122,7 @@ def models(folder: Path) -> dict[str, Reader]:
     }
 
 
-def clouds(_: Path) -> dict[str, Reader]:
+def clouds(_):
     points = np.array(texts.CORNERS)
     text = "".join("{} {} {}\n".format(*corner) for corner in texts.CORNERS).encode()
     coloured = text.replace(b"\n", b" 255\n")
@@ -138,7 +135,7 @@ def clouds(_: Path) -> dict[str, Reader]:
     pcd = (texts.PCD + "ascii\n").encode() + coloured, (texts.PCD + "binary\n").encode() + packed
     table = b"# cloud\nx,y,z,red\n" + coloured.replace(b" ", b",")
     npz = zip_bytes([("points.npy", npy_bytes(points))]), zip_bytes([("a.npy", npy_bytes(points))])
-    kinds: dict[str, tuple[tuple[bytes, ...], Form]] = {
+    kinds = {
         "xyz": ((text,), spoilt_text), "csv": ((table,), spoilt_text), "ply": (ply, spoilt_text),
         "obj": ((text.replace(b"\n", b"\nv ")[:-2],), spoilt_text), "pcd": (pcd, spoilt_text),
         "npy": ((npy_bytes(points), npy_bytes(points.astype("f4"))), spoilt_npy),
@@ -150,21 +147,21 @@ def clouds(_: Path) -> dict[str, Reader]:
     }
 
 
-def scenes(folder: Path) -> dict[str, Reader]:
+def scenes(folder):
     for model, file in (("sphere_spin", "sphere.urdf"), ("bunny_grasp", "gripper.urdf")):
         (folder / file).write_bytes((models_folder() / model / file).read_bytes())
     (folder / "cloud.xyz").write_text("0 0 0.05\n0 0 -0.05\n")
     good = folder / "good.toml"
     good.write_text(texts.SCENE)
 
-    def few_steps(scenario: Scenario) -> None:
+    def few_steps(scenario):
         if scenario.steps <= 2:
             assert np.isfinite(scenario.run(progress=False)["q"]).all()
 
-    def scene(path: Path) -> None:
+    def scene(path):
         few_steps(load_scenario(path, fast=True))
 
-    def setting(path: Path) -> None:
+    def setting(path):
         load_scenario(good, [path.read_bytes().decode(errors="surrogateescape")])
 
     settings = tuple(text.encode() for text in texts.SETTINGS)
@@ -174,7 +171,7 @@ def scenes(folder: Path) -> dict[str, Reader]:
     }
 
 
-def steps(folder: Path) -> dict[str, Reader]:
+def steps(folder):
     scenario = load_scenario("sphere_spin", ["steps=2"])
     run = scenario.run(progress=False)
     trajectory = run.save(folder / "good.npz").read_bytes()
@@ -185,19 +182,19 @@ def steps(folder: Path) -> dict[str, Reader]:
         infeasible_text(step, ["1/2"] * 6),
     )
 
-    def solved(path: Path) -> None:
+    def solved(path):
         solution = solve_step(step_read(path), NONE)
         assert np.isfinite(solution.delta_q).all()
         assert np.isfinite(solution.lam).all()
         assert solution.certificate.kind == "exact"
 
-    def extracted(path: Path) -> None:
+    def extracted(path):
         found = trajectory_read(path)
         assert certified(found)
         worst_residual(found)
         found.step_data(0)
 
-    def verified(path: Path) -> None:
+    def verified(path):
         refutation(step, solution_read(path, step))
 
     return {
@@ -209,7 +206,7 @@ def steps(folder: Path) -> dict[str, Reader]:
     }
 
 
-def answers(folder: Path) -> dict[str, Reader]:
+def answers(folder):
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
@@ -222,9 +219,7 @@ def answers(folder: Path) -> dict[str, Reader]:
         outputs = {name: known[name]["output"] for name in sorted(chosen)}
         good = answers_written(folder, layer, "spoilt", outputs).read_bytes()
 
-        def compared(
-            path: Path, layer: str = layer, cases: Any = cases, known: Any = known
-        ) -> None:
+        def compared(path, layer=layer, cases=cases, known=known):
             report = Report(
                 "", (layer_report(layer, cases, known, answers_read(path.parent, layer)),)
             )
@@ -237,10 +232,10 @@ def answers(folder: Path) -> dict[str, Reader]:
     return found
 
 
-def stores(folder: Path) -> dict[str, Reader]:
+def stores(folder):
     """Stores, the table of a sweep, and each file of a test set, the others being good."""
 
-    def reported(path: Path) -> None:
+    def reported(path):
         markdown_page(study_report(path.parent))
 
     made_store.write_store(folder / "study", count=3)
@@ -257,7 +252,7 @@ def stores(folder: Path) -> dict[str, Reader]:
         ),
     }
 
-    def problems(path: Path) -> None:
+    def problems(path):
         set_read(path.parent.parent if path.parent.name == NUMBERS else path.parent)
 
     study_problems(TestSet(1, {"scenarios": 2}, ("sphere_spin",)), folder, progress=False)
@@ -269,8 +264,8 @@ def stores(folder: Path) -> dict[str, Reader]:
     return found
 
 
-def studies(_: Path) -> dict[str, Reader]:
-    def study(path: Path) -> None:
+def studies(_):
+    def study(path):
         solver_study(path, toml_read(path))
 
     return {"study TOML": Reader("study.toml", (texts.SOLVERS.encode(),), spoilt_toml, study)}

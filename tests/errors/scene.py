@@ -1,9 +1,6 @@
 """A good scenario, step and solution as plain dictionaries, to be spoilt one field at a time."""
 
 import tomllib
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 from tests.model.urdf.urdf_texts import collision, joint, link, robot, urdf_of_text
 from tests.oracles.records import toml_text, with_value
@@ -16,7 +13,7 @@ RAIL = robot(
 )
 CLOUD = "0 0 0.05\n0.05 0 0\n0 0.05 0\n"
 
-SCENE: dict[str, Any] = tomllib.loads("""
+SCENE = tomllib.loads("""
 format = "quasistatic-ref/scenario"
 version = 1
 h = 0.01
@@ -62,7 +59,7 @@ SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
 """A change that makes the first step fail: 0.08 m deep, where 0.05 m is the limit."""
 
 
-def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]:
+def changed(record, *changes):
     """A deep copy with fields replaced (or removed, by `...`), each given as ``a/b/0``."""
     for path, value in changes:
         place = tuple(int(key) if key.isdigit() else key for key in path.split("/"))
@@ -70,7 +67,7 @@ def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]
     return record
 
 
-def numeric_fields(value: Any, above: str = "") -> Iterator[str]:
+def numeric_fields(value, above=""):
     """The path, as ``a/b/0``, of every number in a record; of a list of numbers its last."""
     if isinstance(value, dict):
         for key, inner in value.items():
@@ -84,7 +81,7 @@ def numeric_fields(value: Any, above: str = "") -> Iterator[str]:
         yield above.lstrip("/")
 
 
-def dotted(record: dict[str, Any], path: str) -> str:
+def dotted(record, path):
     """The name that messages give to a path: ``a.b[0].c``, without indices into numbers."""
     name = ""
     at = record
@@ -98,7 +95,7 @@ def dotted(record: dict[str, Any], path: str) -> str:
     return name.lstrip(".")
 
 
-def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
+def scene_written(folder, scene=SCENE):
     """A scenario file with its URDFs and a cloud next to it."""
     urdf_of_text(folder, BALL, "ball.urdf")
     urdf_of_text(folder, RAIL, "rail.urdf")
@@ -106,6 +103,6 @@ def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
     return urdf_of_text(folder, toml_text(scene).decode(), "scene.toml")
 
 
-def contents(folder: Path) -> dict[Path, bytes]:
+def contents(folder):
     """Every file of a folder."""
     return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}

@@ -13,7 +13,6 @@ BOMB = f'<!DOCTYPE robot [<!ENTITY l0 "ha">{LAUGHS}]><robot name="&l9;"/>'
 
 NO_TRAJECTORY = "is not a trajectory written by this program"
 NOT_UTF8 = "line 1: is not UTF-8 text"
-XML = "line 1: is not well-formed XML: "
 CAUSES = {
     # name: file, content, words of the sentence
     "empty TOML": ("scene.toml", b"", "format: is missing"),

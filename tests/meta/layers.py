@@ -1,7 +1,6 @@
 """Which import crosses which wall between core, optional parts and lab, read from the source."""
 
 import ast
-from pathlib import Path
 
 from quasistatic_ref.model.body import FIXED
 from quasistatic_ref.model.joints import BASES, JOINTS
@@ -231,7 +230,7 @@ def within(inside, places):
     return any(inside == place or inside.startswith(place + "/") for place in places)
 
 
-def violations(root: Path):
+def violations(root):
     """Sentences, one for each import that crosses a wall."""
     found = []
     package = root.name

@@ -1,15 +1,12 @@
 """Steps that validation/make/attacks.py tries: ordinary ones, and those of strange numbers."""
 
-from __future__ import annotations
-
 import random
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import count
 
 import numpy as np
 
-from quasistatic_ref import Contacts, InputError, StepData
+from quasistatic_ref import Contacts, InputError
 from tests.oracles.random_steps import any_step, mixed_step
 
 CONES = "pyramid", "product", "frictionless"
@@ -19,7 +16,7 @@ SCALES = 12.0
 """Largest power of ten by which a number of a step is multiplied."""
 
 
-def hostile_step(rng: random.Random) -> StepData:
+def hostile_step(rng):
     """A step of :func:`any_step` whose numbers are multiplied by powers of ten, one to all of them.
 
     Raises
@@ -35,7 +32,7 @@ def hostile_step(rng: random.Random) -> StepData:
     step = any_step(draw, int(n_a), int(n_u), int(n_c), draw.choice([1.0, 1e4, 1e9]))
     often = draw.choice([0.15, 0.5, 1.0])
 
-    def scale(*shape: int) -> np.ndarray:
+    def scale(*shape):
         """Powers of ten, of shape `shape`, most of them 1."""
         powers = draw.uniform(-SCALES, SCALES, shape) * (draw.random(shape) < often)
         return np.asarray(10.0 ** (powers if draw.random() < 0.5 else powers.round()))
@@ -59,7 +56,7 @@ def hostile_step(rng: random.Random) -> StepData:
     )
 
 
-def subnormal(rng: np.random.Generator, step: StepData) -> StepData:
+def subnormal(rng, step):
     """The same step with loads, targets and gaps smaller by one large power of two."""
     small = 2.0 ** -int(rng.integers(900, 1075))
     far = replace(step.contacts, phi=step.contacts.phi * small)
@@ -67,14 +64,14 @@ def subnormal(rng: np.random.Generator, step: StepData) -> StepData:
     return step.replace(contacts=far, **loads)
 
 
-def light_or_heavy(rng: np.random.Generator, step: StepData) -> StepData:
+def light_or_heavy(rng, step):
     """The same step with stiffness, masses and all forces larger or smaller by one power of two."""
     weight = 2.0 ** int(rng.integers(-1000, 1000))
     names = "K_q", "M_u", "tau_a", "tau_u"
     return step.replace(**{name: getattr(step, name) * weight for name in names})
 
 
-def steps(family: str, first: int = 0) -> Iterator[StepData]:
+def steps(family, first=0):
     """Steps of a family, without end, from a seed on."""
     for seed in count(first):
         rng = np.random.default_rng(seed)
@@ -92,7 +89,7 @@ def steps(family: str, first: int = 0) -> Iterator[StepData]:
             continue
 
 
-def singular(rng: np.random.Generator, n: int, share: float | None = None) -> np.ndarray:
+def singular(rng, n, share=None):
     """A symmetric matrix (n, n) whose last pivot has about this share of its diagonal entry."""
     if share is None:
         share = float(rng.choice([0.0, -1e-14, 1e-15, 1e-14, 1e-14 * (1 + 1e-9), 1e-13, 1e-12]))

@@ -7,8 +7,6 @@ import lzma
 import os
 import struct
 import zipfile
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
@@ -20,18 +18,18 @@ LAUGHS = f'<!DOCTYPE r [<!ENTITY e0 "ha">{ENTITIES}]><r>&e9;</r>'
 """Entities that make 10^9 words."""
 
 
-def mjcf(world: str, beside: str = "") -> bytes:
+def mjcf(world, beside=""):
     """A model of MuJoCo's."""
     body = '<body name="b"><geom size="1"/></body>'
     return f"<mujoco>{beside}<worldbody>{body}{world}</worldbody></mujoco>".encode()
 
 
-def urdf(inside: str) -> bytes:
+def urdf(inside):
     """A URDF with one link."""
     return f'<robot name="r"><link name="a">{inside}</link></robot>'.encode()
 
 
-def hinges(count: int) -> bytes:
+def hinges(count):
     """A URDF of links that hang on one."""
     hinge = '<joint name="j@" type="continuous"><parent link="a"/><child link="l@"/></joint>'
     return urdf("").replace(
@@ -39,14 +37,14 @@ def hinges(count: int) -> bytes:
     )
 
 
-def npy_header(shape: str, kind: str = "<f8") -> bytes:
+def npy_header(shape, kind="<f8"):
     """An array's file that promises more than it has."""
     head = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}".encode()
     head += b" " * (117 - len(head)) + b"\n"
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head
 
 
-def packed_zeros(name: str, size: int, kind: str = "<f8") -> bytes:
+def packed_zeros(name, size, kind="<f8"):
     """A ZIP file of a few hundred KiB with an array of zeros."""
     file = io.BytesIO()
     with (
@@ -59,7 +57,7 @@ def packed_zeros(name: str, size: int, kind: str = "<f8") -> bytes:
     return file.getvalue()
 
 
-def copies(text: str, count: int) -> str:
+def copies(text, count):
     """A text many times, each with its number in place of @."""
     return "".join(text.replace("@", str(i)) for i in range(count))
 
@@ -84,7 +82,7 @@ BALL = '[bodies.b@]\nurdf = "sphere.urdf"\nbase = "floating"\nactuated = []\n'
 SCENE = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
 STEP = '{"format": "quasistatic-ref/step", "version": 1, "h": 0.01, "n_a": 0, "n_u": 6, '
 
-BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
+BOMBS = {
     "MJCF: an arena of 10 TB": ("MJCF", mjcf("", '<size memory="10T"/>')),
     "MJCF: 3 million keys": ("MJCF", mjcf("", '<size nkey="3000000"/>')),
     "MJCF: 10,000 bodies by a replica": ("MJCF", mjcf(REPLICA.format(10000))),
@@ -213,7 +211,7 @@ BOMBS: dict[str, tuple[str, bytes | Callable[[], bytes]]] = {
 """Name -> reader, and content of its file."""
 
 
-def _packed(size: int) -> bytes:
+def _packed(size):
     """Zeros, packed by XZ."""
     packer = lzma.LZMACompressor(preset=0)
     chunk = bytes(1 << 24)
@@ -221,7 +219,7 @@ def _packed(size: int) -> bytes:
     return b"".join([*parts, packer.flush()])
 
 
-def triangles(count: int) -> bytes:
+def triangles(count):
     """A file of STL, of triangles with corners all over."""
     corners = np.random.default_rng(0).normal(size=(count, 3, 3)).astype("<f4")
     kind = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]
@@ -230,12 +228,12 @@ def triangles(count: int) -> bytes:
     return bytes(80) + struct.pack("<I", count) + every.tobytes()
 
 
-def _scene(count: int) -> str:
+def _scene(count):
     """A scenario of so many bodies, which is loaded and not run."""
     return SCENE.replace("steps = 1", "steps = 3") + copies(BALL, count)
 
 
-def _pairs(count: int) -> str:
+def _pairs(count):
     """A scenario of so many bodies on so many floors, each on each."""
     floors = copies("[shapes.f@]\nhalfspace = { normal = [0, 0, 1] }\n", count)
     names = [f"f{i}" for i in range(count)], [f"b{i}" for i in range(count)]
@@ -243,7 +241,7 @@ def _pairs(count: int) -> str:
     return f"{_scene(count)}{floors}[contacts.c]\n{sides}mu_v = 0.5\nrows = 4\n"
 
 
-def outside(folder: Path) -> None:
+def outside(folder):
     """Files next to the folder of a reader's, which nothing may open."""
     folder.mkdir()
     (folder / "m.xml").write_bytes(mjcf(""))
@@ -251,7 +249,7 @@ def outside(folder: Path) -> None:
     (folder / "c.xyz").write_text("0 0 0\n1 0 0\n")
 
 
-PLACES: dict[str, Callable[[Path], None]] = {
+PLACES = {
     "a pipe": lambda path: os.mkfifo(path),
     "a link to a device": lambda path: path.symlink_to("/dev/zero"),
     "a link to itself": lambda path: path.symlink_to(path),

@@ -5,11 +5,7 @@ closed form. The gap between solids along a direction follows from their support
 are at least so far apart. It proves the distance of two points of theirs on the direction itself.
 """
 
-from __future__ import annotations
-
 import itertools
-from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -17,16 +13,13 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import convex_hull
 from quasistatic_ref.lab.program.distance import closest_points, core
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
-from quasistatic_ref.shapes.placed_shape import Shape
 
-Array = np.ndarray
-Table = dict[str, Any]
 TURNS = list(Rotation.create_group("O").as_matrix().round())
 """The 24 quarter turns."""
 CURVED = {"cylinder", "cone", "ellipsoid"}
 HERE = np.eye(3), np.zeros(3)
 POINTS = np.random.default_rng(7).normal(size=(30, 3)) * [0.03, 0.04, 0.05]
-TABLES: dict[str, Table] = {
+TABLES = {
     "sphere": {"kind": "sphere", "radius": 0.03},
     "box": {"kind": "box", "size": [0.06, 0.1, 0.16]},
     "capsule": {"kind": "capsule", "radius": 0.03, "length": 0.1},
@@ -39,18 +32,18 @@ TABLES: dict[str, Table] = {
 """One of each kind, of sizes that have nothing in common, as the vectors write it."""
 
 
-def solids() -> dict[str, Shape]:
+def solids():
     """The same as shapes of the package."""
     return {name: own_shape(table) for name, table in TABLES.items()}
 
 
-def pairs() -> list[tuple[str, str]]:
+def pairs():
     """Every pair of kinds but two half-spaces."""
     found = itertools.combinations_with_replacement(TABLES, 2)
     return [pair for pair in found if pair != ("half-space", "half-space")]
 
 
-def poses(count: int, seed: int) -> Iterator[tuple[Array, Array]]:
+def poses(count, seed):
     """Poses of the second solid in the frame of the first: random, and every kind of degenerate.
 
     Axes along each other's, centres on axes and planes of symmetry, round distances, tilts of a
@@ -75,12 +68,12 @@ def poses(count: int, seed: int) -> Iterator[tuple[Array, Array]]:
         yield R, t
 
 
-def gap(a: Table, b: Table, R: Array, t: Array, n: Array) -> Array:
+def gap(a, b, R, t, n):
     """Gap between the solids along unit vectors n, shape (N, 3): least of b minus most of a."""
     return n @ t - _most(b, -n @ R) - _most(a, n)
 
 
-def _most(solid: Table, n: Array) -> Array:
+def _most(solid, n):
     """Support function: the largest n . x over the solid, for each unit vector n, shape (N, 3)."""
     found = core(solid, HERE)
     if found is not None:
@@ -93,7 +86,7 @@ def _most(solid: Table, n: Array) -> Array:
     return rim + np.abs(along) if solid["kind"] == "cylinder" else np.maximum(along, rim - along)
 
 
-def signed_distance(names: tuple[str, str], R: Array, t: Array) -> float | None:
+def signed_distance(names, R, t):
     """Signed distance of two solids, the second at pose (R, t) in the frame of the first.
 
     None where the plain program has no closed form: curved solids on one another and on polytopes.

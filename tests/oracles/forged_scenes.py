@@ -1,28 +1,34 @@
 """Small steps whose solutions are forged: one or more for each kind of certificate."""
 
-from __future__ import annotations
-
 import numpy as np
 
-from quasistatic_ref import Extra, StepData
+from quasistatic_ref import Extra
 from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 
+FACING = np.array(
+    [
+        [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        [[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]],
+    ]
+)
+"""Frames of two walls that face each other along y; rows d1, d2, n."""
 
-def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
+
+def scenes(every=False):
     """Steps by the kind of their solution and a name; `every` adds larger ones."""
     slides = (4.0, 1.0, -2.943)
     sticks = (1.0, 0.5, -2.943)
     flies = (1.0, 0.0, 1.0)
 
-    def on_floor(force: tuple[float, float, float], mu_v: float = 0.5) -> StepData:
+    def on_floor(force, mu_v=0.5):
         return point_step(0.3, force, mu_v, 0.0, 0.01)
 
     walls = between_walls()
-    held = walls.replace(extra=Extra(("held back",), -np.eye(3)[:1], np.array([-2e-4])))
-    apart = contacts_of((-1e-3, -1e-3), facing_frames(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    held = walls.replace(extra=Extra(("held back",), -np.eye(3)[:1], [-2e-4]))
+    apart = contacts_of((-1e-3, -1e-3), FACING, np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
     found = {
         ("exact", "held back by a row of its own"): held.replace(cone="pyramid"),
         ("exact", "sticks, six rows of rank four"): on_floor(sticks),
@@ -52,22 +58,15 @@ def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
     return found
 
 
-def facing_frames(count: int) -> np.ndarray:
-    """Frames of walls that face each other along y, shape (count, 3, 3); rows d1, d2, n."""
-    frame = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    turned = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-    return np.array([frame, turned][:count])
-
-
-def between_walls() -> StepData:
+def between_walls():
     """A ball that slides along a floor between two walls, each 1 m away."""
-    frames = np.concatenate([np.eye(3)[None], facing_frames(2)])
+    frames = np.concatenate([np.eye(3)[None], FACING])
     J = np.tile(np.eye(4, 3), (3, 1, 1))
     contacts = contacts_of((0.0, 1.0, 1.0), frames, J, 0.5)
     return free_step(0.3 * np.eye(3), (4.0, 1.0, -2.943), contacts, 0.01).replace(cone="ellipsoid")
 
 
-def at_random(seed: int) -> StepData:
+def at_random(seed):
     """Three random contacts of six, four and six rows on five coordinates, which are pressed on."""
     rng = np.random.default_rng(seed)
     J = rng.standard_normal((3, 4, 5))

@@ -13,32 +13,24 @@ fractions, from the equations (``solution_truth.py``): ``verify`` and its code g
 alone.
 """
 
-from __future__ import annotations
-
 import json
 import math
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
-import numpy as np
-
-from quasistatic_ref import InputError, StepData, StepInfeasible, solve_step
+from quasistatic_ref import InputError, StepInfeasible, solve_step
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read
 from quasistatic_ref.cli.solution_files import solution_text as text_of
 from quasistatic_ref.cli.verify import refutation
 from tests.oracles.records import places, value_at, with_value
 from tests.oracles.solution_truth import least_bound, truth_of, wrenches
 
-Json = Any
-NO_NUMBER: tuple[Json, ...] = (None, "1", True, [], {}, [0.0], math.nan, math.inf, -math.inf)
+NO_NUMBER = (None, "1", True, [], {}, [0.0], math.nan, math.inf, -math.inf)
 HUGE = (1e308, -1e308, 1e9, -1.0, 5.0)
-NO_WORD: tuple[Json, ...] = (None, 1, True, [], {}, "", "x", "residual", "exact", "infeasible")
-NO_FRACTION: tuple[Json, ...] = (None, 1, 0.5, [], "", "0.5", "1e9", "nan", "1/0", "-1", "1/3", "7")
-NO_LIST: tuple[Json, ...] = (None, 0.0, "x", True, {})
+NO_WORD = (None, 1, True, [], {}, "", "x", "residual", "exact", "infeasible")
+NO_FRACTION = (None, 1, 0.5, [], "", "0.5", "1e9", "nan", "1/0", "-1", "1/3", "7")
+NO_LIST = (None, 0.0, "x", True, {})
 
 
-def good_file(step: StepData, kind: str) -> Json:
+def good_file(step, kind):
     """The solution file of a step, certified as its kind wants.
 
     The bound of a backend's answer is the least that is true: the smallest change makes it false.
@@ -53,7 +45,7 @@ def good_file(step: StepData, kind: str) -> Json:
     return good
 
 
-def replacements(value: Json) -> Iterator[Json]:
+def replacements(value):
     """What may be put in the place of a value."""
     if isinstance(value, bool) or value is None:
         yield from (not value, int(bool(value)), "true", [], 0.5, -1.0)
@@ -74,7 +66,7 @@ def replacements(value: Json) -> Iterator[Json]:
         yield from (dict(value, note=1), dict(value, gap=0.0), dict(value, residuals={}), *NO_LIST)
 
 
-def with_its_wrenches(step: StepData, record: Json) -> Json:
+def with_its_wrenches(step, record):
     """A record whose wrenches are those of its multipliers, where that can be."""
     try:
         return dict(record, wrench=wrenches(step, record["lam"]))
@@ -82,7 +74,7 @@ def with_its_wrenches(step: StepData, record: Json) -> Json:
         return record
 
 
-def forgeries(step: StepData, record: Json) -> Iterator[tuple[str, Json]]:
+def forgeries(step, record):
     """Every forged record that differs from the good one, with the field that is forged."""
     for where in ((), *places(record)):
         value = value_at(record, where)
@@ -96,7 +88,7 @@ def forgeries(step: StepData, record: Json) -> Iterator[tuple[str, Json]]:
                 yield f"{name} and wrench", with_its_wrenches(step, forged)
 
 
-def is_refused(step: StepData, record: Json, path: Path) -> bool:
+def is_refused(step, record, path):
     """Whether a record is refused, by its reader or by what `verify` does with it."""
     path.write_text(json.dumps(record))
     try:
@@ -105,7 +97,7 @@ def is_refused(step: StepData, record: Json, path: Path) -> bool:
         return True
 
 
-def outcomes(step: StepData, good: Json, path: Path) -> Iterator[tuple[str, str, Json]]:
+def outcomes(step, good, path):
     """Each forged record with its field, and what came of it.
 
     That is ``"refused"``, ``"still true"`` or ``"PASSED"``.
@@ -118,7 +110,7 @@ def outcomes(step: StepData, good: Json, path: Path) -> Iterator[tuple[str, str,
             yield name, "still true" if truth(forged) else "PASSED", forged
 
 
-def at_random(rng: np.random.Generator, step: StepData, record: Json) -> Json:
+def at_random(rng, step, record):
     """A record with up to three values taken from elsewhere in it, or moved by any power of ten."""
     leaves = [
         where for where in places(record) if not isinstance(value_at(record, where), dict | list)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from quasistatic_ref import StepData, StepIllPosed, StepInfeasible
+from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import ExactOptimum, form_optimum, step_optimum
+from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
@@ -22,13 +22,13 @@ SAME = (
 """What of an optimum no choice is left of."""
 
 
-def random_case(seed: int) -> StepData:
+def random_case(seed):
     """A random step, mostly without what couples two or three classes of its coordinates."""
     rng = np.random.default_rng([seed, 3])
     return divided(rng, mixed_step(seed), int(rng.integers(1, 4)))
 
 
-def faults(step: StepData) -> list[str]:
+def faults(step):
     """In what the optimum by group is not that of the whole; empty if it is."""
     whole = form_optimum(exact_form(step))
     try:
@@ -45,7 +45,7 @@ def faults(step: StepData) -> list[str]:
     return unlike_fields(grouped, whole)
 
 
-def unlike_fields(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
+def unlike_fields(one, whole):
     """In what of that no choice is left of an optimum is not that of the whole step."""
     if isinstance(whole, Farkas):
         return ["feasible by group only"]

@@ -6,7 +6,6 @@ model that names it, from that model's folder), by its last name alone if `strip
 model says so.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -41,7 +40,7 @@ class MeshModel:
     kinds: set[str] = field(default_factory=set)
 
 
-def random_model(folder: Path, seed: int) -> MeshModel:
+def random_model(folder, seed):
     """A model of some bodies with meshes, written into an empty folder."""
     writer = _Writer(np.random.default_rng(seed), MeshModel(folder / "model.xml"))
     attached = writer.some("attach", 0.4)
@@ -58,7 +57,7 @@ def random_model(folder: Path, seed: int) -> MeshModel:
     return writer.model
 
 
-def _write(path: Path, compiler: str, assets: str, bodies: str) -> None:
+def _write(path, compiler, assets, bodies):
     path.write_text(
         f"<mujoco>{compiler}<asset>{assets}</asset><worldbody>{bodies}</worldbody></mujoco>"
     )
@@ -67,21 +66,21 @@ def _write(path: Path, compiler: str, assets: str, bodies: str) -> None:
 class _Writer:
     """What one model is written with."""
 
-    def __init__(self, rng: np.random.Generator, model: MeshModel) -> None:
+    def __init__(self, rng, model):
         self.rng = rng
         self.model = model
         self.count = 0
         self.last = ("", "")
         self.strip = self.some("strippath", 0.4)
 
-    def some(self, kind: str, share: float = 0.5) -> bool:
+    def some(self, kind, share=0.5):
         """Whether the model has something; noted if it has."""
         has = bool(self.rng.random() < share)
         if has:
             self.model.kinds.add(kind)
         return has
 
-    def pose(self) -> tuple[str, Rotation, Array]:
+    def pose(self):
         """A pose as attributes, its rotation and its origin."""
         t = self.rng.normal(scale=0.3, size=3).round(3)
         if self.some("quarter turns", 0.3):  # where roll, pitch and yaw are least regular
@@ -91,14 +90,14 @@ class _Writer:
         R = Rotation.from_euler("XYZ", angles, degrees=True)  # MuJoCo's eulerseq xyz
         return f'pos="{_text(t)}" euler="{_text(angles)}"', R, t
 
-    def file(self, folder: Path, prefix: str) -> tuple[str, str]:
+    def file(self, folder, prefix):
         """The assets and bodies of one file; its compiler and assets are kept in `last`."""
         strip = self.some("another strippath") if prefix else self.strip
         meshdir = "assets" if self.some("meshdir") else ""
         word = self.rng.choice(["meshdir", "assetdir"])
         given = f'{word}="{meshdir}"' if meshdir else ""
         compiler = f'<compiler angle="degree" strippath="{str(strip).lower()}" {given}/>'
-        assets: list[str] = []
+        assets = []
         bodies = ""
         for number in range(self.rng.integers(1, 3)):
             name = 'name="body1"' if number and self.some("unnamed body") else ""
@@ -113,7 +112,7 @@ class _Writer:
         self.last = (compiler, "".join(assets))
         return "".join(assets), bodies
 
-    def geom(self, assets: list[str], folder: Path, prefix: str) -> str:
+    def geom(self, assets, folder, prefix):
         """One geom of a mesh of its own."""
         self.count += 1
         name = f"g{self.count}"
@@ -149,7 +148,7 @@ class _Writer:
         assets.append(f"<mesh {words}/>")
         return f'<geom name="{name}" type="mesh" mesh="{name}" {pose}/>'
 
-    def solid(self) -> tuple[Array, Array]:
+    def solid(self):
         """Vertices and outward faces of a random polytope, or of one with a dent."""
         points = self.rng.normal(scale=0.1, size=(self.rng.integers(5, 20), 3)).round(4)
         hull = ConvexHull(points)
@@ -163,7 +162,7 @@ class _Writer:
             vertices[-1] = (vertices[-1] + vertices.mean(axis=0)) / 2
         return vertices, faces
 
-    def mesh_file(self, folder: Path, name: str, vertices: Array, faces: Array) -> str:
+    def mesh_file(self, folder, name, vertices, faces):
         """A mesh as a file, with another of the same name where it must not be looked for."""
         inside = folder / "deep" / f"{name}.obj"
         plain = folder / f"{name}.obj"
@@ -176,5 +175,5 @@ class _Writer:
         return f"deep/{name}.obj"
 
 
-def _text(numbers: Sequence[float] | Array) -> str:
+def _text(numbers):
     return " ".join(repr(float(x)) for x in np.ravel(numbers))

@@ -3,8 +3,6 @@
 Those that commands and the vectors draw are in ``lab/scenes/at_random.py``.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -15,13 +13,7 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 
 
-def any_step(
-    rng: np.random.Generator,
-    n_a: int,
-    n_u: int,
-    n_c: int,
-    mass_ratio: float = 1.0,
-) -> StepData:
+def any_step(rng, n_a, n_u, n_c, mass_ratio=1.0):
     """Anything that a step may be: duplicated contacts, penetration, mu = 0, light on heavy.
 
     Parameters
@@ -60,7 +52,7 @@ def any_step(
     )
 
 
-def mixed_step(seed: int) -> StepData:
+def mixed_step(seed):
     """A step of either family: every fifth a grasp, the others of up to 12 coordinates.
 
     Parameters
@@ -82,7 +74,7 @@ def mixed_step(seed: int) -> StepData:
     return any_step(rng, n_a, n_u, int(rng.integers(0, 8)), rng.choice([1.0, 1e4, 1e9]))
 
 
-def equal_groups(rng: np.random.Generator) -> StepData:
+def equal_groups(rng):
     """Copies of one body with contacts, each with its own gaps, friction, loads, rows and names.
 
     H and the numbers of contacts are equal, so that `fast` shares what it keeps of the groups. Some
@@ -123,7 +115,7 @@ def equal_groups(rng: np.random.Generator) -> StepData:
     )  # fmt: skip
 
 
-def resting_step(rng: np.random.Generator) -> StepData:
+def resting_step(rng):
     """A body on contacts in small integers: rows that depend on each other, and exact ties.
 
     Parameters
@@ -151,7 +143,7 @@ def resting_step(rng: np.random.Generator) -> StepData:
     )  # fmt: skip
 
 
-def designed_step(seed: int) -> StepData:
+def designed_step(seed):
     """A small step of one of four families, with loads and gaps of sizes from 2^-300 to 2^300.
 
     The families are :func:`any_step`, :func:`equal_groups`, :func:`resting_step`, and any step

@@ -5,28 +5,19 @@ conditions are H x - A_W' lam = g, A_W x = b_W, lam > 0 and A x >= b. FLINT solv
 whose solution is put into the equations here; the others are signs of fractions.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from flint import fmpz_mat
 
-Exact = Any
-"""An array of fractions."""
-Program = tuple[Exact, Exact, Exact, Exact]
-"""H, g, A and b."""
 
-
-def exact(values: Any) -> Exact:
+def exact(values):
     """Numbers of float64 as fractions, in an array of the same shape."""
     return np.frompyfunc(Fraction, 1, 1)(np.asarray(values, dtype=object))
 
 
-def solution(M: Exact, right: Exact) -> Exact:
+def solution(M, right):
     """The solution of M x = right: FLINT finds it, and here it is put into the equations.
 
     Raises
@@ -45,14 +36,14 @@ def solution(M: Exact, right: Exact) -> Exact:
     return exact(x)
 
 
-def whole(row: Sequence[Fraction]) -> list[int]:
+def whole(row):
     """A row times the least number that makes it whole."""
     common = math.lcm(*(v.denominator for v in row))
     return [v.numerator * (common // v.denominator) for v in row]
 
 
-def on_rows(of: Program, working: Sequence[int]) -> tuple[Exact, Exact]:
-    """The minimiser on A_i x = b_i of a working set, and its multipliers."""
+def on_rows(of, working):
+    """The minimiser of (H, g, A, b) on A_i x = b_i of a working set, and its multipliers."""
     H, g, A, b = of
     W = list(working)
     none = np.zeros((len(W), len(W)), dtype=int)
@@ -60,7 +51,7 @@ def on_rows(of: Program, working: Sequence[int]) -> tuple[Exact, Exact]:
     return both[: len(g)], both[len(g) :]
 
 
-def proved_optimum(of: Program, working: Sequence[int]) -> tuple[Exact, Exact, Exact]:
+def proved_optimum(of, working):
     """The optimum, its multipliers on a working set, and all slacks.
 
     Raises
@@ -75,16 +66,7 @@ def proved_optimum(of: Program, working: Sequence[int]) -> tuple[Exact, Exact, E
     return x, lam, slack
 
 
-def refutation(
-    H: np.ndarray,
-    g: np.ndarray,
-    A: np.ndarray,
-    b: np.ndarray,
-    x: np.ndarray,
-    net: np.ndarray,
-    slack: np.ndarray,
-    lam: np.ndarray,
-) -> str | None:
+def refutation(H, g, A, b, x, net, slack, lam):
     """Why numbers in float64 are not the correctly rounded answer; None if they are.
 
     `lam` is read for which rows bear.
@@ -106,7 +88,7 @@ def refutation(
     return None
 
 
-def farkas_refutation(A: np.ndarray, b: np.ndarray, y: Mapping[Any, str]) -> str | None:
+def farkas_refutation(A, b, y):
     """Why y, fractions by row as text, does not prove that A x >= b has no solution; else None.
 
     It does if y > 0, A'y = 0 and b'y > 0: then 0 = (A'y)'x >= b'y > 0 for any x.

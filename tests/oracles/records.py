@@ -1,12 +1,7 @@
 """Records of JSON and TOML made wrong by their values, and written as text."""
 
-from __future__ import annotations
-
 import copy
 import json
-import random
-from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -24,11 +19,9 @@ WORDS = (
 DEPTHS = (40, 300, 5000, 100_000)
 DEEP = "@@deep{}@@"
 """In a record stands for a list nested so deep, which no writer of Python's would write."""
-Place = tuple[Any, ...]
-Rng = random.Random
 
 
-def places(value: Any, above: Place = ()) -> Iterator[Place]:
+def places(value, above=()):
     """Where a value can be replaced in a record."""
     if above:
         yield above
@@ -38,14 +31,14 @@ def places(value: Any, above: Place = ()) -> Iterator[Place]:
             yield from places(one, (*above, key))
 
 
-def value_at(record: Any, place: Place) -> Any:
+def value_at(record, place):
     """The value at a place of a record."""
     for key in place:
         record = record[key]
     return record
 
 
-def with_value(record: Any, place: Place, value: Any) -> Any:
+def with_value(record, place, value):
     """A copy of a record with something else at a place, or nothing there, by `...`."""
     if not place:
         return value
@@ -58,7 +51,7 @@ def with_value(record: Any, place: Place, value: Any) -> Any:
     return new
 
 
-def spoilt_record(rng: Rng, good: Any) -> Any:
+def spoilt_record(rng, good):
     """A copy with one to three values replaced, removed, renamed, doubled or exchanged."""
     record = copy.deepcopy(good)
     for _ in range(rng.choice((1, 1, 1, 2, 3))):
@@ -82,7 +75,7 @@ def spoilt_record(rng: Rng, good: Any) -> Any:
     return record
 
 
-def _other_value(rng: Rng, old: Any) -> Any:
+def _other_value(rng, old):
     if isinstance(old, bool | None) or rng.random() < 0.35:
         return _any_value(rng, old)
     if isinstance(old, int | float):
@@ -104,13 +97,13 @@ def _other_value(rng: Rng, old: Any) -> Any:
     return [old] if rng.random() < 0.5 else type(old)()
 
 
-def _any_value(rng: Rng, old: Any) -> Any:
+def _any_value(rng, old):
     depth = DEEP.format(rng.choice(DEPTHS))
     values = (None, True, False, [], {}, [[]], [old], {"a": old}, [0.0] * 1000, depth)
     return rng.choice((any_number(rng), any_number(rng), rng.choice(WORDS), rng.choice(values)))
 
 
-def any_number(rng: Rng) -> Any:
+def any_number(rng):
     """A number that a field may not be ready for."""
     special = (
         float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 5e-324, 1e-323, -0.0, 0, -1, 1,
@@ -119,19 +112,19 @@ def any_number(rng: Rng) -> Any:
     return rng.choice(special)
 
 
-def json_text(record: Any) -> bytes:
+def json_text(record):
     """A record as JSON, with NaN and half characters, as deep as its marks say."""
     return _deepened(_python_json(record))
 
 
-def toml_text(record: Any) -> bytes:
+def toml_text(record):
     """A record as inline TOML."""
     if not isinstance(record, dict):
         return _deepened(_toml(record))
     return _deepened("".join(f"{_python_json(k)} = {_toml(v)}\n" for k, v in record.items()))
 
 
-def _toml(value: Any) -> str:
+def _toml(value):
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_python_json(k)} = {_toml(v)}" for k, v in value.items()) + "}"
     if isinstance(value, list):
@@ -141,7 +134,7 @@ def _toml(value: Any) -> str:
     return _digits(value) if isinstance(value, int) else repr(value)
 
 
-def _python_json(value: Any) -> str:
+def _python_json(value):
     if isinstance(value, dict):
         pairs = (f"{_python_json(str(k))}: {_python_json(v)}" for k, v in value.items())
         return "{" + ", ".join(pairs) + "}"
@@ -152,11 +145,11 @@ def _python_json(value: Any) -> str:
     return json.dumps(value)
 
 
-def _digits(value: int) -> str:
+def _digits(value):
     return str(value) if abs(value) < 10**4000 else "1" + "0" * 5000  # Python refuses to write it
 
 
-def _deepened(text: str) -> bytes:
+def _deepened(text):
     for depth in DEPTHS:
         text = text.replace(json.dumps(DEEP.format(depth)), "[" * depth + "]" * depth)
     return text.encode(errors="surrogatepass")

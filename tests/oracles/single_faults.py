@@ -5,34 +5,28 @@ others go with it, or it comes first, so that a checker without that line would 
 Files without a fault are among them, where only their roundings are rare.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math
-from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-from quasistatic_ref import Extra, StepData
+from quasistatic_ref import Extra
 from quasistatic_ref.cli.solution_files import infeasible_text
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step, point_step
 from quasistatic_ref.step.files import step_sha256, step_text
-from tests.oracles.forged_scenes import facing_frames, scenes
+from tests.oracles.forged_scenes import FACING, scenes
 from tests.oracles.forgeries import good_file, with_its_wrenches
 from tests.oracles.records import with_value
 
-Fault = tuple[str, str, str]
-"""Texts of a step and of a solution, and what the second checker says first."""
 PROVED = "every field is proved"
 H, DOWN = 0.5, 2.0
 """Time step [s] and push on the floor [N]: all numbers here are dyadic."""
 
 
-def single_faults() -> Iterator[Fault]:
-    """Each file with the beginning of the reason for its verdict."""
+def single_faults():
+    """Texts of a step and of a solution, and the beginning of the reason for the verdict."""
     yield from in_the_files()
     yield from rounding_faults()
     yield from on_other_rows()
@@ -40,12 +34,12 @@ def single_faults() -> Iterator[Fault]:
     yield from beyond_a_limit()
 
 
-def fault(step: StepData, record: Any, reason: str) -> Fault:
+def fault(step, record, reason):
     """A fault of a solution file."""
     return step_text(step), json.dumps(record), reason
 
 
-def in_the_files() -> Iterator[Fault]:
+def in_the_files():
     """Texts that are no JSON, steps that are none, and solutions that claim nothing."""
     of = {kind: step for (kind, _), step in scenes().items()}
     step = of["residual"]
@@ -78,7 +72,7 @@ def in_the_files() -> Iterator[Fault]:
     yield step_text(step), proof, "a proof of infeasibility is not written in the ellipsoid"
 
 
-def rounding_faults() -> Iterator[Fault]:
+def rounding_faults():
     """Numbers half-way between two of float64, and below the normal ones; an indefinite matrix."""
     ulp = math.ulp(1.0)
     tau, target = np.array([1.0, 1.0 + ulp]), np.full(2, ulp / 2)  # delta_q = tau + target
@@ -92,7 +86,7 @@ def rounding_faults() -> Iterator[Fault]:
     yield text, json.dumps(record), "K_q is not positive definite"
 
 
-def on_other_rows() -> Iterator[Fault]:
+def on_other_rows():
     """Minimisers on rows that are not those of the optimum, or that are named out of order."""
     cases = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
     idle, held, sticks = (
@@ -117,7 +111,7 @@ def on_other_rows() -> Iterator[Fault]:
         )
 
 
-def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,)) -> StepData:
+def on_floor(across, mu_v=0.5, copies=(0.0,)):
     """A point mass in the ellipsoid, pushed down and across, over planes at some distances."""
     step = point_step(H, (across, 0.0, -DOWN), mu_v, 0.0, H)
     n = len(copies)
@@ -127,7 +121,7 @@ def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,
     return step.replace(cone="ellipsoid", contacts=planes)
 
 
-def stuck_file(step: StepData, lam: list[list[float]], active: list[list[int]], gap: float) -> Any:
+def stuck_file(step, lam, active, gap):
     """The file of a body that stays where it is."""
     certificate = {"kind": "exact", "active": active, "error_bound": 0.0, "gap": gap}
     record = good_file(on_floor(0.0), "exact") | {
@@ -137,7 +131,7 @@ def stuck_file(step: StepData, lam: list[list[float]], active: list[list[int]], 
     return with_its_wrenches(step, record | {"lam": lam, "certificate": certificate})
 
 
-def in_the_ellipsoid() -> Iterator[Fault]:
+def in_the_ellipsoid():
     """Exact answers whose multipliers, slacks or products alone are wrong, by less than the gap."""
     rows = [[0, 0], [0, 1], [0, 2]]
     push = H * DOWN
@@ -162,14 +156,14 @@ def in_the_ellipsoid() -> Iterator[Fault]:
     near = on_floor(0.0, copies=(0.0, -1e-3))
     none = [0.0] * 4
     yield fault(near, stuck_file(near, [[push, 0.0, 0.0, 0.0], none], rows, 0.0), violated)
-    own = on_floor(0.0).replace(extra=Extra(("lifted",), np.eye(3)[2:], np.array([1e-3])))
+    own = on_floor(0.0).replace(extra=Extra(("lifted",), np.eye(3)[2:], [1e-3]))
     record = stuck_file(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [0.0]}
     yield fault(own, record, violated)
     record = stuck_file(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [-1e-12]}
     yield fault(own, record, "lam has a negative multiplier of the user's own rows")
 
 
-def beyond_a_limit() -> Iterator[Fault]:
+def beyond_a_limit():
     """Bounds, gaps and signs that no other field depends on."""
     of = {kind: step for (kind, _), step in scenes().items()}
     slides = of["enclosure"]
@@ -192,7 +186,7 @@ def beyond_a_limit() -> Iterator[Fault]:
     yield fault(slides, record, "error_bound is not between 0 and 1")
     record = with_its_wrenches(slides, with_value(good, ("lam", 0, 3), -1e-12))
     yield fault(slides, record, "a multiplier is negative")
-    open_walls = contacts_of(1e-3, facing_frames(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    open_walls = contacts_of(1e-3, FACING, np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
     step = free_step(np.eye(3), np.zeros(3), open_walls, H)
     for y in ("0", "-1"):
         farkas = ["0"] * 8

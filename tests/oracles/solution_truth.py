@@ -6,25 +6,18 @@ that a file or the package names: all multipliers and slacks are at least zero. 
 the package encloses it to 40 digits.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from flint import arb
 
-from quasistatic_ref import StepData
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from tests.oracles.rational_kkt import Exact, Program, exact, on_rows, proved_optimum, solution
-
-Json = Any
+from tests.oracles.rational_kkt import exact, on_rows, proved_optimum, solution
 
 MAY_CHANGE = {
     "exact": (),
@@ -38,7 +31,7 @@ ROUNDING = 1 + Fraction(1, 10**30)
 """The optimum in the ellipsoid is known to 40 digits here."""
 
 
-def combinations(step: StepData) -> list[Exact]:
+def combinations(step):
     """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
     c = step.contacts
     if step.cone == "ellipsoid":
@@ -50,7 +43,7 @@ def combinations(step: StepData) -> list[Exact]:
     return found
 
 
-def program(step: StepData) -> Program:
+def program(step):
     """H, g, A and b, without rounding."""
     h = Fraction(step.h)
     n_a = step.n_a
@@ -73,7 +66,7 @@ def program(step: StepData) -> Program:
     return H, g, np.vstack(A), np.concatenate(b)
 
 
-def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
+def wrenches(step, lam):
     """(f_d1, f_d2, f_n, tau_n) of each contact from its multipliers, rounded once."""
     found = []
     for rows, impulses in zip(combinations(step), lam, strict=True):
@@ -82,12 +75,12 @@ def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
     return found
 
 
-def nearest_float(x: Fraction) -> float:
+def nearest_float(x):
     """The nearest float64, never -0.0."""
     return float(x) + 0.0
 
 
-def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
+def truth_of(step, good):
     """Whether a forged record of a step still says the truth, given a record that does."""
     kind = good["certificate"]["kind"] if good["status"] == "optimal" else "infeasible"
     if step.cone == "ellipsoid" and kind in ("exact", "residual"):
@@ -95,7 +88,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
     known = ("exact in the ellipsoid", "enclosure", "residual")
     judged = Judge(step, good) if kind in known else None
 
-    def holds(forged: Json) -> bool:
+    def holds(forged):
         try:
             if _fixed_fields(forged, kind) != _fixed_fields(good, kind):
                 return False
@@ -103,7 +96,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
         except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError):
             return False
 
-    def _holds(forged: Json) -> bool:
+    def _holds(forged):
         if kind == "infeasible":
             return proof(step, exact(forged["farkas"]))
         if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
@@ -120,7 +113,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
     return holds
 
 
-def least_bound(step: StepData, record: Json) -> float:
+def least_bound(step, record):
     """The smallest float64 that bounds the error of an uncertified answer."""
     judged = Judge(step, record)
     square = judged.off(record) + 2 * judged.gap(record) / judged.free
@@ -142,7 +135,7 @@ class Judge:
         A solution file of it that tells the truth.
     """
 
-    def __init__(self, step: StepData, good: Json) -> None:
+    def __init__(self, step, good):
         self.program = program(step)
         H, g, _, _ = self.program
         self.free = g @ solution(H, g)
@@ -150,7 +143,7 @@ class Judge:
         taken = self.x @ H @ self.x
         self.rounding = Fraction(1e-9) * (self.free + taken) / 2 * ROUNDING
 
-    def _optimum(self, step: StepData, claims: Json) -> Exact:
+    def _optimum(self, step, claims):
         if claims["kind"] == "enclosure":
             found = checked_pair(step, arb(2) ** -280, 1536)
             unit = exact_form(step).x_unit
@@ -164,32 +157,30 @@ class Judge:
         working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
         return proved_optimum(self.program, working)[0]
 
-    def lam(self, record: Json) -> Exact:
+    def lam(self, record):
         """All multipliers of a record, the user's own rows last."""
         return exact([v for part in record["lam"] for v in part] + record["lam_extra"])
 
-    def off(self, record: Json) -> Fraction:
+    def off(self, record):
         """The square of the error of delta_q."""
         away = exact(record["delta_q"]) - self.x
-        off: Fraction = away @ self.program[0] @ away / self.free
-        return off
+        return away @ self.program[0] @ away / self.free
 
-    def gap(self, record: Json) -> Fraction:
+    def gap(self, record):
         """f(x*) - d(lam) [N m s]."""
         H, g, A, b = self.program
         lam = self.lam(record)
         left = H @ self.x - g - lam @ A
-        gap: Fraction = left @ solution(H, left) / 2 + lam @ (A @ self.x - b)
-        return gap
+        return left @ solution(H, left) / 2 + lam @ (A @ self.x - b)
 
 
-def proof(step: StepData, y: Exact) -> bool:
+def proof(step, y):
     """Whether y proves that a step has no solution."""
     _, _, A, b = program(step)
     return bool(min(y) >= 0 and not any(y @ A) and y @ b > 0)
 
 
-def _fixed_fields(record: Json, kind: str) -> Json:
+def _fixed_fields(record, kind):
     """A record without what may change."""
     free = MAY_CHANGE.get(kind, ())
     kept = {k: v for k, v in record.items() if k not in free}
@@ -198,7 +189,7 @@ def _fixed_fields(record: Json, kind: str) -> Json:
     return kept
 
 
-def _inside(step: StepData, lam: Exact) -> bool:
+def _inside(step, lam):
     """Whether impulses (n, d1, d2, spin) are inside of their cones."""
     for j, mu in enumerate(exact(step.contacts.mu)):
         f_n, *f = lam[4 * j : 4 * j + 4]

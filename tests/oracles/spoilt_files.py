@@ -1,7 +1,5 @@
 """Good files made wrong: their bytes, their tokens, their records and arrays, from one seed."""
 
-from __future__ import annotations
-
 import io
 import json
 import lzma
@@ -9,28 +7,23 @@ import re
 import tomllib
 import warnings
 import zipfile
-from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tests.oracles.records import (
     NUMBERS,
     WORDS,
-    Rng,
     any_number,
     json_text,
     spoilt_record,
     toml_text,
 )
 
-Form = Callable[[Rng, bytes], bytes]
 TOKEN = re.compile(rb"[-+]?\d[\w.+-]*|[A-Za-z_][\w:.-]*|\"[^\"\n]*\"|[^\w\s]")
 TYPES = ("f4", ">f8", "f2", "?", "c16", "U3", "M8[s]", "f8,i4")
 
 
-def spoilt_bytes(rng: Rng, good: bytes) -> bytes:
+def spoilt_bytes(rng, good):
     """A byte changed, a piece cut out or doubled, or the end cut off."""
     at, to = sorted(rng.randrange(len(good) + 1) for _ in "ab")
     changed = bytes([rng.choice((0, 10, 32, 255, rng.randrange(256)))])
@@ -43,7 +36,7 @@ def spoilt_bytes(rng: Rng, good: bytes) -> bytes:
     return rng.choice(kinds)
 
 
-def spoilt_text(rng: Rng, good: bytes) -> bytes:
+def spoilt_text(rng, good):
     """Some tokens of a text replaced by numbers, words or other tokens; or its bytes changed."""
     content = good
     for _ in range(rng.choice((1, 1, 1, 2, 3))):
@@ -59,21 +52,21 @@ def spoilt_text(rng: Rng, good: bytes) -> bytes:
     return content
 
 
-def spoilt_json(rng: Rng, good: bytes) -> bytes:
+def spoilt_json(rng, good):
     """A JSON file, mostly by its values."""
     if rng.random() < 0.3:
         return spoilt_text(rng, good)
     return json_text(spoilt_record(rng, json.loads(good)))
 
 
-def spoilt_toml(rng: Rng, good: bytes) -> bytes:
+def spoilt_toml(rng, good):
     """A TOML file, mostly by its values."""
     if rng.random() < 0.3:
         return spoilt_text(rng, good)
     return toml_text(spoilt_record(rng, tomllib.loads(good.decode())))
 
 
-def spoilt_lines(rng: Rng, good: bytes) -> bytes:
+def spoilt_lines(rng, good):
     """A file of one JSON object a line, by one of its lines."""
     lines = good.splitlines(keepends=True)
     at = rng.randrange(len(lines))
@@ -81,14 +74,14 @@ def spoilt_lines(rng: Rng, good: bytes) -> bytes:
     return b"".join(lines)
 
 
-def spoilt_xz(rng: Rng, good: bytes) -> bytes:
+def spoilt_xz(rng, good):
     """The same, packed."""
     if rng.random() < 0.15:
         return spoilt_bytes(rng, good)
     return lzma.compress(spoilt_lines(rng, lzma.decompress(good)), preset=0)
 
 
-def spoilt_array(rng: Rng, good: NDArray[Any]) -> NDArray[Any]:
+def spoilt_array(rng, good):
     """Another type, another shape, or another number."""
     array = np.array(good)
     kinds = (
@@ -108,14 +101,14 @@ def spoilt_array(rng: Rng, good: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def npy_bytes(array: NDArray[Any]) -> bytes:
+def npy_bytes(array):
     """An array as an ``.npy`` file."""
     file = io.BytesIO()
     np.lib.format.write_array(file, array)
     return file.getvalue()
 
 
-def spoilt_npy(rng: Rng, good: bytes) -> bytes:
+def spoilt_npy(rng, good):
     """An array's file: its header, its bytes, or the array."""
     head, _, rest = good.partition(b"\n")
     kind = rng.random()
@@ -126,7 +119,7 @@ def spoilt_npy(rng: Rng, good: bytes) -> bytes:
     return npy_bytes(spoilt_array(rng, np.load(io.BytesIO(good), allow_pickle=False)))
 
 
-def zip_bytes(members: Sequence[tuple[str, bytes]], pack: int = zipfile.ZIP_STORED) -> bytes:
+def zip_bytes(members, pack=zipfile.ZIP_STORED):
     """Members as a ZIP file whose checksums are right."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w", pack) as archive, warnings.catch_warnings():
@@ -136,7 +129,7 @@ def zip_bytes(members: Sequence[tuple[str, bytes]], pack: int = zipfile.ZIP_STOR
     return file.getvalue()
 
 
-def spoilt_npz(rng: Rng, good: bytes) -> bytes:
+def spoilt_npz(rng, good):
     """A ZIP file of arrays: its bytes, its names, one of its arrays or the JSON in one of them."""
     if rng.random() < 0.1:
         return spoilt_bytes(rng, good)

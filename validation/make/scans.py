@@ -9,7 +9,6 @@ docs/guides/from_a_scan.md says, or a body is held where the solid is not, or th
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -23,7 +22,7 @@ from quasistatic_ref.optional.scans.cloud import spacing, thinned
 from quasistatic_ref.optional.scans.solid import solid_of_mesh
 from quasistatic_ref.scenario.scenario import scenario_path
 from quasistatic_ref.step.arrays import Array
-from tests.oracles.scanned import SCANS, SOLIDS, Exact
+from tests.oracles.scanned import SCANS, SOLIDS
 from validation.tools.scripts import script_options, show_page
 
 POINTS, MASS = 8000, 0.35
@@ -54,7 +53,7 @@ it rises by at least 30 mm and turns by at most 1 degree.
 """
 
 
-def scans(name: str) -> tuple[dict[str, Array], Exact]:
+def scans(name: str) -> tuple[dict[str, Array], tuple[float, Array, Array]]:
     """Points of a solid in each kind of scan, and its exact mass properties."""
     rng = np.random.default_rng(sum(name.encode()))
     if name == "bunny":
@@ -70,7 +69,7 @@ def scans(name: str) -> tuple[dict[str, Array], Exact]:
     return {scan: change(rng, points) for scan, change in SCANS.items()}, exact
 
 
-def errors(made: ScannedBody, exact: Exact) -> tuple[float, float]:
+def errors(made: ScannedBody, exact: tuple[float, Array, Array]) -> tuple[float, float]:
     """Of the centre over the extent, and of the inertia over its largest moment [-]."""
     _, centre, gyration = exact
     extent = float(np.ptp(made.points, axis=0).max())
@@ -87,7 +86,7 @@ def lift_and_turn(made: ScannedBody, width: float, folder: Path) -> tuple[float,
     closed = {"xyz": at}
     covered = min(round(COVERED / spacing(made.points) ** 2), MOST)
     cloud, urdf = made.save(folder)
-    scene: dict[str, Any] = {
+    scene = {
         "h": 0.01,
         "steps": 300,
         "fast": True,
@@ -137,7 +136,7 @@ def lift_and_turn(made: ScannedBody, width: float, folder: Path) -> tuple[float,
 def main() -> int:
     """Write the page."""
     options = script_options(__doc__, out=Path)
-    rows: list[list[str]] = []
+    rows = []
     failed = 0
     with tempfile.TemporaryDirectory() as given:
         folder = Path(given)

@@ -137,7 +137,7 @@ NAME = 'robot name="r"', 'robot name="s"'
 """`inspect` says always that it is not read."""
 
 
-def facts(folder: Path, text: str) -> tuple[list[object], tuple[str, ...]] | str:
+def facts(folder, text):
     """What of a file is in the model, and what is listed; or the sentence that refuses it."""
     try:
         urdf = loaded_urdf(urdf_of_text(folder, text), actuated="all")
@@ -150,7 +150,7 @@ def facts(folder: Path, text: str) -> tuple[list[object], tuple[str, ...]] | str
     places = [(f.name, np.array(data.oMf[i])) for i, f in enumerate(model.frames)]
     shapes = [(s.name, s.link, s.R, s.t, s.shape.words(), s.shape) for s in urdf.shapes]
     reach = [s.shape.support_value(np.eye(3)) for s in urdf.shapes]
-    known: list[object] = [urdf.links, list(model.names), places, shapes, reach]
+    known = [urdf.links, list(model.names), places, shapes, reach]
     return [repr(each) for each in known] + [
         repr([inertia.matrix() for inertia in model.inertias])
     ], urdf.file.ignored

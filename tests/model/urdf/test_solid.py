@@ -65,7 +65,7 @@ WRONG = {
         "it.shape: must be a Sphere, Box",
     ),
     "placed": (
-        (PlacedShape("s", 0, np.eye(3), np.zeros(3), Sphere(1)), 1.0),
+        (PlacedShape.in_world("s", Sphere(1)), 1.0),
         "it.shape: must be a Sphere",
     ),
     "nothing": ((None, 1.0), "it.shape: must be a Sphere"),

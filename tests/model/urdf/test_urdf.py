@@ -143,36 +143,36 @@ def test_a_mimic_may_be_met_before_its_leader():
         assert np.abs(R - turned).max() < ROUNDING
 
 
-def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:
+def _other_axis(model, _):
     model.jointPlacements[1].rotation = Rotation.from_euler("x", 1e-6).as_matrix()
 
 
-def _other_weld(model: pin.Model, _: pin.GeometryModel) -> None:
+def _other_weld(model, _):
     frame = model.frames[model.getFrameId("tool", pin.FrameType.BODY)]
     frame.placement = frame.placement * pin.SE3(np.eye(3), np.array([0, 0, 1e-6]))
 
 
-def _other_mass(model: pin.Model, _: pin.GeometryModel) -> None:
+def _other_mass(model, _):
     model.inertias[2].mass *= 1 + 1e-6
 
 
-def _other_centre(model: pin.Model, _: pin.GeometryModel) -> None:
+def _other_centre(model, _):
     model.inertias[4].lever = model.inertias[4].lever + 1e-6
 
 
-def _no_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+def _no_shape(_, geometry):
     geometry.removeGeometryObject(geometry.geometryObjects[0].name)
 
 
-def _other_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+def _other_shape(_, geometry):
     geometry.geometryObjects[1].geometry = Sphere(0.2).coal
 
 
-def _moved_shape(_: pin.Model, geometry: pin.GeometryModel) -> None:
+def _moved_shape(_, geometry):
     geometry.geometryObjects[1].placement = pin.SE3(np.eye(3), np.array([0, 0.1, 0.2]))
 
 
-def _other_name(model: pin.Model, _: pin.GeometryModel) -> None:
+def _other_name(model, _):
     model.names[1] = "swung"
 
 
@@ -189,14 +189,10 @@ TAMPERED = {
 
 
 @pytest.mark.parametrize("tamper", TAMPERED, ids=lambda tamper: tamper.__name__)
-def test_a_loader_that_misreads_is_noticed(
-    tmp_path,
-    monkeypatch,
-    tamper,
-):
+def test_a_loader_that_misreads_is_noticed(tmp_path, monkeypatch, tamper):
     honest = urdf_module._loaded
 
-    def dishonest(*arguments: object) -> tuple[pin.Model, pin.GeometryModel]:
+    def dishonest(*arguments):
         model, geometry = honest(*arguments)
         tamper(model, geometry)
         return model, geometry

@@ -70,11 +70,11 @@ def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
     assert defect[1:] == ("must be positive definite (ixx iyy izz ixy ixz iyz)", written)
 
 
-def point_mass(centre: str) -> str:
+def point_mass(centre):
     return inertial("1", ("0",) * 3, f'<origin xyz="{centre}"/>')
 
 
-def three_points(second: str) -> str:
+def three_points(second):
     """Point masses at 0 and at (2, 0, 0), and a second one in a frame at (1, 1, 0)."""
     return robot(
         link("a", inertial=point_mass("0 0 0")),

@@ -23,7 +23,7 @@ THREE = robot(
 EXPANSION = '<!DOCTYPE robot [<!ENTITY a "aaaaaaaa"><!ENTITY b "&a;&a;&a;">]>'
 TETRAHEDRON = '<mesh vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3 0 3 2 1 2 3"/>'
 MESH = robot(link("a", collision(TETRAHEDRON)), link("b"), joint("j", "a", "b"))
-REFUSED: dict[str, tuple[str, str, str, str]] = {
+REFUSED = {
     # name: text, what is replaced, by what, words of the sentence
     "malformed": (TWO, "</robot>", "", "line 1: is not well-formed XML: no element found"),
     "another root": (TWO, "robot", "model", r"root element: must be <robot> \(got 'model'\)"),

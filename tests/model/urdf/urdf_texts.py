@@ -1,20 +1,16 @@
 """Small URDF texts that the tests of model/ are written with."""
 
-from pathlib import Path
-
 INERTIAL = (
     '<inertial><origin xyz="0.1 -0.2 0.05" rpy="0.3 0.1 -0.4"/><mass value="2"/>'
     '<inertia ixx="0.02" iyy="0.03" izz="0.04" ixy="0.001" ixz="0.002" iyz="-0.003"/></inertial>'
 )
 
 
-def link(name: str, collisions: str = "", inertial: str = INERTIAL) -> str:
+def link(name, collisions="", inertial=INERTIAL):
     return f'<link name="{name}">{inertial}{collisions}</link>'
 
 
-def inertial(
-    mass: str = "2", moments: tuple[str, str, str] = ("0.02", "0.03", "0.04"), origin: str = ""
-) -> str:
+def inertial(mass="2", moments=("0.02", "0.03", "0.04"), origin=""):
     ixx, iyy, izz = moments
     return (
         f'<inertial>{origin}<mass value="{mass}"/><inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" '
@@ -22,28 +18,26 @@ def inertial(
     )
 
 
-def collision(shape: str, origin: str = "") -> str:
+def collision(shape, origin=""):
     return f"<collision>{origin}<geometry>{shape}</geometry></collision>"
 
 
-def joint(
-    name: str, parent: str, child: str, kind: str = "revolute", axis: str = "0 0 1", more: str = ""
-) -> str:
+def joint(name, parent, child, kind="revolute", axis="0 0 1", more=""):
     return (
         f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
         f'<axis xyz="{axis}"/><limit lower="-1" upper="1" effort="1" velocity="1"/>{more}</joint>'
     )
 
 
-def mimic(of: str, multiplier: float = 1.0, offset: float = 0.0) -> str:
+def mimic(of, multiplier=1.0, offset=0.0):
     return f'<mimic joint="{of}" multiplier="{multiplier}" offset="{offset}"/>'
 
 
-def robot(*elements: str) -> str:
+def robot(*elements):
     return f'<robot name="r" version="1.1">{"".join(elements)}</robot>'
 
 
-def urdf_of_text(folder: Path, text: str, name: str = "r.urdf") -> Path:
+def urdf_of_text(folder, text, name="r.urdf"):
     path = folder / name
     path.write_bytes(text.encode())
     return path

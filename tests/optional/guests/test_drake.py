@@ -1,8 +1,6 @@
 """A state of Drake as a step: that of the same bodies through URDF."""
 
 from importlib import import_module
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,16 +27,16 @@ BASE = link_text("base", 1.0, SMALL)
 
 ROUNDED = 1e-9
 """Of the largest displacement: masses, forces and gaps are rounded twice."""
-KEPT: list[Any] = []
+KEPT = []
 """Diagrams and contexts, which Drake's parts of them do not keep alive."""
 
 
-def free(name: str, shape: str) -> str:
+def free(name, shape):
     """A robot of one link."""
     return robot_text(link_text(name, 0.3, SMALL, shape, (0.01, 0.0, -0.01)))
 
 
-def slider(shape: str, axis: str = "1 0 0") -> str:
+def slider(shape, axis="1 0 0"):
     """A link on a rail."""
     link = link_text("tip", 0.2, SMALL, shape)
     return robot_text(BASE, link, joint_text("rail", "prismatic", "base", "tip", axis))
@@ -52,7 +50,7 @@ ARM = robot_text(
     joint_text("elbow", "revolute", "upper", "tip", "0 1 0", "0.2 0 0"),
 )
 TIP_ON = {"shoulder": 0.3, "elbow": 0.2}
-STATES: dict[str, tuple[dict[str, str], dict[str, Any], dict[str, float]]] = {
+STATES = {
     "a ball on a table": (
         {"table": slider(TABLE), "ball": free("ball", BALL)},
         {"ball": (0.1, 0.05, 0.15), "rail": 0.0},
@@ -81,7 +79,7 @@ STATES: dict[str, tuple[dict[str, str], dict[str, Any], dict[str, float]]] = {
 }  # fmt: skip
 
 
-def of_drake(texts: dict[str, str], places: dict[str, Any], folder: Path) -> tuple[Any, Any]:
+def of_drake(texts, places, folder):
     """A plant of some robots and its context; those without a place are welded to the world."""
     module = import_module("pydrake.all")
     builder = module.DiagramBuilder()
@@ -105,7 +103,7 @@ def of_drake(texts: dict[str, str], places: dict[str, Any], folder: Path) -> tup
 
 @pytest.mark.extra("drake")
 @pytest.mark.parametrize("state", STATES)
-def test_a_state_is_the_one_that_its_urdf_gives(state: str, tmp_path: Path) -> None:
+def test_a_state_is_the_one_that_its_urdf_gives(state, tmp_path):
     """delta_q and forces."""
     given, places, stiffness = STATES[state]
     (tmp_path / "wedge.obj").write_text(WEDGE)
@@ -164,9 +162,7 @@ def test_a_state_is_the_one_that_its_urdf_gives(state: str, tmp_path: Path) -> N
         ({"rail": 1.0}, {"other": 1.0}, "has no stiffness"),
     ],
 )
-def test_what_no_step_has_is_refused(
-    stiffness: dict[str, float], targets: dict[str, float], says: str, tmp_path: Path
-) -> None:
+def test_what_no_step_has_is_refused(stiffness, targets, says, tmp_path):
     """By name."""
     plant, context = of_drake({"push": slider(BALL)}, {}, tmp_path)
     with pytest.raises(ModelError, match=says):

@@ -3,9 +3,7 @@
 import inspect
 import json
 from collections import Counter
-from collections.abc import Callable
 from importlib import import_module
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +13,6 @@ import quasistatic_ref as qr
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.drake import FATES
-from quasistatic_ref.optional.guests.opinion import Opinion
 from quasistatic_ref.step.files import step_sha256
 
 pytestmark = pytest.mark.extra("drake")
@@ -23,13 +20,7 @@ GRAVITY = 9.81
 SLOPE = np.radians(15)
 
 
-def block_on_floor(
-    change: Callable[[Any, Any, Any], Any] = lambda drake, plant, body: None,
-    mu: float = 0.5,
-    slope: float = 0.0,
-    free: bool = True,
-    feet: bool = True,
-) -> tuple[Any, Any, Any]:
+def block_on_floor(change=lambda drake, plant, body: None, mu=0.5, slope=0.0, free=True, feet=True):
     """A block of 1 kg on four feet on a floor, or on a rail above it: diagram, plant, context."""
     drake = import_module("pydrake.all")
     builder = drake.DiagramBuilder()
@@ -62,14 +53,14 @@ def block_on_floor(
     return diagram, plant, context
 
 
-def opinion_on_block(seconds: float = 1.0, **given: Any) -> Opinion:
+def opinion_on_block(seconds=1.0, **given):
     """The opinion on a block that has settled for some seconds."""
     diagram, _, context = block_on_floor(**given)
     import_module("pydrake.all").Simulator(diagram, context).AdvanceTo(seconds)
     return qr.drake_opinion(diagram, context)
 
 
-def test_a_block_that_rests_has_no_finding() -> None:
+def test_a_block_that_rests_has_no_finding():
     opinion = opinion_on_block()
     assert opinion.findings == ()
     assert [c.exact.normal for c in opinion.contacts if c.exact] == pytest.approx([GRAVITY / 4] * 4)
@@ -78,10 +69,10 @@ def test_a_block_that_rests_has_no_finding() -> None:
     assert "Drake's numbers" in str(opinion)
 
 
-def test_contacts_of_one_name_have_numbers() -> None:
+def test_contacts_of_one_name_have_numbers():
     """Two balls, of 2 and 3 kg, have a geometry of the same name: each bears its own weight."""
 
-    def balls(drake: Any, plant: Any, body: Any) -> Any:
+    def balls(drake, plant, body):
         rubs = drake.CoulombFriction(0.5, 0.5)
         here = drake.RigidTransform()
         made = []
@@ -99,7 +90,7 @@ def test_contacts_of_one_name_have_numbers() -> None:
         assert normals[f"{mass:.0f} kg"] == pytest.approx(mass * GRAVITY)
 
 
-def test_a_block_on_a_slope_slides_by_statics() -> None:
+def test_a_block_on_a_slope_slides_by_statics():
     """By tan 15 degrees, 0.27: 0.2 holds 0.2 / 0.27 of the load."""
     (found,) = opinion_on_block(0.2, mu=0.2, slope=SLOPE).findings
     assert (found.kind, found.body) == ("slides", "block")
@@ -107,8 +98,8 @@ def test_a_block_on_a_slope_slides_by_statics() -> None:
     assert "coulomb_friction" in found.remedy
 
 
-def test_drakes_friction_creeps_with_its_stiction_tolerance() -> None:
-    def soft(drake: Any, plant: Any, body: Any) -> None:
+def test_drakes_friction_creeps_with_its_stiction_tolerance():
+    def soft(drake, plant, body):
         plant.set_stiction_tolerance(0.05)
 
     (found,) = opinion_on_block(2.0, slope=SLOPE, change=soft).findings
@@ -117,7 +108,7 @@ def test_drakes_friction_creeps_with_its_stiction_tolerance() -> None:
     assert "set_stiction_tolerance" in found.remedy
 
 
-def test_each_thing_that_drake_has_is_said_to_be_used_without_effect_or_refused() -> None:
+def test_each_thing_that_drake_has_is_said_to_be_used_without_effect_or_refused():
     drake = import_module("pydrake.all")
     named = Counter(" ".join(FATES.values()).split())
     assert set(named.values()) == {1}
@@ -130,15 +121,15 @@ def test_each_thing_that_drake_has_is_said_to_be_used_without_effect_or_refused(
     assert has <= set(named)
 
 
-def rail(plant: Any) -> Any:
+def rail(plant):
     return plant.GetJointByName("rail")
 
 
-def gains(drake: Any, plant: Any, body: Any) -> None:
+def gains(drake, plant, body):
     plant.GetJointActuatorByName("motor").set_controller_gains(drake.PdControllerGains(p=9.0))
 
 
-WITHOUT_EFFECT: dict[str, Callable[[Any, Any, Any], Any]] = {
+WITHOUT_EFFECT = {
     "velocity": lambda d, p, b: lambda own: rail(p).set_translation_rate(own, 0.3),
     "joint.damping": lambda d, p, b: rail(p).set_default_damping(3.0),
     "joint.velocity_limits": lambda d, p, b: rail(p).set_velocity_limits([-1], [1]),
@@ -151,7 +142,7 @@ WITHOUT_EFFECT: dict[str, Callable[[Any, Any, Any], Any]] = {
     "stiction_tolerance": lambda d, p, b: p.set_stiction_tolerance(0.1),
     "penetration_allowance": lambda d, p, b: p.set_penetration_allowance(0.1),
 }
-USED: dict[str, Callable[[Any, Any, Any], Any]] = {
+USED = {
     "joint.position_limits": lambda d, p, b: rail(p).set_position_limits([-1], [1]),
     "actuator.rotor_inertia": lambda d, p, b: (
         p.GetJointActuatorByName("motor").set_default_rotor_inertia(0.1)
@@ -166,11 +157,11 @@ USED: dict[str, Callable[[Any, Any, Any], Any]] = {
 
 
 @pytest.mark.parametrize("what", [*WITHOUT_EFFECT, *USED])
-def test_what_is_used_changes_the_step_and_what_is_without_effect_does_not(what: str) -> None:
-    def step(change: Callable[[Any, Any, Any], Any]) -> str:
+def test_what_is_used_changes_the_step_and_what_is_without_effect_does_not(what):
+    def step(change):
         keeps = []
 
-        def of(drake: Any, plant: Any, body: Any) -> Any:
+        def of(drake, plant, body):
             then = change(drake, plant, body)
             keeps.append(then)
             return then if inspect.isfunction(then) else None
@@ -183,13 +174,13 @@ def test_what_is_used_changes_the_step_and_what_is_without_effect_does_not(what:
     assert what in FATES["used" if what in USED else "without effect"].split()
 
 
-def add_planar_body(drake: Any, plant: Any, body: Any) -> None:
+def add_planar_body(drake, plant, body):
     other = plant.AddRigidBody("other", drake.SpatialInertia.SolidSphereWithMass(1.0, 0.1))
     joint = drake.PlanarJoint("plane", plant.world_frame(), other.body_frame(), [0, 0, 0])
     plant.AddJoint(joint).set_position_limits([-1] * 3, [1] * 3)
 
 
-def push_body(drake: Any, plant: Any, body: Any) -> Any:
+def push_body(drake, plant, body):
     force = drake.ExternallyAppliedSpatialForce()
     force.body_index = body.index()
     return lambda own: plant.get_applied_spatial_force_input_port().FixValue(
@@ -197,17 +188,17 @@ def push_body(drake: Any, plant: Any, body: Any) -> Any:
     )
 
 
-def sprung(drake: Any, plant: Any, body: Any) -> None:
+def sprung(drake, plant, body):
     world = plant.world_body()
     plant.AddForceElement(drake.LinearSpringDamper(world, [0] * 3, body, [0] * 3, 1.0, 9.0, 1.0))
 
 
-def hold_body(drake: Any, plant: Any, body: Any) -> None:
+def hold_body(drake, plant, body):
     plant.set_discrete_contact_approximation(drake.DiscreteContactApproximation.kSap)
     plant.AddBallConstraint(plant.world_body(), [0] * 3, body, [0] * 3)
 
 
-REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+REFUSED = {
     "limits_of_several_coordinates": ({"change": add_planar_body}, "limits of several coordinates"),
     "applied_spatial_force": ({"change": push_body}, "applied_spatial_force"),
     "LinearSpringDamper": ({"change": sprung}, "LinearSpringDamper"),
@@ -217,14 +208,14 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
 
 
 @pytest.mark.parametrize("what", REFUSED)
-def test_what_no_step_can_say_is_refused_by_name(what: str) -> None:
+def test_what_no_step_can_say_is_refused_by_name(what):
     given, says = REFUSED[what]
     diagram, _, context = block_on_floor(**given)
     with pytest.raises(qr.ModelError, match=says):
         qr.drake_opinion(diagram, context)
 
 
-def test_another_number_of_plants_and_a_speed_of_zero_are_refused() -> None:
+def test_another_number_of_plants_and_a_speed_of_zero_are_refused():
     diagram, _, context = block_on_floor()
     with pytest.raises(qr.InputError, match="tolerance"):
         qr.drake_opinion(diagram, context, tolerance=0.0)

@@ -1,10 +1,8 @@
 """Each thing that a MuJoCo model or state can say has its fate in the table, and that fate."""
 
 import copy
-from collections.abc import Callable
 from fnmatch import fnmatchcase
 from functools import cache
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -77,7 +75,7 @@ UNTRIED = ("opt.sdf_initpoints", "opt.sdf_iterations")
 EACH = [name for name in fates.USED.split() if name not in UNTRIED]
 WITHOUT = [name for name in fates.WITHOUT_EFFECT.split() if name not in ("stat", "vis")]
 TURN = np.array([0.9, 0.3, 0.3, 0.1])
-OTHERS: dict[str, Callable[[Any], Any]] = {
+OTHERS = {
     "geom_condim": lambda value: 3,
     "pair_dim": lambda value: 3,
     "geom_gap": lambda value: 0.0,
@@ -92,7 +90,7 @@ OTHERS: dict[str, Callable[[Any], Any]] = {
 """Other values of fields, where those of ``another`` change nothing, or none that is allowed."""
 
 
-def another(value: Any) -> Any:
+def another(value):
     """Another value of the same kind."""
     if not isinstance(value, np.ndarray):
         return value * 1.1 + 0.01 if isinstance(value, float) else value ^ 1
@@ -102,11 +100,11 @@ def another(value: Any) -> Any:
 
 
 @cache
-def model_of(text: str) -> Any:
+def model_of(text):
     return mujoco.MjModel.from_xml_string(text)
 
 
-def scene(text: str = SCENE) -> tuple[Any, Any]:
+def scene(text=SCENE):
     model = copy.copy(model_of(text))
     data = mujoco.MjData(model)
     data.ctrl[:] = 0.3
@@ -117,18 +115,18 @@ def scene(text: str = SCENE) -> tuple[Any, Any]:
     return model, data
 
 
-def answer(model: Any, data: Any) -> Any:
+def answer(model, data):
     return mujoco_step(model, data, 0.01, "as is")
 
 
 @cache
-def unchanged_answer(overrides: bool) -> Any:
+def unchanged_answer(overrides):
     model, data = scene()
     model.opt.enableflags |= overrides * mujoco.mjtEnableBit.mjENBL_OVERRIDE
     return answer(model, data)
 
 
-def step_changes(name: str) -> bool:
+def step_changes(name):
     """Whether another value of a field makes another step."""
     model, data = scene()
     overrides = name.startswith("opt.o_")
@@ -252,7 +250,7 @@ def test_what_is_left_out_is_said():
     assert coordinates.names[-1] == "friction of tendon[cord]"
 
 
-def of_scene(**changes: str) -> str:
+def of_scene(**changes):
     """The scene, with elements before the end of others."""
     text = SCENE
     for element, more in changes.items():

@@ -1,8 +1,5 @@
 """A model as a guest, and read by ``optional/mjcf``: one step, where both see the same contacts."""
 
-from pathlib import Path
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -60,7 +57,7 @@ k = 1
 JOINTS = ("left", "right", "tail")
 
 
-def walker(seed: int, above: float, folder: Path) -> tuple[Any, Any]:
+def walker(seed, above, folder):
     """A random posture with three feet above the floor [m]; in the folder, as a scenario."""
     random = np.random.default_rng(seed)
     q = random.uniform(-0.3, 0.3, 3)

@@ -1,7 +1,5 @@
 """Rows of which only rounding is left bear nothing: contacts, limits and equalities."""
 
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -15,7 +13,7 @@ H = 0.01
 GRAVITY = 9.81
 
 
-def turned(seed: int, world: str, more: str = "", options: str = "") -> tuple[Any, Any]:
+def turned(seed, world, more="", options=""):
     """A scene whose world is turned about a random axis, with its gravity."""
     q = np.random.default_rng(seed).normal(size=4)
     q /= np.linalg.norm(q)
@@ -168,9 +166,7 @@ def test_a_difference_counts_from_1e_9_of_its_terms(held, share, holds):
 
 
 @pytest.mark.parametrize("apart", [0.0, 1e-7, 0.2])
-def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_them(
-    apart,
-):
+def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_them(apart):
     """Two equalities hold one slide at x and at x - apart, over 1e-9 of reach: both cannot be."""
     x = 0.1
     ball = '<joint name="s" type="slide" axis="1 0 0"/><geom size=".1"/>'

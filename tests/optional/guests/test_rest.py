@@ -52,10 +52,10 @@ class Case(NamedTuple):
     default: str = ""
 
 
-def zero(*names: str) -> Callable[[Any, Any], None]:
+def zero(*names):
     """What sets fields of the model or the state to zero."""
 
-    def zeroed(model: Any, data: Any) -> None:
+    def zeroed(model, data):
         for name in names:
             (home,) = [part for part in (data, model, model.opt) if hasattr(part, name)]
             getattr(home, name)[:] = 0
@@ -90,11 +90,11 @@ PAIR = (
 ALONG = "{b} 0 0"
 
 
-def on_floor(z: float, geom: str) -> str:
+def on_floor(z, geom):
     return f'{FLOOR}<body name="b" pos="0 0 {z}"><freejoint/>{geom}</body>'
 
 
-def act(text: str) -> str:
+def act(text):
     return f"<actuator>{text}</actuator>"
 
 
@@ -250,7 +250,7 @@ CASES = {
 }  # fmt: skip
 
 
-def random_model(case: Case, cone: str, soft: tuple[float, float], seed: int) -> tuple[Any, Any]:
+def random_model(case, cone, soft, seed):
     """A random model of an element, and the state that is given for it."""
     random = np.random.default_rng(seed)
     a, k = 10.0 ** random.uniform([-1, 2], [1, 4])
@@ -277,7 +277,7 @@ def random_model(case: Case, cone: str, soft: tuple[float, float], seed: int) ->
     return model, data
 
 
-def settle(model: Any, data: Any) -> None:
+def settle(model, data):
     """Let a state come to rest."""
     model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
     before = 0.0
@@ -294,7 +294,7 @@ def settle(model: Any, data: Any) -> None:
     raise AssertionError(f"does not rest after {MOST} steps")
 
 
-def without_velocity(model: Any, data: Any) -> tuple[Any, Any]:
+def without_velocity(model, data):
     """The sum of all loads of a state [N, N m], and their sizes, one by one."""
     rest = copy.copy(data)
     rest.qvel[:] = 0.0
@@ -303,7 +303,7 @@ def without_velocity(model: Any, data: Any) -> tuple[Any, Any]:
     return rest.qfrc_smooth, np.abs(loads)
 
 
-def normal_forces(data: Any) -> list[float]:
+def normal_forces(data):
     """MuJoCo's normal forces, without the adhesion that it takes off them [N]."""
     forces = np.zeros((data.ncon, 6))
     for i in range(data.ncon):
@@ -321,7 +321,7 @@ class Moved(NamedTuple):
     answer: Any
 
 
-def step_size(model: Any, data: Any, depth: str = "closed") -> Moved:
+def step_size(model, data, depth="closed"):
     """The step of a state, in the norm of H."""
     step, coordinates = mujoco_step(model, data, H, depth)
     answer = solve_step(step, "none" if step.cone == "pyramid" else None)

@@ -1,7 +1,5 @@
 """What penetration does to forces, and what is said of it."""
 
-from typing import Any
-
 import mujoco
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ WELD = '<equality><weld body1="ball"/></equality>'
 CONNECT = '<equality><connect body1="ball" anchor=".5 0 0"/></equality>'
 
 
-def ball(joint: str, depth: float, more: str = "", how: str = "") -> tuple[Any, Any]:
+def ball(joint, depth, more="", how=""):
     """A ball of 0.1 m that is so deep in a floor."""
     model = mujoco.MjModel.from_xml_string(
         f"""<mujoco><size memory="1M"/><worldbody>

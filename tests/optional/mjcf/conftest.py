@@ -6,6 +6,6 @@ from quasistatic_ref.optional.mjcf import compiler
 
 
 @pytest.fixture
-def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+def in_this_process(monkeypatch):
     """MuJoCo compiles without a process for each file, for tests that read hundreds."""
     monkeypatch.setattr(compiler, "printed", compiler.answer)

@@ -2,7 +2,6 @@
 
 import re
 from functools import cache
-from pathlib import Path
 
 import mujoco
 
@@ -11,15 +10,12 @@ from quasistatic_ref.model.urdf.urdf_file import urdf_file
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, urdf_of_text
 
-Element = tuple[str, ...]
-"""The tags from below <mujoco> to an element."""
-
 
 @cache
-def schema() -> dict[Element, list[str]]:
-    """The attributes of each element, as MuJoCo prints them."""
-    found: dict[Element, list[str]] = {}
-    path: Element = ()
+def schema():
+    """The attributes of each element, by its tags below <mujoco>, as MuJoCo prints them."""
+    found = {}
+    path = ()
     for line in mujoco.mj_printSchema(False, False).splitlines():
         element = re.match(r"( *)(\S+) \(.\)(.*)", line)
         if element:
@@ -37,7 +33,7 @@ CHILD = """<mujoco><option timestep="0.1"/><worldbody><body name="c"><geom size=
 VERTICES = 'vertex="0 0 0 0.1 0 0 0 0.2 0 0 0 0.3"'
 
 
-def models(path: Path) -> Path:
+def models(path):
     """A folder with the meshes and models that the files name."""
     (path / "in").mkdir()
     for name, size in {"a.obj": 0.1, "b.obj": 0.4, "in/a.obj": 0.7}.items():
@@ -48,7 +44,7 @@ def models(path: Path) -> Path:
 
 
 @cache
-def outcome(folder: Path, text: str, base: str) -> tuple[str, set[str]] | str:
+def outcome(folder, text, base):
     """What is loaded of a file, and what is listed as ignored; or the sentence that refuses it."""
     try:
         urdf = mjcf_urdf(urdf_of_text(folder, text, "model.xml"), base)
@@ -58,7 +54,7 @@ def outcome(folder: Path, text: str, base: str) -> tuple[str, set[str]] | str:
     return loaded, set(urdf_file(urdf).ignored)
 
 
-def effect(folder: Path, text: str, without: str, name: str) -> str:
+def effect(folder, text, without, name):
     """Whether what `text` says more, an attribute or element of a name, has which effect."""
     base = "floating" if "freejoint" in text else "fixed"
     found = outcome(folder, text, base)

@@ -5,13 +5,12 @@ the file without it, each changes what is loaded, or what is listed, or is refus
 """
 
 import re
-from pathlib import Path
 
 import pytest
 
 from quasistatic_ref.cli.ignored import ALWAYS
 from tests.model.urdf.urdf_texts import LISTED, REFUSED, USED
-from tests.optional.mjcf.small_files import VERTICES, Element, effect, models, schema
+from tests.optional.mjcf.small_files import VERTICES, effect, models, schema
 from tests.optional.mjcf.test_ignored_elements import WHOLE
 
 # Some 600 small files in all; MuJoCo warns of two.
@@ -25,11 +24,11 @@ TURNED = '<body euler="10 20 30"><geom size="0.1"/></body>'
 OF_MESH = '<body><geom type="mesh" mesh="m"/></body>'
 
 
-def doc(body: str, *sections: str) -> str:
+def doc(body, *sections):
     return f"<mujoco>{CLASS}{BLUE}{''.join(sections)}<worldbody>{body}</worldbody></mujoco>"
 
 
-def mesh(attributes: str) -> str:
+def mesh(attributes):
     return f"<asset><mesh {attributes}/></asset>"
 
 
@@ -46,7 +45,7 @@ PLACE = {
     "pos": "1 2 3", "quat": "0.8 0.6 0 0", "axisangle": "1 0 0 40", "euler": "10 20 30",
     "xyaxes": "0 1 0 -1 0 0", "zaxis": "1 1 1",
 }  # fmt: skip
-VALUES: dict[Element, dict[str, str]] = {
+VALUES = {
     ("compiler",): {
         "usethread": "false", "saveinertial": "true", "savecanonical": "false", "angle": "radian",
         "savecompiled": "false", "passthrough": "textures", "texturedir": "in", "eulerseq": "zyx",
@@ -103,16 +102,16 @@ NEVER = {
 """Which of them are refused: by MuJoCo where they say too little, or contradict the others."""
 
 
-def inertial(attributes: str) -> str:
+def inertial(attributes):
     return doc(f"<body><inertial {attributes}/></body>")
 
 
-def fitted_box(compiler: str, geom: str) -> str:
+def fitted_box(compiler, geom):
     box = f'<body><geom type="box" mesh="m" {geom}/></body>'
     return doc(box, f"<compiler {compiler}/>", mesh(f'name="m" {VERTICES}'))
 
 
-def doc_with(attach: str, model: str = 'name="k" file="child.xml"', compiler: str = "") -> str:
+def doc_with(attach, model='name="k" file="child.xml"', compiler=""):
     other = '<model name="l" file="other.xml"/>'
     body = f'<body><geom size="1"/><frame pos="1 0 0"><attach prefix="p" {attach}/></frame></body>'
     return doc(body, f"<compiler {compiler}/>", f"<asset><model {model}/>{other}</asset>")
@@ -124,7 +123,7 @@ RANGE = '<body><joint range="-10 20"/><geom size="0.1"/></body>'
 STATIC = f"<body>{GEOM}<body>{GEOM}</body></body>"
 HFIELD = '<asset><hfield name="h" nrow="2" ncol="2" size="1 1 1 1"/></asset>'
 SLEEP = '<body name="b" {}><joint/><geom size="0.1"/></body>'
-PAIRS: dict[str, tuple[str, str, str]] = {
+PAIRS = {
     "compiler.alignfree": (
         doc(f"<body><freejoint/>{GEOM}</body>", '<compiler alignfree="true"/>'),
         doc(f"<body><freejoint/>{GEOM}</body>"), USED,
@@ -258,7 +257,7 @@ PAIRS: dict[str, tuple[str, str, str]] = {
 """Attributes that need a file of their own: that file, another one, and what differs."""
 
 
-def attributes() -> dict[str, tuple[str, str, str]]:
+def attributes():
     """Each attribute of elements that are read in part."""
     found = {}
     for element, values in VALUES.items():
@@ -287,7 +286,7 @@ ATTRIBUTES = attributes()
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     return models(tmp_path_factory.mktemp("models"))
 
 

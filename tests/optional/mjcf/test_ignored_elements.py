@@ -3,8 +3,6 @@
 Its attributes and children need no file of their own.
 """
 
-from pathlib import Path
-
 import pytest
 
 from tests.model.urdf.urdf_texts import LISTED, REFUSED
@@ -120,7 +118,7 @@ OF_BALLS = ("sensor.ballquat", "sensor.ballangvel", "actuator.orientation")
 BALL = '<body><joint name="n" type="ball"/><geom size="0.1"/></body></worldbody>'
 
 
-def whole_elements() -> dict[str, str]:
+def whole_elements():
     """Files, each with one element of which nothing is read."""
     found = {name: BASE.replace("@", text).replace("#", "") for name, text in INSIDE.items()}
     elements = dict(NEXT_TO_WORLDBODY)
@@ -152,7 +150,7 @@ NOT_ONE_BODY = ("equality.", "body.flexcomp", "deformable.flex")
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     return models(tmp_path_factory.mktemp("models"))
 
 
