@@ -11,6 +11,8 @@ from itertools import product
 
 import numpy as np
 
+from tests.oracles.rational_kkt import exact, solution
+
 OPEN, LEFT, RIGHT, STICK = "open", "left", "right", "stick"
 
 
@@ -32,21 +34,16 @@ def planar_solutions(step):
     assert step.n_a == 0
     assert set(c.rows.tolist()) <= {4}
     assert not np.einsum("ji,jiv->jv", c.d2, c.J[:, :3]).any()
-    H_inverse = inverted(fractions(step.M_u))  # of h H
+    M_u = exact(step.M_u)
+    H_inverse = np.array([solution(M_u, e) for e in exact(np.eye(step.n_v))])  # of h H
     h = Fraction(step.h)
     normal, along = (
-        [
-            [sum(Fraction(a) * Fraction(b) for a, b in zip(axis, J[:3, v], strict=True))
-             for v in range(step.n_v)]
-            for axis, J in zip(axes, c.J, strict=True)
-        ]
+        [exact(axis) @ exact(J[:3]) for axis, J in zip(axes, c.J, strict=True)]
         for axes in (c.n, c.d1)
-    )  # fmt: skip
-    free = [h * h * inner(row, fractions([step.tau_u])[0]) for row in H_inverse]
-    # What an impulse of 1 N s does to x = (h H)^-1 (h^2 tau + h J'p).
-    by_normal, by_along = (
-        [[h * inner(row, J) for row in H_inverse] for J in rows] for rows in (normal, along)
     )
+    free = h * h * H_inverse @ exact(step.tau_u)
+    # What an impulse of 1 N s does to x = (h H)^-1 (h^2 tau + h J'p).
+    by_normal, by_along = ([h * H_inverse @ J for J in rows] for rows in (normal, along))
     points, sets = set(), []
     for modes in product((OPEN, LEFT, RIGHT, STICK), repeat=c.n_c):
         columns, signs, equations, inequalities = [], [], [], []
@@ -54,9 +51,7 @@ def planar_solutions(step):
             mu = Fraction(c.mu_v[j])
             if mode in (LEFT, RIGHT):  # one unknown, p_n: friction is all there is, against it
                 way = -mu if mode == RIGHT else mu
-                columns.append(
-                    [a + way * b for a, b in zip(by_normal[j], by_along[j], strict=True)]
-                )
+                columns.append(by_normal[j] + way * by_along[j])
                 signs.append({len(columns) - 1: 1})
             elif mode == STICK:  # two unknowns
                 columns += [by_normal[j], by_along[j]]
@@ -66,7 +61,7 @@ def planar_solutions(step):
 
         def of(row, constant=Fraction(0), columns=columns):
             """Row x + constant as an affine function of the unknowns: coefficients, constant."""
-            return [inner(row, column) for column in columns] + [inner(row, free) + constant]
+            return [row @ column for column in columns] + [row @ free + constant]
 
         for j, mode in enumerate(modes):
             gap = of(normal[j], Fraction(c.phi[j]))
@@ -190,27 +185,3 @@ def scaled(row):
     """An inequality divided by the size of its first coefficient."""
     size = next((abs(a) for a in row if a), Fraction(1))
     return [a / size for a in row]
-
-
-def inverted(M):
-    """The inverse of a square matrix, by Gauss and Jordan."""
-    n = len(M)
-    rows = [[*row, *(Fraction(int(i == k)) for k in range(n))] for i, row in enumerate(M)]
-    for i in range(n):
-        pivot = next(k for k in range(i, n) if rows[k][i])
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        rows[i] = [a / rows[i][i] for a in rows[i]]
-        for k in range(n):
-            if k != i:
-                rows[k] = [a - rows[k][i] * b for a, b in zip(rows[k], rows[i], strict=True)]
-    return [row[n:] for row in rows]
-
-
-def fractions(matrix):
-    """The same numbers without rounding."""
-    return [[Fraction(float(a)) for a in row] for row in matrix]
-
-
-def inner(a, b):
-    """Sum of products."""
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))

@@ -6,84 +6,54 @@ Every subset of independent rows is solved in `fractions`; one whose multipliers
 
 import random
 from collections import Counter
+from contextlib import suppress
 from fractions import Fraction
-from itertools import combinations
+from itertools import chain, combinations
 
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from tests.oracles.rational_kkt import exact
+from tests.oracles.rational_kkt import exact, proved_optimum, solution
 
 PROBLEMS = 320
 
 
-def gauss_solution(M, right):
-    """The solution of M X = right by Gauss-Jordan elimination; None if M is singular."""
-    rows = [list(r) + list(s) for r, s in zip(M, right, strict=True)]
-    for i in range(len(M)):
-        pivot = next((k for k in range(i, len(M)) if rows[k][i]), None)
-        if pivot is None:
-            return None
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        rows[i] = [a / rows[i][i] for a in rows[i]]
-        for k in range(len(M)):
-            if k != i and rows[k][i]:
-                rows[k] = [a - rows[k][i] * b for a, b in zip(rows[k], rows[i], strict=True)]
-    return [row[len(M) :] for row in rows]
+def subsets(rows, most):
+    """Subsets of rows, the smallest first."""
+    return chain(*(combinations(rows, k) for k in range(most + 1)))
 
 
 class Enumeration:
-    """All optimal working sets of min 1/2 x'Hx - g'x s.t. Ax >= b."""
+    """All optimal working sets of min 1/2 x'Hx - g'x s.t. Ax >= b, by H, g, A and b."""
 
-    def __init__(self, H, g, A, b):
-        self.A, self.b, self.m, self.n = A, b, len(b), len(g)
-        identity = [[Fraction(int(i == j)) for j in range(self.n)] for i in range(self.n)]
-        self.H_inv = gauss_solution(H, identity)
-        self.free = [np.dot(row, g) for row in self.H_inv]
-        self.reach = [[np.dot(row, a) for row in self.H_inv] for a in A]
+    def __init__(self, *program):
+        _, g, A, b = program
         self.x = None
         self.vertices = []
-        for k in range(min(self.n, self.m) + 1):
-            for W in combinations(range(self.m), k):
-                self._try(W)
+        for W in subsets(range(len(b)), min(len(g), len(b))):
+            with suppress(ArithmeticError):
+                x, lam_w, self.slack = proved_optimum(program, W)
+                assert self.x is None or (self.x == x).all()
+                self.x = x
+                lam = [Fraction(0)] * len(b)
+                for i, v in zip(W, lam_w, strict=True):
+                    lam[i] = v
+                if lam not in self.vertices:
+                    self.vertices.append(lam)
         if self.x is not None:
-            self.slack = [np.dot(a, self.x) - b_i for a, b_i in zip(A, b, strict=True)]
-            self._degeneracy()
+            self._degeneracy(A)
 
-    def _try(self, W):
-        S = [[np.dot(self.A[i], self.reach[j]) for j in W] for i in W]
-        lam_w = gauss_solution(S, [[self.b[i] - np.dot(self.A[i], self.free)] for i in W])
-        if lam_w is None or any(v[0] < 0 for v in lam_w):
-            return
-        lam = [Fraction(0)] * self.m
-        for i, (v,) in zip(W, lam_w, strict=True):
-            lam[i] = v
-        x = [f + sum(lam[i] * self.reach[i][v] for i in W) for v, f in enumerate(self.free)]
-        if all(np.dot(a, x) >= b_i for a, b_i in zip(self.A, self.b, strict=True)):
-            assert self.x in (None, x)
-            self.x = x
-            if lam not in self.vertices:
-                self.vertices.append(lam)
-
-    def _degeneracy(self):
+    def _degeneracy(self, A):
         """Rays of the set of optimal multipliers: circuits d >= 0 with A_Z'd = 0."""
-        Z = [i for i, s in enumerate(self.slack) if s == 0]
+        Z = np.flatnonzero(self.slack == 0).tolist()
         rays = []
-        for k in range(1, len(Z) + 1):
-            for C in combinations(Z, k):
-                first, rest = C[0], C[1:]  # a_first = -sum d_i a_i, rest independent
-                gram = [[np.dot(self.A[i], self.A[j]) for j in rest] for i in rest]
-                d = gauss_solution(gram, [[-np.dot(self.A[i], self.A[first])] for i in rest])
-                if d is None or any(v[0] < 0 for v in d):
-                    continue
-                terms = [
-                    self.A[first],
-                    *([v[0] * a for a in self.A[i]] for v, i in zip(d, rest, strict=True)),
-                ]
-                if all(sum(column) == 0 for column in zip(*terms, strict=True)):
-                    rays.append({first, *(i for v, i in zip(d, rest, strict=True) if v[0])})
+        for first, *rest in list(subsets(Z, len(Z)))[1:]:
+            with suppress(ArithmeticError):  # a_first = -sum d_i a_i, rest independent
+                d = solution(A[rest] @ A[rest].T, -A[rest] @ A[first])
+                if (d >= 0).all() and not (A[first] + d @ A[rest]).any():
+                    rays.append({first, *(i for v, i in zip(d, rest, strict=True) if v)})
         supports = [{i for i, v in enumerate(lam) if v} for lam in self.vertices]
         strictly_active = set().union(*supports, *rays)
         self.unique = len(self.vertices) == 1 and not rays
@@ -128,16 +98,12 @@ def small_problem(seed):
     return H, g, np.array(A).reshape(m, n), np.array(b)
 
 
-def enumeration_of(H, g, A, b):
-    return Enumeration(exact(H), exact(g), exact(A), exact(b))
-
-
 def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
     kinds = Counter()
     for seed in range(PROBLEMS):
         H, g, A, b = small_problem(seed)
         form = exact_form_of(H, g, A, b)
-        truth = enumeration_of(H, g, A, b)
+        truth = Enumeration(exact(H), exact(g), exact(A), exact(b))
         kinds["infeasible"] += truth.x is None
         kinds["ambiguous"] += truth.x is not None and not truth.unique
         kinds["kink"] += truth.x is not None and not truth.differentiable

@@ -12,9 +12,6 @@ from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_p
 from tests.helpers import changed, pinch
 from tests.tolerances import ROUNDING
 
-W = 0.3 * 9.81
-"""Weight of the point on the floor [N]."""
-
 
 def planar_push():
     arm = np.array([-0.03, 0.02])

@@ -88,7 +88,7 @@ def test_every_kind_is_checked(first, monkeypatch):
     J = np.zeros((1, 4, 2))
     J[0, 2, 0] = 1.0
     floor = contacts_of(0.0, np.eye(3)[None], J, 0.0)
-    own = Extra(("own",), np.array([[0.0, 1.0]]), np.array([1.0]))
+    own = Extra(("own",), [[0.0, 1.0]], [1.0])
     step = free_step(np.eye(2), -np.ones(2), floor, 0.01).replace(extra=own)
     solve_step(step, "daqp", fast=True)
     assert set(seen) == {rechecked.WHOLE, rechecked.GROUP}

@@ -1,5 +1,8 @@
 """The sources of the compiled library, copied with one text of one file replaced."""
 
+import ctypes
+import subprocess
+
 from quasistatic_ref.optional.fast.compiled import library
 
 
@@ -12,3 +15,11 @@ def changed_sources(folder, name, text, other):
             assert code.count(text) == 1
             code = code.replace(text, other)
         (folder / file.name).write_text(code)
+
+
+def library_of(folder, file, *flags):
+    """The functions of one file of a folder, which calls no other."""
+    out = folder / "alone.so"
+    command = [*library.compiler(), *library.FLAGS, *flags, "-o", out, folder / file, "-lm"]
+    subprocess.run(command, check=True, capture_output=True)
+    return ctypes.CDLL(str(out))

@@ -22,9 +22,9 @@ def cache(tmp_path, monkeypatch):
     return Cache(KEY)
 
 
-def kept_library(cache, text=b"a library"):
+def kept_library(cache):
     made = cache.folder / "made.so"
-    made.write_bytes(text)
+    made.write_bytes(b"a library")
     return cache.keep(made)
 
 

@@ -81,7 +81,7 @@ def touching(system, names):
         solid = PlacedShape("solid", at, np.eye(3), np.zeros(3), next(shapes))
         nearest = UP @ t - solid.shape.support_value(-UP[None] @ R).item()
         side = HalfSpace(UP, nearest - 1e-4 * (at % 3))
-        wall = PlacedShape("wall", 0, np.eye(3), np.zeros(3), side)
+        wall = PlacedShape.in_world("wall", side)
         mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
         pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
         if at % 2 == 0:

@@ -1,7 +1,6 @@
 """Proofs in fixed point: their bounds hold, each constant is needed, their bits are exact."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 from functools import cache
 from operator import mul
@@ -12,9 +11,8 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.optional.fast.compiled import library
 from tests.helpers import changed, random_step
-from tests.optional.fast.compiled.changed_c import changed_sources
+from tests.optional.fast.compiled.changed_c import changed_sources, library_of
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from validation.make.confirmed_bits import differing_fields, proof
 
@@ -105,11 +103,7 @@ def test_each_constant_of_the_bounds_is_needed(tmp_path, name):
 def mutant_library(folder, text, other):
     """The functions of contraction.c, which call no other file, with one text replaced."""
     changed_sources(folder, "contraction.c", text, other)
-    out = folder / "mutant.so"
-    file = str(folder / "contraction.c")
-    command = [*library.compiler(), *library.FLAGS, "-o", str(out), file, "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    return ctypes.CDLL(str(out))
+    return library_of(folder, "contraction.c")
 
 
 @pytest.mark.parametrize(("factor", "shown"), [(1.0, True), (2.0**-600, False)])

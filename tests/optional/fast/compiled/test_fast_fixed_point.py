@@ -1,13 +1,11 @@
 """Sums of products in fixed point are exact, or known not to fit."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
 import numpy as np
 
-from quasistatic_ref.optional.fast.compiled import library as made
-from tests.optional.fast.compiled.changed_c import changed_sources
+from tests.optional.fast.compiled.changed_c import changed_sources, library_of
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
 pytestmark = needs_compiler
@@ -39,10 +37,7 @@ int added(const double *factors, int n, int64_t *digits, double *near)
 def library(folder):
     changed_sources(folder, "fixed_point.h", "", "")
     (folder / "exposed.c").write_text(EXPOSED)
-    out = folder / "exposed.so"
-    command = [*made.compiler(), *made.FLAGS, "-o", str(out), str(folder / "exposed.c"), "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    found = ctypes.CDLL(str(out))
+    found = library_of(folder, "exposed.c")
     found.added.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p]
     return found
 

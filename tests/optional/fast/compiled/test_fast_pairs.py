@@ -32,13 +32,13 @@ pytestmark = pytest.mark.extra("fast")
 WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
 SHAPES = {
     "sphere": Sphere(0.1),
-    "box": Box(np.array([0.05, 0.125, 0.25])),
+    "box": Box((0.05, 0.125, 0.25)),
     "capsule": Capsule(0.05, 0.1),
     "cylinder": Cylinder(0.1, 0.05),
     "cone": Cone(0.1, 0.1),
-    "ellipsoid": Ellipsoid(np.array([0.05, 0.1, 0.2])),
-    "half-space": HalfSpace(np.array([0.0, 0.0, 1.0]), -0.0625),
-    "tilted half-space": HalfSpace(np.array([1.0, 2.0, 2.0]), 0.1),
+    "ellipsoid": Ellipsoid((0.05, 0.1, 0.2)),
+    "half-space": HalfSpace((0.0, 0.0, 1.0), -0.0625),
+    "tilted half-space": HalfSpace((1.0, 2.0, 2.0), 0.1),
     "hull": convex_hull(WEDGE),
 }
 
@@ -175,7 +175,7 @@ def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
     assert made < 26
 
 
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
 
 
 @pytest.mark.parametrize(("solid", "top", "away"), [(FLOOR, 0.0, 1.0), (SHAPES["box"], 0.25, 0.0)])
@@ -208,7 +208,7 @@ def test_the_far_end_of_a_stick_is_seen_once_it_has_turned_round(name, rng):
 
 def test_points_that_are_as_high_but_for_rounding_are_all_looked_at(rng):
     """Points in the plane of a half-space have heights of rounding errors, which motion changes."""
-    solid = HalfSpace(np.array([1.0, 2.0, 2.0]), 1.0)
+    solid = HalfSpace((1.0, 2.0, 2.0), 1.0)
     along = np.array([[2.0, 1.0, -2.0], [-2.0, 2.0, -1.0], [1.0, 2.0, 2.0]]) / 3
     pairs = one_pair(solid, sheet(20, 1 / 512) @ along, 5)
     tracker = PosedPairs(pairs, 3)
@@ -221,10 +221,10 @@ def test_zero_is_positive(cloud_first):
     """Half a turn about z whose zeros are -0.0, and a height that is -0.0."""
     turned = -np.eye(3)
     turned[2, 2] = 1.0
-    points = placed_shape(PointCloud(np.array([[1.0, 1.0, 0.0]])), 1)
+    points = placed_shape(PointCloud([[1.0, 1.0, 0.0]]), 1)
     pairs = []
     for z in (1.0, -1.0):
-        solid = placed_shape(HalfSpace(np.array([0.0, 0.0, z]), 0.0), R=turned)
+        solid = placed_shape(HalfSpace((0.0, 0.0, z), 0.0), R=turned)
         pairs.append(pair(points, solid) if cloud_first else pair(solid, points))
     found = same_bits(PosedPairs(pairs, 2), pairs, *poses((0, 0, 0)))
     assert not bits(found.phi).any()
@@ -243,7 +243,7 @@ def test_points_that_touch_two_faces_at_once_are_left_to_the_plain_path(monkeypa
     far = np.array([4.0, 0.0, 0.0])  # of the cloud's frame: no place is larger
     half = TIED_FACES * far[0] / 2
     x, y, z = 0.25, 0.5, 1.0
-    box = placed_shape(Box(np.array([x, y, z])), 1)
+    box = placed_shape(Box((x, y, z)), 1)
     pairs = []
     tied = []
     for i, j, side in itertools.product(range(-4, 4), range(-4, 4), (1, -1)):

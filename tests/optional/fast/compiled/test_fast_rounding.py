@@ -1,14 +1,12 @@
 """Which float64 is nearest to a number of fixed point, by its first two digits alone."""
 
 import ctypes
-import subprocess
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.fast.compiled import library as made
-from tests.optional.fast.compiled.changed_c import changed_sources
+from tests.optional.fast.compiled.changed_c import changed_sources, library_of
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
 pytestmark = needs_compiler
@@ -46,11 +44,7 @@ def library(folder, text="", other=""):
     """The function by itself, with one text of rounding.c replaced; it calls no other file."""
     changed_sources(folder, "rounding.c", text, other)
     (folder / "exposed.c").write_text(EXPOSED)
-    file = str(folder / "exposed.c")
-    out = folder / "exposed.so"
-    command = [*made.compiler(), *made.FLAGS, "-O0", "-o", str(out), file, "-lm"]
-    subprocess.run(command, check=True, capture_output=True)
-    found = ctypes.CDLL(str(out))
+    found = library_of(folder, "exposed.c", "-O0")
     found.shown.argtypes = [*[ctypes.c_int64] * 3, ctypes.c_int, ctypes.c_double, ctypes.c_void_p]
     found.shown_quotient.argtypes = [
         ctypes.c_void_p,
