@@ -84,7 +84,7 @@ class Attack:
         self.folder = Path(folder)
         self.counts = Counter()
         self.wrong = []
-        self.cases: list[Case] = []
+        self.cases = []
 
     def add(self, outcome: str, holds: bool = True, note: str = "") -> None:
         """Count a case, and keep what is wrong with it."""

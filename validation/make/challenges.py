@@ -64,7 +64,7 @@ def judged_count(pieces: list[Record]) -> int:
 
 def challenge_pieces(runner: str, log: Log, jobs: int, kept: Path | None) -> list[Record]:
     """The pieces of a program."""
-    pieces: list[Record] = []
+    pieces = []
     with tempfile.TemporaryDirectory() as folder:
         command = PLAIN
         if (PORTS / runner).exists():

@@ -22,7 +22,7 @@ def main() -> None:
     path = None if options.count else ROWS
     log = Log(path, key=lambda one: Cell(*(one[name] for name in names)), head=grid())
     wanted = [one for one in cells() if not options.count or one.seed < options.count]
-    drawn: tuple[object, ...] = ()
+    drawn = ()
     for cell in tqdm(wanted):
         if cell in log.found:
             continue

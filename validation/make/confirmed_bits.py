@@ -97,8 +97,7 @@ def proof(step: StepData, rows: Indices, *, nearby: bool = False) -> ExactOptimu
     (own,) = prover.proofs
     if own is None:
         return None
-    found: ExactOptimum | None = own.nearby(both.units) if nearby else own.on(rows, both.units)
-    return found
+    return own.nearby(both.units) if nearby else own.on(rows, both.units)
 
 
 def seed_outcome(seed: int) -> tuple[str, Counter[str], list[str]]:
@@ -138,7 +137,7 @@ def seed_outcome(seed: int) -> tuple[str, Counter[str], list[str]]:
 def main() -> int:
     """Check, print and write the table; exit status 1 if a bit differs."""
     options = script_options(__doc__, random=5000, out=Path)
-    found: dict[str, Counter[str]] = {}
+    found = {}
     faults = []
     with ProcessPoolExecutor() as pool:
         outcomes = pool.map(seed_outcome, range(options.random), chunksize=16)

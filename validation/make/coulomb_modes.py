@@ -76,7 +76,7 @@ def step_verdict(step: StepData) -> tuple[str, str]:
         return count, "" if count == "none" else "a solution that is not seen"
     if not found.found:
         return count, "not found"
-    places: list[Any] = [[(x, x) for x in point] for point in points] + sets
+    places = [[(x, x) for x in point] for point in points] + sets
     right = all(any(_near(x, place) for place in places) for x in (found.delta_q, *others))
     return count, "" if right else "no solution"
 

@@ -18,7 +18,7 @@ from quasistatic_ref import StepData, StepIllPosed, StepInfeasible, StepNotSolve
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.rechecked import DETERMINED
-from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ACCURACY
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rational_kkt import exact, proved_optimum
@@ -42,9 +42,9 @@ since its optimum is absurdly long.
 
 def by_fast(step: StepData) -> object:
     """The optimum by `fast`, started from DAQP where that has an answer."""
-    solver: Solver = solver_for(step, "daqp", fast=True)
+    solver = solver_for(step, "daqp", fast=True)
     both = solver.in_both_units(step)
-    answer: NaturalAnswer | None = None
+    answer = None
     with suppress(StepNotSolved):  # the exact method starts cold
         answer = solver.answer(both, ACCURACY)
     return solver.prover.optimum(both, answer)

@@ -129,7 +129,7 @@ def loads(seed: int) -> Record:
         [rng.uniform(0, 3, count), np.linspace(0, 3, count), np.linspace(3, 0, count)][seed % 3 - 1]
     )
     masses = 10.0 ** rng.uniform(-3, 6) * ratios / ratios.max()
-    args: Record = {"h": 10.0 ** rng.uniform(-4, -1)}
+    args = {"h": 10.0 ** rng.uniform(-4, -1)}
     if seed % 2:
         args |= {"spring": 10.0 ** rng.uniform(2, 9), "press": 10.0 ** rng.uniform(-1, 4)}
     scene = loaded_pile(masses.tolist(), **args)

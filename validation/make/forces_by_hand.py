@@ -100,7 +100,7 @@ def cloud(half: float) -> Shape:
 
 SQUARE = ("box", "hull", "cloud")
 FLAT = {
-    "box": lambda half: Box(np.array([half, half, HALF])),
+    "box": lambda half: Box((half, half, HALF)),
     "hull": hull,
     "cylinder": lambda half: Cylinder(half, HALF),
     "cone": lambda half: Cone(half, HALF),
@@ -110,7 +110,7 @@ SOLIDS = tuple(kind for kind in FLAT if kind != "cloud")
 ROUND = {
     "sphere": Sphere(HALF),
     "capsule": Capsule(HALF / 2, HALF / 2),
-    "ellipsoid": Ellipsoid(np.array([0.04, 0.03, HALF])),
+    "ellipsoid": Ellipsoid((0.04, 0.03, HALF)),
 }
 TIPPED = ("hull", "cone")
 """Shapes that lie on their base only: below others they are turned over."""
@@ -272,7 +272,7 @@ def on_edge(depth: float) -> Scene:
 
 def slab() -> tuple[Shape, Array, Array]:
     """What the lowest bodies stand on."""
-    return Box(np.array([1.0, HALF, HALF])), STRAIGHT, -HALF * UP
+    return Box((1.0, HALF, HALF)), STRAIGHT, -HALF * UP
 
 
 def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Scene:
@@ -281,9 +281,7 @@ def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Sc
     for i in range(count):
         half = HALF - i * inset
         middle = (i + 0.5) * tall - (i + 1) * depth
-        shape = (
-            Cylinder(half, tall / 2) if kind == "coin" else Box(np.array([half, half, tall / 2]))
-        )
+        shape = Cylinder(half, tall / 2) if kind == "coin" else Box((half, half, tall / 2))
         bodies.append((shape, STRAIGHT, middle * UP))
     normals = {(i - 1 if i else count, i): UP for i in range(count)}
     return Scene([*bodies, slab()], normals, np.outer(depth * np.arange(1, count + 1), RISE))
@@ -295,7 +293,7 @@ def wall(rows: Sequence[Sequence[float]], inset: float, depth: float) -> Scene:
     half = HALF - inset
     count = len(at)
     places = [np.array([x * EDGE, 0.0, (r + 0.5) * EDGE - (r + 1) * depth]) for x, r in at]
-    brick = Box(np.array([half, HALF, HALF]))
+    brick = Box((half, HALF, HALF))
     normals = {(count, j): UP for j, (_, r) in enumerate(at) if r == 0}
     for (i, (x, r)), (j, (y, s)) in combinations(enumerate(at), 2):
         along = abs(y - x)
@@ -316,7 +314,7 @@ def corner(mu_v: float, inset: float, depth: float) -> Scene:
     """
     sides = [(inset, inset, 0.0)[i] + depth - EDGE for i in range(3)]
     fixed = [(BOX, STRAIGHT, at * way) for at, way in zip(sides, np.eye(3), strict=True)]
-    box = Box(np.array([HALF - inset, HALF - inset, HALF]))
+    box = Box((HALF - inset, HALF - inset, HALF))
     normals = {(i + 1, 0): np.eye(3)[i] for i in range(3)}
     motion = depth / (1 - mu_v) * np.array([[1.0, 1.0, 1.0, 0.0, 0.0, 0.0]])
     load = WEIGHT - [1.5, 2.5, 0.0, 0.0, 0.0, 0.0]

@@ -225,7 +225,7 @@ def opened_elsewhere(log: Path) -> dict[int, str]:
     temporary = tempfile.gettempdir()
     kept = [ROOT, sys.prefix, sys.base_prefix, *sysconfig.get_paths().values(), *sys.path]
     allowed = (*SYSTEM, *(str(Path(one).resolve()) for one in kept if one))
-    found: dict[int, str] = {}
+    found = {}
     number = -(10**9)
     for line in log.read_text(errors="replace").splitlines():
         if mark := MARK.search(line):

@@ -106,7 +106,7 @@ def exit_status(child: int) -> int:
 
 def digest(folder: Path) -> dict[str, object]:
     """What a folder holds that is not a time, by the names of files: nothing half written."""
-    found: dict[str, object] = {}
+    found = {}
     for path in sorted(folder.rglob("*")):
         if not path.is_file():
             continue
@@ -166,7 +166,7 @@ def kill_outcome(name: str, folders: Folders, longest: float, rng: random.Random
     said = ["ended before" if status == 0 else "killed" if by == signal.SIGKILL else "interrupted"]
     for other in others:
         said += ["second ones refused"] if exit_status(other) == 2 else []
-    more: list[str] = []
+    more = []
     for _ in range(MOST):
         status = exit_status(child_of([*words, *more], output))
         if status == 0:

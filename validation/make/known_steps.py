@@ -118,7 +118,7 @@ def main() -> int:
     untested = Path(folder.name) / "untested.so"  # the file is what would test it
     subprocess.run(library.compiling(library.compiler(), untested), check=True)
     library.chosen = str(untested)
-    kinds: Counter[Any] = Counter()
+    kinds = Counter()
     lines = []
     seeds = takewhile(lambda _: len(lines) < MOST, range(SEEDS))
     designed = ((seed % 4, varied_step(seed)) for seed in seeds)

@@ -221,7 +221,7 @@ def random_models(seeds: Iterable[int]) -> Tried:
     refused = []
     wrong = []
     worst = np.zeros(3)
-    kinds: Counter[str] = Counter()
+    kinds = Counter()
     for seed in seeds:
         with tempfile.TemporaryDirectory() as folder:
             made = random_model(Path(folder), seed)
@@ -245,7 +245,7 @@ def shape_pairs(
 ) -> list[tuple[ContactPair, int, int]]:
     """Some pairs of shapes of two links, and MuJoCo's numbers of their geoms."""
     touches = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    geoms: dict[int, list[int]] = {}
+    geoms = {}
     for g in np.flatnonzero(touches & (model.geom_type > 1)):
         geoms.setdefault(numbers.get(int(model.geom_bodyid[g]), -1), []).append(int(g))
     number = {id(s): geoms[s.link].pop(0) for s in system.shapes}

@@ -112,7 +112,7 @@ class Ran:
 
 def driven_scene(model: Any, data: Any) -> MujocoScenario:
     """A scene whose servos and joints with motors are driven."""
-    stiffness: dict[str, Any] = {}
+    stiffness = {}
     servos = set()
     for i in range(model.nu):
         if model.actuator_biasprm[i, 1] < 0:
@@ -209,7 +209,7 @@ def like(scene: MujocoScenario, rows: int) -> tuple[Simulator, Any]:
     bodies = [Body(f"b{i}", ball(), "floating", xyz=(i, 0, 0.05)) for i in range(free)]
     robot = f'<robot name="arm">{links}{joints}</robot>'
     system = System([Body("arm", robot, actuated="all", xyz=(0, 0, 1)), *bodies] if arm else bodies)
-    floor = PlacedShape.in_world("floor", HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0))
+    floor = PlacedShape.in_world("floor", HalfSpace((0.0, 0.0, 1.0), 0.0))
     touching = [f"b{i}" for i in range(free)] or [f"arm/l{arm}"]
     pairs = [
         ContactPair(
@@ -263,7 +263,7 @@ class Stop(Observer):
 def same_after_resuming(scene: MujocoScenario, run: Trajectory) -> bool:
     """Whether the run, interrupted and resumed, has the same bits."""
     with tempfile.TemporaryDirectory() as folder:
-        saving: dict[str, Any] = {"save": Path(folder) / "run.npz", "save_every": 0.0}
+        saving = {"save": Path(folder) / "run.npz", "save_every": 0.0}
         try:
             scene.run(progress=False, observers=[Stop()], **saving)
         except RunFailed:

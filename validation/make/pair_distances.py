@@ -49,7 +49,7 @@ def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], i
     random = np.random.default_rng(0)
     directions = random.normal(size=(4000, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    worst: dict[str, float] = {}
+    worst = {}
     inside = refused = 0
     here = ShapeInWorld(a, np.eye(3), np.zeros(3))
     for R, t in closest.poses(count, 0):

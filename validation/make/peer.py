@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from importlib import import_module
@@ -59,7 +59,7 @@ APART = 1e-5
 """Change of a coordinate by which whole derivatives are measured [m, rad]."""
 EVERY = 10
 """Between how many steps they are."""
-HEADS: dict[str, tuple[str, ...]] = {
+HEADS = {
     "trajectories": (
         "model", "steps", *SOLVERS, "digits", *(f"kappa {kappa:g}" for kappa in KAPPAS),
     ),
@@ -157,7 +157,7 @@ class Model:
         self.diagram = builder.Build()
         self.root = self.diagram.CreateDefaultContext()
         self.context = self.plant.GetMyContextFromRoot(self.root)
-        self.stiffness: dict[str, float] = {}
+        self.stiffness = {}
         for robot in says["robots"]:
             instance = self.plant.GetModelInstanceByName(robot["name"])
             own = [self.plant.get_joint(i) for i in self.plant.GetJointIndices(instance)]
@@ -291,7 +291,7 @@ def unlimited(model: Model, step: StepData) -> StepData:
     return step.replace(extra=no_rows(step.n_v))
 
 
-CHANGES: dict[str, Callable[[Model, StepData], StepData]] = {
+CHANGES = {
     "true masses": scaled, "our tangents": turned, "loads": unloaded, "limits": unlimited,
 }  # fmt: skip
 """What makes a step of ours one of the peer's, by what ours would keep."""
@@ -347,7 +347,7 @@ def whole(model: Model, k: int) -> Array:
 
 def of_gradients(model: Model, states: list[State], given: list[dict[str, Any]]) -> list[str]:
     """A row of the table of gradients."""
-    off: dict[str, list[float]] = {key: [] for key in ("B", "same rows", "E", "held", "whole")}
+    off = {key: [] for key in ("B", "same rows", "E", "held", "whole")}
     for state, theirs in zip(states, given, strict=True):
         model.q = state.at
         step, T = state.step, state.T
@@ -423,7 +423,7 @@ def main() -> int:
 
 def compare(source: Path, found: dict[str, Any], out: Path | None) -> int:
     """Compare all models, write the page, and return the exit status."""
-    rows: dict[str, list[tuple[Any, ...]]] = {key: [] for key in HEADS}
+    rows = {key: [] for key in HEADS}
     far = []
     for name, theirs in found.items():
         model = Model(name, theirs["model"], source)

@@ -35,7 +35,7 @@ def reader() -> Callable[[Path, str], Iterator[Read]]:
     """The function ``problems(folder, family)`` of the set's README."""
     page = (problem_set_folder(CONTACT_QP_2) / "README.md").read_text("utf-8")
     (lines,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    names: dict[str, Any] = {}
+    names = {}
     exec(lines, names)
     return names["problems"]
 

@@ -170,7 +170,7 @@ class Builder:
     def __init__(self, folder: Path, plainly: str = "-O1") -> None:
         self.folder = folder
         self.plainly = plainly
-        self.plain: dict[str, bytes] = {}
+        self.plain = {}
         for file in library.SOURCE.glob("*.[ch]"):
             (folder / file.name).write_text(file.read_text())
         self.objects = sorted(file.stem for file in library.SOURCE.glob("*.c"))
@@ -286,7 +286,7 @@ def of_file(
 ) -> tuple[str, list[str], int]:
     """The row of a file, that of its mutants that pass, and how many these are."""
     reasons = tomllib.loads(REASONS.read_text()).get(file, {})
-    kinds: Counter[str] = Counter()
+    kinds = Counter()
     lines = []
     for one in mutants(file, every):
         name = f"{file} {one.line} {hashlib.sha256(one.text.encode()).hexdigest()}"

@@ -145,7 +145,7 @@ def summary(found: dict[str, dict[str, Any]], every: int) -> dict[str, Any]:
 def main() -> None:
     """Predict what is left, and write the summary."""
     options = script_options(__doc__, work=Path("reality_work"), every=10, jobs=2, out=OUT)
-    found: dict[str, dict[str, Any]] = {}
+    found = {}
     for name, entry in predictions(options.every, options.work, options.jobs):
         found[name] = entry
         mean = entry["error"]["mean"]

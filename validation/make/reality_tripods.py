@@ -7,7 +7,6 @@ these all five sets are predicted. The other cones and frictions of the finger a
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -112,7 +111,7 @@ def tripods_read(folder: Path) -> list[TripodSet]:
     table = table_read(folder / "tripods.csv", COLUMNS, {}, ("surface",))
     every = np.arange(len(table.pairs))
     places = table.array(every, *SUPPORTS)
-    sets: dict[str, list[int]] = {}
+    sets = {}
     for k, surface in enumerate(table.pairs):
         points = " ".join(f"({x:.0f}, {y:.0f})" for x, y in 1e3 * places[k].reshape(3, 2))
         sets.setdefault(f"{surface} {points}", []).append(k)
@@ -234,7 +233,7 @@ def main() -> None:
         "variants": {},
     }
     for name, changes in VARIANTS.items():
-        entry: dict[str, Any] = {}
+        entry = {}
         for own in sets:
             scene = tripod(own, frozen, **changes)
             kinds = Counter()

@@ -15,7 +15,6 @@ from tqdm import tqdm
 
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.log import Log
-from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.programs.engines.judge import program_of
 from validation.programs.engines.phenomena import engine_answer
 from validation.programs.engines.second_order import (
@@ -48,8 +47,8 @@ class Engines:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.started = ExitStack()
-        self.programs: dict[str, Program] = {}
-        self.references: dict[tuple[str, float], Motion] = {}
+        self.programs = {}
+        self.references = {}
 
     def answer(self, run: Run) -> dict[str, Any]:
         """Poses and processor time of a run."""

@@ -11,7 +11,6 @@ import sys
 from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import IO
 
 import numpy as np
 
@@ -36,8 +35,8 @@ class Pipe:
         self.program = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         assert self.program.stdin is not None
         assert self.program.stdout is not None
-        self.to: IO[bytes] = self.program.stdin
-        self.back: IO[bytes] = self.program.stdout
+        self.to = self.program.stdin
+        self.back = self.program.stdout
         self.back.readline()  # what it is
 
     def line(self, q: Array, target: Array) -> Array:

@@ -45,7 +45,7 @@ class Browser:
     """
 
     def __init__(self) -> None:
-        self.events: list[dict[str, Any]] = []
+        self.events = []
         # Chromium's helper processes end after it and still write into the folder.
         self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_child, from_us = os.pipe()

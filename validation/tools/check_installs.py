@@ -224,7 +224,7 @@ def _versions(lowest: bool) -> str:
 
 def write_table(path: Path, rows: list[list[str]]) -> None:
     """The table with these rows; other rows of a table that is there stay."""
-    kept: dict[tuple[str, ...], list[str]] = {}
+    kept = {}
     for line in path.read_text("utf-8").splitlines() if path.exists() else []:
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if line.startswith("|") and line != HEAD and cells[0] in COMMANDS:

@@ -49,7 +49,7 @@ class Page(HTMLParser):
         self.links = []
         self.loads = []
         self.pictures = []
-        self.names: set[str] = set()
+        self.names = set()
         self.text = []
         self._inside = ""
         self.feed(text)

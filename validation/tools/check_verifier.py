@@ -109,7 +109,7 @@ def main() -> int:
         check_page(options.site)
     with TemporaryDirectory() as folder:
         cases = list(all_cases(Path(folder), options.all))
-    rows: dict[str, Counter[str]] = {}
+    rows = {}
     faults = []
     for case, said in zip(cases, verdicts(cases), strict=True):
         ours = "verified" if case.refusal is None else "refused"

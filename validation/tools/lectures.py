@@ -61,7 +61,7 @@ def program(name: str, answers: bool) -> str:
 
 def marks(name: str, answers: bool) -> dict[str, bool]:
     """Task -> whether it is right, after the lecture has run in this process."""
-    space: dict[str, Any] = {}
+    space = {}
     exec(compile(program(name, answers), name, "exec"), space)
     return dict(space["marks"])
 
@@ -82,7 +82,7 @@ def lesson(name: str) -> list[tuple[str, str]]:
 
 def book(parts: Iterable[tuple[str, str]]) -> dict[str, Any]:
     """A notebook of Jupyter's format: cells of ``text``, or of code."""
-    made: list[dict[str, Any]] = []
+    made = []
     for kind, source in parts:
         cell = {"id": f"cell-{len(made)}", "metadata": {}, "source": source}  # the same every time
         if kind == "text":

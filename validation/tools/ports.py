@@ -56,7 +56,7 @@ def compiler_errors(name: str, out: Path, changed: Mapping[str, str] | None = No
 def main() -> int:
     """Build, check and challenge both."""
     folder = Path(sys.argv[1])
-    found: list[str] = []
+    found = []
     for name in BUILDS:
         answers = folder / f"{name}_answers"
         answers.mkdir(parents=True)

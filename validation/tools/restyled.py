@@ -54,7 +54,7 @@ def on_paper() -> Iterator[tuple[str, Figure]]:
 
 def in_styles(name: str) -> dict[str, tuple[Figure, list[str]]]:
     """A figure in each style, and in a cell of a grid: what it is -> the figure, its faults."""
-    made: dict[str, tuple[Figure, list[str]]] = {}
+    made = {}
     for style in ("paper", COLUMN, "slides", "poster"):
         with figure_style(style):
             page = drawer(name)()

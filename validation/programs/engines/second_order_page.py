@@ -62,7 +62,7 @@ def span(own: list[Record], verdict: str) -> str:
     good = {row["h"] for row in own if row[verdict]}
     if len(good) == len(steps):
         return "all"
-    parts: list[list[float]] = []
+    parts = []
     for before, h in zip([None, *steps], steps, strict=False):
         if h in good:
             if before in good:
@@ -82,7 +82,7 @@ def tables(found: list[Record]) -> str:
     lines = ["<!-- Written by python -m validation.make.second_order. -->", ""]
     lines += [*(f"- {name}: {setting}" for (_, setting), name in names.items()), ""]
     for scene, title in SCENES.items():
-        cells: dict[str, list[str]] = {}
+        cells = {}
         for engine, setting, _, own in series(found, scene):
             held = span(own, "holds")
             right = span(own, "right")

@@ -13,7 +13,7 @@ def phenomena_page(records: dict[str, Any]) -> str:
     """Engine, setting and phenomenon; what is asked; which reproduction shows which cell."""
     head = [f"{p['title']} [{p['unit']}]" for p in PHENOMENA.values()]
     table = [("*the answer*", "", *map(answer, PHENOMENA.values()))]
-    shown: dict[tuple[str, str, str], list[str]] = {}
+    shown = {}
     for record in records.values():
         for setting, cells in record["settings"].items():
             words = [

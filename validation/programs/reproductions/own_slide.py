@@ -6,7 +6,7 @@ import quasistatic_ref as qr
 
 urdf = """<robot name="sled"><link name="sled"><inertial><mass value="0.3"/><inertia ixx="1e-3" iyy="1e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
 system = qr.System([qr.Body("sled", urdf, "floating", xyz=(0, 0, 0.02))])
-floor = qr.PlacedShape("floor", 0, np.eye(3), np.zeros(3), qr.HalfSpace((0, 0, 1), 0.0))
+floor = qr.PlacedShape.in_world("floor", qr.HalfSpace((0, 0, 1), 0.0))
 feet = [qr.PlacedShape(f"{x} {y}", system.link("sled"), np.eye(3), np.array([x, y, -0.01]), qr.Sphere(0.01)) for x in (-0.1, 0.1) for y in (-0.1, 0.1)]
 pairs = [qr.ContactPair(foot.name, floor, foot, 0.5, 0.01, 6, 1) for foot in feet]
 for cone, way in [(cone, way) for cone in ("pyramid", "ellipsoid", "product") for way in ((1, 0), (0.5**0.5, 0.5**0.5))]:
