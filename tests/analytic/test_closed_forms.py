@@ -215,8 +215,8 @@ def test_r13_pushed_block(rng):
         J[1, :3, 1:] = np.eye(3)
         J[1, 0, 0] = -1.0
         contacts = contacts_of([mu * v * h, 0.0], [np.eye(3), [y, z, x]], J, [mu, 0.0])
-        step = StepData(h, np.array([[K]]), m * np.eye(3), np.zeros(1), np.array([0, 0, -m * G]),
-                        np.array([v * h + F / K]), contacts)  # fmt: skip
+        step = StepData(h, [[K]], m * np.eye(3), np.zeros(1), [0, 0, -m * G],
+                        [v * h + F / K], contacts)  # fmt: skip
         answer = exact(step)
         near(answer.delta_q, [v * h, v * h, 0, 0], v * h + F / K)
         near(answer.wrench[:, 2], [m * G, F], F + m * G)

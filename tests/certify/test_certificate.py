@@ -23,7 +23,7 @@ def step():
     row = np.zeros((2, step.n_v))
     row[:, 6] = [1.0, -1.0]  # the gripper stays a little more open than it would
     least = step_optimum(step).delta_q[6] + 1e-6
-    return step.replace(extra=Extra(("close", "open"), row, np.array([least, -1.0])))
+    return step.replace(extra=Extra(("close", "open"), row, [least, -1.0]))
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     that nothing presses on, whose rows are four equal ones.
     """
     step = resting_point(tau_x=3.0, contacts=0)
-    step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], np.array([0.75])))
+    step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], [0.75]))
     step = step if touching != "a contact" else point_on_floor(mu_v=0.0)
     optimum = step_optimum(step)
     claims = exact_certificate(step, optimum)
@@ -89,7 +89,7 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
 def test_a_row_that_would_have_to_pull_is_in_no_working_set():
     """The unconstrained step of 0.75 m, held at x = 0.5 by x >= 0.5, would need a pull."""
     step = resting_point(tau_x=3.0, contacts=0)
-    step = step.replace(extra=Extra(("passed",), np.eye(4)[:1], np.array([0.5])))
+    step = step.replace(extra=Extra(("passed",), np.eye(4)[:1], [0.5]))
     optimum = step_optimum(step)
     assert exact_certificate(step, optimum).active == ()
     refused = verify(step, optimum.delta_q, ((0, 0),), optimum.lam)

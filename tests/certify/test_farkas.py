@@ -49,7 +49,7 @@ def test_walls_that_overlap_are_infeasible_and_named():
 @pytest.mark.parametrize("k", [4.0, 0.25])
 def test_the_largest_entry_of_a_proof_is_one(k):
     """X >= 1 m and -k x >= 1 m: k times the first and the second add up to 0 >= k + 1 metres."""
-    extra = Extra(("one", "two"), np.array([[1.0], [-k]]), np.ones(2))
+    extra = Extra(("one", "two"), [[1.0], [-k]], np.ones(2))
     step = free_step(np.eye(1), [0.0], no_contacts(1), 0.5).replace(extra=extra)
     with pytest.raises(StepInfeasible) as failure:
         step_optimum(step)
@@ -58,7 +58,7 @@ def test_the_largest_entry_of_a_proof_is_one(k):
 
 
 def test_single_row_that_nothing_satisfies_is_named_alone():
-    extra = Extra(("my limit",), np.zeros((1, 3)), np.array([1.0]))
+    extra = Extra(("my limit",), np.zeros((1, 3)), [1.0])
     step = point_between_walls([EAST], [1.0]).replace(extra=extra)
     with pytest.raises(StepInfeasible, match=r"extra \(my limit\) cannot be satisfied"):
         step_optimum(step)
@@ -108,7 +108,7 @@ def test_length_counts_from_the_push_that_the_step_wants(k, is_refused):
     """
     b = 2.0**-10
     e = 2.0**-k
-    pair = Extra(("one", "two"), np.array([[1.0, e, 0], [-1.0, e, 0]]), np.full(2, b))
+    pair = Extra(("one", "two"), [[1.0, e, 0], [-1.0, e, 0]], np.full(2, b))
     step = free_step(np.eye(3), [0.0, 0.0, 4 * b], no_contacts(3), 0.5).replace(extra=pair)
     if is_refused:
         with pytest.raises(StepIllPosed) as failure:

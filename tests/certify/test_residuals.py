@@ -12,9 +12,6 @@ from tests.closeness import assert_within
 from tests.helpers import planted_step, residuals_of, sphere_on_floor
 from tests.tolerances import ROUNDING
 
-SIZE = 1e-3
-"""Of a planted violation, in its own unit."""
-
 
 def plant():
     return planted_step(np.random.default_rng(5))
@@ -72,7 +69,7 @@ def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, ex
 def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
     """At rest with x >= 0.3 and y >= 0.1; multipliers of -0.7 and -0.2."""
     step = sphere_on_floor().replace(
-        cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], np.array([0.3, 0.1]))
+        cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], [0.3, 0.1])
     )
     found = residuals_of(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
     near(found.primal, 0.3)

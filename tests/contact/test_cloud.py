@@ -28,9 +28,9 @@ from tests.tolerances import (
 SHAPES = {
     "sphere": Sphere(0.3),
     "capsule": Capsule(0.2, 0.3),
-    "box": Box(np.array([0.2, 0.3, 0.4])),
+    "box": Box((0.2, 0.3, 0.4)),
     "cylinder": Cylinder(0.25, 0.3),
-    "half-space": HalfSpace(np.array([1.0, -2.0, 2.0]), 0.3),
+    "half-space": HalfSpace((1.0, -2.0, 2.0), 0.3),
 }
 COORDINATE = st.one_of(
     st.floats(-1, 1, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-100),
@@ -82,7 +82,7 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
 
 
 # Sizes that are exact in binary, so that ties are exact.
-BRICK = Box(np.array([0.25, 0.5, 0.75]))
+BRICK = Box((0.25, 0.5, 0.75))
 DISC = Cylinder(0.25, 0.125)
 BALL, CAPSULE, BOX, CAN, WALL = SHAPES.values()
 DEGENERATE = {
@@ -192,7 +192,7 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z):
     c = 0.1
     foot_x = a**2 * x / (a**2 - c**2)
     way = np.array([foot_x - x, 0.0, c * np.sqrt(1 - (foot_x / a) ** 2)])
-    phi, n = Ellipsoid(np.array([a, b, c])).signed_distance(np.array([[x, 0.0, z]]))
+    phi, n = Ellipsoid((a, b, c)).signed_distance(np.array([[x, 0.0, z]]))
     assert_within(phi, [-np.sqrt(way @ way)], CLOSED_FORM)
     assert_within(n, [way / np.sqrt(way @ way)], CLOSED_FORM)
 

@@ -25,10 +25,10 @@ FLOOR = HalfSpace(Z, 0.0)
 CUBE = Box(np.full(3, 0.25))
 SOLIDS = {
     "sphere": Sphere(0.1),
-    "box": Box(np.array([0.1, 0.15, 0.2])),
+    "box": Box((0.1, 0.15, 0.2)),
     "capsule": Capsule(0.08, 0.15),
     "cylinder": Cylinder(0.1, 0.15),
-    "half-space": HalfSpace(np.array([1.0, 2.0, 2.0]), 0.3),
+    "half-space": HalfSpace((1.0, 2.0, 2.0), 0.3),
 }
 
 
@@ -140,7 +140,7 @@ def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_squ
 
 
 def test_a_capsule_that_lies_above_a_box_has_its_contacts_below_the_centres_of_its_caps():
-    table = Box(np.array([1.0, 1.0, 0.5]))
+    table = Box((1.0, 1.0, 0.5))
     along_x = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
     there = standing_links((along_x, 1.0 * Z))
     found = found_for(placed_shape(table), placed_shape(Capsule(0.125, 0.25), 1), there, 2)
@@ -174,8 +174,8 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
 
 
 def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
-    along_x = placed_shape(Box(np.array([0.5, 0.25, 0.25])))
-    along_y = placed_shape(Box(np.array([0.25, 0.5, 0.25])), 1)
+    along_x = placed_shape(Box((0.5, 0.25, 0.25)))
+    along_y = placed_shape(Box((0.25, 0.5, 0.25)), 1)
     found = found_for(along_x, along_y, standing_links((np.eye(3), 0.5 * Z)), 4)
     square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
     assert sorted(found.alpha[:, :2].tolist()) == square

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, ContactError, PointCloud, Sphere
@@ -18,7 +17,6 @@ from quasistatic_ref.contact.separations import (
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import SAME_NORMAL, TIED_FACES, TOUCHING_FACES
 from tests.closeness import assert_within
 from tests.tolerances import CLOSED_FORM
@@ -32,7 +30,7 @@ TO_X = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 TO_Y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 
 
-def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeInWorld:
+def at(shape, t=ORIGIN, R=STRAIGHT):
     return ShapeInWorld(shape, R, np.array(t))
 
 
@@ -41,7 +39,7 @@ def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeIn
     [
         (at(CUBE, [1.0, -0.5, 0.0]), 2.0),  # the cube's edge
         (at(CUBE, [1.0, -5.0, 0.0]), 5.0),  # a place
-        (at(PointCloud(np.array([10 * X, -10 * X]))), 2.0),
+        (at(PointCloud([10 * X, -10 * X])), 2.0),
     ],
 )
 def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size):

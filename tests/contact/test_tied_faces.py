@@ -5,11 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, HalfSpace, PointCloud, convex_hull
-from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.separations import OF_CLOUD, OF_PAIR
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.tied_faces import _over, corner_surface, faces_apart
-from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.tolerances import SAME_NORMAL
 from tests.closeness import assert_within
 from tests.contact.still import found_for, pair, placed_shape, standing_links
@@ -18,7 +16,7 @@ from tests.tolerances import CLOSED_FORM
 X, Y, Z = np.eye(3)
 
 
-def closest_points_of(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
+def closest_points_of(a, b, R, t, k):
     points = found_for(placed_shape(a), placed_shape(b, 1), standing_links((R, t)), k)
     assert len(points.phi) == pair(placed_shape(a), placed_shape(b, 1), k).n_c
     return points
@@ -55,7 +53,7 @@ def test_rivals_are_faces_of_another_normal_that_are_as_high_but_for_rounding():
     assert rivals.tolist() == [[False, True, False, False]]
 
 
-def surface(shape: Shape, x: list[float], n: np.ndarray, within: float) -> tuple[list[float], int]:
+def surface(shape, x, n, within):
     """What a corner x has on a shape where the pair's normal is n: phi and normal, and the tie."""
     body = ShapeInWorld(shape, np.eye(3), np.zeros(3))
     phi, normal, tie = corner_surface(body, np.array([x]), n, within)
@@ -96,6 +94,6 @@ def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
     # -0.5.
     t = 5 * X
     cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
-    points = closest_points_of(Box(np.array([0.1, 1.0, 1.0])), cloud, np.eye(3), t, 2)
+    points = closest_points_of(Box((0.1, 1.0, 1.0)), cloud, np.eye(3), t, 2)
     assert_within(points.n, [X, X], CLOSED_FORM)
     assert points.tie.tolist() == [OF_CLOUD] * 2

@@ -73,9 +73,9 @@ def test_m_u_of_a_joint_follows_what_an_actuated_joint_moves_below_its_mimic():
 
 
 def test_sines_are_computed_once_at_a_configuration(monkeypatch):
-    angles: list[float] = []
+    angles = []
 
-    def counted(angle: float) -> tuple[float, float]:
+    def counted(angle):
         angles.append(angle)
         return cos_sin(angle)
 

@@ -1,14 +1,12 @@
 """System: configurations, names and bodies that cannot be, each refused in words."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 from quasistatic_ref import Body, ModelError, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, urdf_of_text
 
-BAD_Q: dict[str, tuple[str, int, float, str]] = {
+BAD_Q = {
     "nan": ("arm/swing", 0, np.nan, r"q\[arm/swing\]: must be finite"),
     "inf": ("box/base", 1, np.inf, r"q\[box/base\]: must be finite"),
     "zero quaternion": ("box/base", -1, 0.0, r"q\[box/base\]: its quaternion must have length"),
@@ -51,7 +49,7 @@ def test_unknown_names_are_answered_with_the_nearest(scene):
         scene.load(scene.q_start, "desk", np.ones(3), np.ones(3))
 
 
-BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
+BAD_BODY = {
     "no name": ({"name": ""}, "body.name: must be a name"),
     "world": ({"name": "world"}, "body.name: must be a name other than 'world'"),
     "space": ({"name": "a b"}, "body.name: must not contain"),

@@ -13,7 +13,7 @@ from tests.tolerances import ROUNDING
 GRAVITY = np.array([1.0, -2.0, -9.81])
 
 
-def balls(count: int) -> System:
+def balls(count):
     """Free balls, each of another mass, place and orientation."""
     return System([
         Body.of_shape(f"ball{k}", Sphere(0.1), 1.0 + k, xyz=(k, 2 * k, -k), rpy=(0.1 * k, 0.2, 0.3))

@@ -60,7 +60,7 @@ def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_p
     assert load_scenario(path, {"bodies.ball": within}).system.mass("ball") == 0.7
 
 
-RECURSIVE: dict[str, object] = {}
+RECURSIVE = {}
 RECURSIVE["inner"] = RECURSIVE
 
 REFUSED = {

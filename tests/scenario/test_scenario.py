@@ -175,13 +175,13 @@ def test_gravity_is_in_tau_a_only_where_it_is_not_compensated(load, compensated,
 
 
 WORLD = {
-    "box": ("box = { size = [0.2, 0.4, 0.6] }", Box(np.array([0.1, 0.2, 0.3]))),
+    "box": ("box = { size = [0.2, 0.4, 0.6] }", Box((0.1, 0.2, 0.3))),
     "sphere": ("sphere = { radius = 0.2 }", Sphere(0.2)),
     "cylinder": ("cylinder = { radius = 0.2, length = 0.6 }", Cylinder(0.2, 0.3)),
     "capsule": ("capsule = { radius = 0.2, length = 0.6 }", Capsule(0.2, 0.3)),
     "halfspace": (
         "halfspace = { normal = [0, 3, 4], offset = 10 }",
-        HalfSpace(np.array([0.0, 0.6, 0.8]), 2.0),
+        HalfSpace((0.0, 0.6, 0.8), 2.0),
     ),
 }
 

@@ -13,11 +13,10 @@ from quasistatic_ref import (
     PointCloud,
     convex_hull,
 )
-from quasistatic_ref.shapes.placed_shape import Shape
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import CLOSED_FORM, ROUNDING
 
-BOX = Box(np.array([0.1, 0.2, 0.3]))
+BOX = Box((0.1, 0.2, 0.3))
 MESH = convex_hull(np.array([[1.0, 1, 1], [2, 1, 1], [1, 1.5, 1], [1, 1, 1.25]]))
 TOWARDS = np.array([0.6, 0.8, 0.0])
 TILTED = np.array([0.3, 0.4, -np.sqrt(0.75)])
@@ -30,7 +29,7 @@ CORNERS = {
     "capsule": (Capsule(0.5, 0.7), [(0, 0, -0.7), (0, 0, 0.7)], 0.5),
     "cylinder": (Cylinder(0.5, 0.7), [(*p, z) for z in (-0.7, 0.7) for p in RIM], 0.0),
     "cone": (Cone(0.5, 0.7), [(0, 0, 0.7), *((*p, -0.7) for p in RIM)], 0.0),
-    "ellipsoid": (Ellipsoid(np.array([0.1, 0.2, 0.3])), [], 0.0),
+    "ellipsoid": (Ellipsoid((0.1, 0.2, 0.3)), [], 0.0),
 }
 
 
@@ -49,15 +48,15 @@ def test_an_upright_rim_begins_on_the_x_axis():
     assert_within(found[1:], around, CLOSED_FORM)
 
 
-EXTENTS: dict[str, tuple[Shape, float]] = {
+EXTENTS = {
     "box": (BOX, 2 * 0.3),
     "mesh away from its origin": (MESH, 2 - 1),
-    "ellipsoid": (Ellipsoid(np.array([0.1, 0.4, 0.2])), 2 * 0.4),
+    "ellipsoid": (Ellipsoid((0.1, 0.4, 0.2)), 2 * 0.4),
     "flat cone": (Cone(0.5, 0.1), 2 * 0.5),
     "slim cone": (Cone(0.5, 0.7), 2 * 0.7),
     "capsule": (Capsule(0.5, 0.7), 2 * (0.5 + 0.7)),
-    "cloud": (PointCloud(np.array([[1.0, 3, 5], [1.2, 3.1, 5.3], [1.1, 3, 5]])), 5.3 - 5),
-    "half-space": (HalfSpace(np.array([0.0, 0, 1]), 0.1), np.inf),
+    "cloud": (PointCloud([[1.0, 3, 5], [1.2, 3.1, 5.3], [1.1, 3, 5]]), 5.3 - 5),
+    "half-space": (HalfSpace((0.0, 0, 1), 0.1), np.inf),
 }
 
 

@@ -60,7 +60,7 @@ def test_the_plain_path_asks_for_nothing_of_fast(monkeypatch):
 def test_a_fall_of_3000_km_ends_on_the_floor(fast):
     """In a step of 1000 s, h^2 g = 9.8e6 m: no contact that fills a number stops it before."""
     system = System([Body.of_shape("ball", Sphere(0.1), 1.0, xyz=(0.0, 0.0, 3e6))])
-    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), Box((1e7, 1e7, 0.2)))
+    floor = PlacedShape.in_world("floor", Box((1e7, 1e7, 0.2)))
     pair = ContactPair("floor(floor, ball)", floor, system.shapes[0], 0.5, 0.0, 4, 4)
     limits = Limits(reach=1e8)
     made = Simulator(system, [pair], h=1000.0, K_q=np.zeros((0, 0)), limits=limits, fast=fast)

@@ -113,10 +113,7 @@ class Boxes:
         self, system: System, on_walls: Sequence[int], touching: Sequence[tuple[int, int]]
     ) -> list[ContactPair]:
         """Those of some boxes with each wall, and of boxes with each other; four contacts each."""
-        walls = [
-            PlacedShape(f"wall{i}", 0, np.eye(3), np.zeros(3), wall)
-            for i, wall in enumerate(self.walls)
-        ]
+        walls = [PlacedShape.in_world(f"wall{i}", wall) for i, wall in enumerate(self.walls)]
         boxes = [
             on_link(system, f"box{i}/solid", Box(tuple(half)))
             for i, half in enumerate(self.half.tolist())

@@ -123,8 +123,3 @@ def sink(spacing: float) -> float:
     between = INNER * np.cos(a) - np.sqrt(HOOK**2 - (INNER * np.sin(a)) ** 2)
     across = TUBE * (1 - np.cos(spacing / (2 * TUBE)))
     return float(between - (INNER - HOOK) + across)
-
-
-def rise(parts: int) -> float:
-    """How far a mug rises whose handle is an odd number of capsules [m]: the middle one hangs."""
-    return float(ARC * (1 - np.cos(np.pi / (2 * parts))))

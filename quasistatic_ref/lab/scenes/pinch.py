@@ -51,7 +51,7 @@ def pinch_step(
         K_q=STIFFNESS * np.eye(2),
         M_u=np.diag([m, m, m, INERTIA, INERTIA, INERTIA]),
         tau_a=np.zeros(2),
-        tau_u=np.array([0.0, 0.0, -m * GRAVITY, 0.0, 0.0, 0.0]),
+        tau_u=[0.0, 0.0, -m * GRAVITY, 0.0, 0.0, 0.0],
         delta_q_bar_a=np.full(2, grip / STIFFNESS),
         contacts=contacts_of(0.0, frames, J, mu_v, mu_omega, rows=6),
         cone=cone,

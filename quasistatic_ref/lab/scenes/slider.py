@@ -151,7 +151,7 @@ def push_step(of: Push) -> StepData:
         K_q=STIFFNESS * np.eye(2),
         M_u=np.diag([M, M, M, M * GYRATION**2]),
         tau_a=np.zeros(2),
-        tau_u=np.array([0, 0, -M * GRAVITY, 0]),
+        tau_u=[0, 0, -M * GRAVITY, 0],
         delta_q_bar_a=of.advance + of.force / STIFFNESS,
         contacts=contacts_of(
             [of.gap, 0.0], np.array([np.eye(3), [Z, across, normal]]), J,

@@ -33,8 +33,8 @@ def spun_step(phi: float, lag: float, h: float) -> StepData:
     J = np.zeros((1, 4, 4))
     J[0, :3, 1:], J[0, 3, 0] = np.eye(3), 1.0
     return StepData(
-        h, np.array([[STIFFNESS]]), M * np.eye(3), np.zeros(1), np.array([0, 0, -M * GRAVITY]),
-        np.array([lag + SPIN * h]), contacts_of(phi, np.eye(3), J, MU_V, MU_OMEGA, rows=6),
+        h, [[STIFFNESS]], M * np.eye(3), np.zeros(1), [0, 0, -M * GRAVITY],
+        [lag + SPIN * h], contacts_of(phi, np.eye(3), J, MU_V, MU_OMEGA, rows=6),
     )  # fmt: skip
 
 

@@ -109,7 +109,7 @@ def system_of(texts: Mapping[str, str], **settings: Mapping[str, Any]) -> System
 def world_plane(normal: ArrayLike = (0, 0, 1)) -> PlacedShape:
     """A half-space fixed in the world, its surface through the origin."""
     shape = HalfSpace(np.array(normal, dtype=np.float64), 0.0)
-    return PlacedShape("floor", 0, np.eye(3), np.zeros(3), shape)
+    return PlacedShape.in_world("floor", shape)
 
 
 def on_link(system: System, link: str, shape: Shape) -> PlacedShape:

@@ -12,7 +12,6 @@ from quasistatic_ref import Box, Capsule, Cone, ContactError, Cylinder, Ellipsoi
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
-from quasistatic_ref.shapes.placed_shape import Shape
 from tests.closeness import assert_within
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, ROUNDING, WAY_OUT
@@ -27,7 +26,7 @@ SMALLER = 1e-5
 HERE = np.eye(3), np.zeros(3)
 
 
-def enlarged(solid: closest.Table, scale: float) -> closest.Table:
+def enlarged(solid, scale):
     return {
         key: value if key == "kind" else (scale * np.array(value)).tolist()
         for key, value in solid.items()
@@ -37,11 +36,11 @@ def enlarged(solid: closest.Table, scale: float) -> closest.Table:
 WEDGE = 0.1 * np.array([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2.0]])
 
 
-def along(x: float, y: float, z: float) -> np.ndarray:
+def along(x, y, z):
     return np.array([x, y, z]) / np.linalg.norm([x, y, z])
 
 
-BOX = Box(np.array([0.03, 0.05, 0.08]))
+BOX = Box((0.03, 0.05, 0.08))
 MESH = convex_hull(WEDGE)
 CAPSULE = Capsule(0.03, 0.05)
 CYLINDER = Cylinder(0.05, 0.08)
@@ -61,10 +60,10 @@ FEATURES = {
     "other rim of a cylinder": (CYLINDER, 0.05 * along(1, 2, 0) - [0, 0, 0.08], along(1, 2, -2)),
 }
 """A solid, a point of it, and an outward normal there, in its own frame."""
-OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
+OTHERS = Ellipsoid((0.03, 0.05, 0.08)), Cone(0.05, 0.08)
 
 
-def solid_next_to(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]:
+def solid_next_to(feature, other, distance):
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
@@ -109,8 +108,8 @@ def test_a_pair_that_is_made_smaller_has_the_same_normal_and_a_smaller_distance(
 
 def test_a_hair_of_penetration_is_not_nothing():
     # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
-    a = Ellipsoid(np.array([0.1, 0.05, 0.04]))
-    b = Ellipsoid(np.array([0.2, 0.03, 0.06]))
+    a = Ellipsoid((0.1, 0.05, 0.04))
+    b = Ellipsoid((0.2, 0.03, 0.06))
     phi = -1.6e-10
     found = solid_pair(
         "p", ShapeInWorld(a, *HERE), ShapeInWorld(b, np.eye(3), np.array([0.3 + phi, 0, 0]))

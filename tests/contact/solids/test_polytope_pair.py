@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Capsule, convex_hull
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.shapes.placed_shape import Shape
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import CLOSED_FORM, OF_DIFFERENCE
 
@@ -23,13 +22,11 @@ ROOF = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.0
 """A tip at the origin, and what is above it."""
 
 
-def turned(x: float, y: float, z: float) -> np.ndarray:
+def turned(x, y, z):
     return Rotation.from_euler("xyz", [x, y, z]).as_matrix()
 
 
-def moved_pair(
-    a: Shape, R_a: np.ndarray, b: Shape, R_b: np.ndarray, t_b: np.ndarray, seed: int
-) -> Witness:
+def moved_pair(a, R_a, b, R_b, t_b, seed):
     """The closest points after a motion of both, in the frame before it; a is at the origin."""
     rng = np.random.default_rng(seed)
     S = Rotation.random(rng=rng).as_matrix()

@@ -7,7 +7,7 @@ from tests.tolerances import CLOSED_FORM, CURVED_PAIR, WAY_OUT
 from validation.make.pair_distances import pair_errors
 
 
-def by_coal(names: tuple[str, str]) -> bool:
+def by_coal(names):
     return bool(closest.CURVED & set(names)) and not {"sphere", "half-space"} & set(names)
 
 

@@ -189,7 +189,7 @@ def test_what_a_ball_cannot_is_refused():
 
 
 def test_a_solid_turns_about_its_middle_as_a_base():
-    box = System([Body.of_shape("box", Box(np.array([0.1, 0.2, 0.3])), 1.0, base="ball")])
+    box = System([Body.of_shape("box", Box((0.1, 0.2, 0.3)), 1.0, base="ball")])
     assert (box.n_q, box.n_v) == (4, 3)
     placed = box.placed({"box": {"rpy": [0, 0, np.pi / 2]}})
     np.testing.assert_allclose(placed, [0, 0, np.sqrt(0.5), np.sqrt(0.5)], atol=ROUNDING)

@@ -40,8 +40,8 @@ end_header
 """
 
 
-def binary_ply(kind: str, code: str, points: np.ndarray = POINTS) -> bytes:
-    body = b"".join(struct.pack(f"<B3{code}", 7, *point) for point in points)
+def binary_ply(kind, code):
+    body = b"".join(struct.pack(f"<B3{code}", 7, *point) for point in POINTS)
     return BINARY_HEADER.format(kind).encode() + body
 
 
@@ -59,27 +59,27 @@ DATA """
 PCD_BODY = b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n"
 
 
-def pcd(kind: str, body: bytes, header: str = PCD_HEADER) -> bytes:
+def pcd(kind, body, header=PCD_HEADER):
     return f"{header}{kind}\n".encode() + body
 
 
-def binary_body(layout: str, points: np.ndarray = POINTS) -> bytes:
-    return b"".join(struct.pack(layout, 7, *point) for point in points)
+def binary_body(layout):
+    return b"".join(struct.pack(layout, 7, *point) for point in POINTS)
 
 
-def npy(array: np.ndarray) -> bytes:
+def npy(array):
     file = io.BytesIO()
     np.save(file, array)
     return file.getvalue()
 
 
-def npz(**arrays: np.ndarray) -> bytes:
+def npz(**arrays):
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)
     return file.getvalue()
 
 
-GOOD: dict[str, tuple[str, bytes]] = {
+GOOD = {
     "xyz": (".xyz", b"# a comment\n0.1 -0.2 0.3\n\n1.0\t2e-3   -0.5 # end\n"),
     "xyz with CRLF and a mark": (".XYZ", b"\xef\xbb\xbf0.1 -0.2 0.3\r\n1 2e-3 -.5\r\n"),
     "csv": (".csv", b"0.1,-0.2,0.3\n1.0,2e-3,-0.5\n"),
@@ -129,7 +129,7 @@ def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
 
 
 NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
-BAD: dict[str, tuple[str, bytes, str]] = {
+BAD = {
     "pcd that is compressed": (".pcd", pcd("binary_compressed", b""), "DATA: must be ascii or bin"),
     "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
     "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
@@ -258,7 +258,7 @@ def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, suffix, content,
 POINTS_OF_BYTES = "element vertex 1000001\nproperty char x\nproperty char y\nproperty char z\n"
 
 
-def npy_of_bytes() -> bytes:
+def npy_of_bytes():
     file = io.BytesIO()
     np.save(file, np.zeros((1_000_001, 3), np.int8))
     return file.getvalue()

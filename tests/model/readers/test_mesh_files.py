@@ -167,7 +167,7 @@ LIBRARY = {
 
 @pytest.mark.parametrize("said", LIBRARY.values(), ids=LIBRARY)
 def test_the_reason_of_a_mesh_library_is_the_line_before_its_hint(tmp_path, monkeypatch, said):
-    def load(*_: object) -> None:
+    def load(*_):
         raise RuntimeError(said)
 
     monkeypatch.setattr(coal, "MeshLoader", lambda: SimpleNamespace(load=load))

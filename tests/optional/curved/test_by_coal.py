@@ -64,8 +64,8 @@ def tips(gap, at=(0.0, 0.0, 0.0)):
     """Two ellipsoids whose longest axes are in line, along x, tip to tip."""
     R = np.eye(3)
     at = np.array(at)
-    one = Ellipsoid(np.array([0.125, 0.05, 0.04]))
-    two = Ellipsoid(np.array([0.25, 0.03, 0.06]))
+    one = Ellipsoid((0.125, 0.05, 0.04))
+    two = Ellipsoid((0.25, 0.03, 0.06))
     return ShapeInWorld(one, R, at), ShapeInWorld(two, R, at + (0.375 + gap) * R[:, 0])
 
 
@@ -149,8 +149,8 @@ def test_a_mesh_that_is_enlarged_has_a_larger_volume():
     assert_relative(found.volume, 0.8 * 1.2 * 1.6 / 6, ROUNDING)
 
 
-BOX = Box(np.array([0.1, 0.12, 0.14]))
-GRAIN = Ellipsoid(np.array([0.02, 0.021, 0.022]))
+BOX = Box((0.1, 0.12, 0.14))
+GRAIN = Ellipsoid((0.02, 0.021, 0.022))
 
 
 @pytest.mark.parametrize(("y", "ways"), [(0.1, [1]), (-0.1, [-1]), (0.0, [-1, 1])])

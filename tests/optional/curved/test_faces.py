@@ -15,7 +15,7 @@ SOLIDS = closest.solids()
 HERE = np.eye(3), np.zeros(3)
 
 
-def directions(count: int) -> np.ndarray:
+def directions(count):
     n = np.random.default_rng(3).normal(size=(count, 3))
     return n / np.linalg.norm(n, axis=1)[:, None]
 
@@ -38,12 +38,12 @@ def test_the_curvature_is_the_derivative_of_the_farthest_point(name):
 
 def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors():
     """Four of its twelve edges lie along each axis: the sum of e e' is 4 I for unit vectors e."""
-    of = kinks(Box(np.array([0.3, 0.02, 0.1])))
+    of = kinks(Box((0.3, 0.02, 0.1)))
     assert not of.levels.any()
     np.testing.assert_array_equal(of.axes.T @ of.axes, 4 * np.eye(3))
 
 
-def flat_normals(name: str) -> list[np.ndarray]:
+def flat_normals(name):
     of = kinks(SOLIDS[name])
     found = list(of.normals)
     for u, c in zip(of.axes, of.levels, strict=True):

@@ -19,7 +19,7 @@ WORLD = Rotation.from_rotvec([0.7, -0.4, 1.9]).as_matrix()
 AT = np.array([0.3, -0.2, 0.5])
 TILTED = Rotation.from_rotvec([[0.1, 0.05, 0.3], [-0.08, 0.12, 1.0]]).as_matrix()
 """Both caps that face each other are within 0.25 rad of the normal."""
-TABLE = Box(np.array([0.2, 0.15, 0.01]))
+TABLE = Box((0.2, 0.15, 0.01))
 LINE, LOWER, UPPER, CURVES, EDGES = 0, 1, 2, 3, 12
 """Numbers of the curves of a solid of revolution, how many it has, and a box."""
 
@@ -116,7 +116,7 @@ def test_curves_cross_if_the_sine_of_their_angle_is_above_a_millionth():
     for angle, count in ((2 * SKEW, 2), (SKEW / 2, 0)):
         # An edge across the radius at a distance d is at the angle a to the circle: d = r cos a.
         for half in (0.02, 0.5):
-            assert on_puck(Box(np.array([0.3, half, 0.01])), 0.3 + 0.07 * np.cos(angle)) == count
+            assert on_puck(Box((0.3, half, 0.01)), 0.3 + 0.07 * np.cos(angle)) == count
         # Radii r and s at the angle a end in one point: d^2 = (r - s)^2 + 4 r s sin(a/2)^2.
         for s in (0.07, 0.01):
             d = np.hypot(0.07 - s, 2 * np.sqrt(0.07 * s) * np.sin(angle / 2))
@@ -133,7 +133,7 @@ def test_crossings_of_rims_have_gaps_no_smaller_than_the_pair_s():
 
 def test_an_edge_that_ends_on_a_rim_crosses_it_there():
     """A circle of 1/8 about (1/4, y) through the corner (1/4, 2 y), in numbers without rounding."""
-    table = ShapeInWorld(Box(np.array([0.25, 0.25, 0.0625])), STRAIGHT, np.zeros(3))
+    table = ShapeInWorld(Box((0.25, 0.25, 0.0625)), STRAIGHT, np.zeros(3))
     for y in (-0.125, 0.125):
         puck = ShapeInWorld(Cylinder(0.125, 0.0625), STRAIGHT, np.array([0.25, y, 0.125]))
         found = moved_crossings(table, puck, puck.t - 0.0625 * UP, puck.t - 0.0625 * UP)

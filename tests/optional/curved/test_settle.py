@@ -40,7 +40,7 @@ def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names):
 
 def test_points_of_faces_that_lie_flat_on_each_other_are_those_of_the_start():
     """A cylinder on a box: any point of the disc will do, so that the one asked for is taken."""
-    low = ShapeInWorld(Box(np.array([0.2, 0.2, 0.1])), *HERE)
+    low = ShapeInWorld(Box((0.2, 0.2, 0.1)), *HERE)
     top = ShapeInWorld(Cylinder(0.1, 0.05), np.eye(3), np.array([0.15, 0.0, 0.16]))
     start = Witness(0.01, np.array([0.13, 0.02, 0.1]), np.array([0.15, 0.04, 0.11]), UP)
     for found in settled(low, top, start):

@@ -24,7 +24,7 @@ R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix
 AT = np.array([0.1, 0.2, 0.3])
 HALF_AXES = np.array([0.02, 0.021, 0.022])
 POLYTOPES = {
-    "box": (Box(np.array([0.1, 0.12, 0.14])), np.array([0.01, 0.015, 0.018])),
+    "box": (Box((0.1, 0.12, 0.14)), np.array([0.01, 0.015, 0.018])),
     "mesh": (convex_hull([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2]]), np.full(3, 0.045)),
 }
 """A polytope, and the middle of the ellipsoid in its frame."""
@@ -73,7 +73,7 @@ def test_six_ways_of_eight_are_followed():
 def test_a_smooth_way_out_between_all_axes_is_near_a_sample():
     """Discs tilted by 0.35 and -0.35 about x: the sum of their reaches is least along z and -z."""
     tilted = [Rotation.from_rotvec([angle, 0, 0]).as_matrix() for angle in (0.35, -0.35)]
-    disc = Ellipsoid(np.array([0.1, 0.1, 0.05]))
+    disc = Ellipsoid((0.1, 0.1, 0.05))
     a, b = (ShapeInWorld(disc, tilt, AT) for tilt in tilted)
     z = np.array([0.0, 0.0, 1.0])
     (found,) = rival_directions(a, b, z, float(gaps(a, b, z[None])[0]), 0.05)

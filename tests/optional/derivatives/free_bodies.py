@@ -1,4 +1,4 @@
-"""One free body on shapes that are fixed in the world, and scenes of the reference vectors."""
+"""One free body on a shape that is fixed in the world, and scenes of the reference vectors."""
 
 import numpy as np
 
@@ -21,8 +21,8 @@ from tests.lab.vectors.committed_cases import cases
 H = 0.01
 G = 9.81
 NONE = np.zeros(0)
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
-BOX = Box(np.array([0.1, 0.1, 0.05]))
+FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
+BOX = Box((0.1, 0.1, 0.05))
 
 
 def one_sided_derivative(function, step=1e-6):
@@ -32,16 +32,13 @@ def one_sided_derivative(function, step=1e-6):
     return 2 * near - far
 
 
-def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
-    """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
+def free(shape, xyz, fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
+    """(simulator, q) of one free body on a shape that is fixed at the world's origin."""
     solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
     own = placed_shape(shape, system.link("body"))
-    pairs = [
-        ContactPair(f"c{i}", placed_shape(s, t=at), own, *mu, 6, k)
-        for i, (s, at) in enumerate(fixed)
-    ]
-    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
+    pair = ContactPair("c0", placed_shape(fixed), own, *mu, 6, k)
+    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 
 def vector_scene(name, **settings):
@@ -55,7 +52,7 @@ def vector_scene(name, **settings):
 
 def falling_ball(gap=0.0):
     """(simulator, q) of a ball that falls as far as the floor in a step, but for a gap [m]."""
-    return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), (FLOOR, (0, 0, 0)))
+    return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), FLOOR)
 
 
 def verdict(simulator, q, force=0.0):

@@ -13,8 +13,7 @@ WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "conti
 
 def test_a_box_over_an_edge_is_borne_where_edges_cross():
     # Two of its lower corners are over the other box, and two edges cross that one's.
-    low = (Box(np.array([0.1, 0.1, 0.05])), (0, 0, 0))
-    simulator, q = free(Box(np.array([0.05, 0.04, 0.03])), (0.08, 0, 0.08), low, k=4)
+    simulator, q = free(Box((0.05, 0.04, 0.03)), (0.08, 0, 0.08), BOX, k=4)
     found, kinds = verdict(simulator, q)
     crossing = [why for why in found.reasons if why.kind == reason.CROSSING]
     assert reason.CROSSING in kinds
@@ -25,39 +24,37 @@ def test_a_box_over_an_edge_is_borne_where_edges_cross():
 KINKS = {
     "two points that are equally near, of which one is kept": (
         reason.POINTS,
-        lambda: free(
-            PointCloud(np.array([[0.1, 0, 0], [-0.1, 0, 0]])), (0, 0, 0), (FLOOR, (0, 0, 0))
-        ),
+        lambda: free(PointCloud([[0.1, 0, 0], [-0.1, 0, 0]]), (0, 0, 0), FLOOR),
     ),
     "a ball over the rim of a face": (
         reason.FEATURE,
-        lambda: free(Sphere(0.05), (0.1, 0, 0.0999), (BOX, (0, 0, 0))),
+        lambda: free(Sphere(0.05), (0.1, 0, 0.0999), BOX),
     ),
     "a box that lies flat, of which one point is kept": (
         reason.MANY,
-        lambda: free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0))),
+        lambda: free(BOX, (0, 0, 0.05), FLOOR),
     ),
     "a point at a box's corner": (
         reason.NO_NORMAL,
-        lambda: free(PointCloud(np.zeros((1, 3))), (0.1, 0.1, 0.05), (BOX, (0, 0, 0))),
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.1, 0.1, 0.05), BOX),
     ),
     "a normal as far from two axes of the world": (
         reason.TANGENTS,
         lambda: free(  # so slippery that it does not roll
             Sphere(0.05),
             0.0999 * np.array([1.0, 1, 2]) / np.sqrt(6),
-            (Sphere(0.05), (0, 0, 0)),
+            Sphere(0.05),
             mu=(0.1, 0.01),
         ),
     ),
     "a cylinder that stands upright on its rim": (
         reason.RIM,
-        lambda: free(Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4),
+        lambda: free(Cylinder(0.04, 0.06), (0, 0, 0.06), FLOOR, k=4),
     ),
     # Depths that tie by more than a step is refused for.
     "a point as deep below two faces": (
         reason.SURFACES,
-        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04 + 4e-12), (BOX, (0, 0, 0))),
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04 + 4e-12), BOX),
     ),
 }
 
@@ -77,7 +74,7 @@ def test_a_constructed_kink_is_named(kind, scene):
 def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kinds):
     # Places are right to 1e-16 m, and the normal to that over the distance.
     at = np.array([0.02, 0.1, 0.05]) + distance * np.array([0.0, 0.6, 0.8])
-    simulator, q = free(PointCloud(np.zeros((1, 3))), at, (BOX, (0, 0, 0)))
+    simulator, q = free(PointCloud(np.zeros((1, 3))), at, BOX)
     found, named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
     assert named == ({reason.NO_NORMAL} if kinds else set())
     assert np.isnan(found.dq_dq).all() == np.isnan(found.dq_dtau).all() == bool(kinds)
@@ -85,22 +82,20 @@ def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kind
 
 @pytest.mark.parametrize(("tilt", "kind"), [(1e-8, True), (3e-6, True), (1e-4, False)])
 def test_a_rim_so_level_that_float64_does_not_know_its_lowest_point(tilt, kind):
-    simulator, q = free(
-        Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4, rpy=(tilt, 0, 0)
-    )
+    simulator, q = free(Cylinder(0.04, 0.06), (0, 0, 0.06), FLOOR, k=4, rpy=(tilt, 0, 0))
     named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))[1]
     assert (reason.RIM in named) == kind
 
 
 def test_a_kink_of_a_contact_that_is_far_away_does_not_matter():
-    simulator, q = free(BOX, (0, 0, 0.5), (FLOOR, (0, 0, 0)))
+    simulator, q = free(BOX, (0, 0, 0.5), FLOOR)
     found, kinds = verdict(simulator, q)
     assert kinds == set()
     assert np.allclose(found.dq_dq, np.eye(6), atol=1e-2)
 
 
 def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0999), (Sphere(0.05), (0, 0, 0)))
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0999), Sphere(0.05))
     assert verdict(simulator, q, np.array([1.0, 0.2, 0, 0, 0, 0]))[1] == set()
 
 

@@ -53,7 +53,7 @@ def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
 
 
 def test_a_wrong_direction_is_refused():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), FLOOR)
     with pytest.raises(InputError, match=r"towards\.q: must have shape"):
         derivatives(simulator, q, NONE, towards={"q": np.zeros(5)})
     found, _ = verdict(simulator, q)

@@ -30,7 +30,7 @@ X, _, Z = np.eye(6)[:3]
 
 def test_a_point_that_sticks_slides_where_its_load_leaves_the_pyramid():
     # |f_1| + |f_2| <= f_n / 2 of f = (0.2, -0.1, -1) W, which it bears by -d1 and +d2 alone there.
-    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
+    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), FLOOR, mu=(0.5, 0.0))
     found, _ = verdict(simulator, q, W * np.array([0.2, -0.1, 0, 0, 0, 0]))
     for way, share in ((X, 0.2), (-X, 0.6), (Z, 0.4), (-Z, np.inf)):
         assert_relative(found.reach_along(tau=way).distance, share * W, ROUNDING)
@@ -44,7 +44,7 @@ def test_a_point_that_sticks_slides_where_its_load_leaves_the_pyramid():
 
 def test_a_block_on_four_corners_slides_only_when_all_of_its_load_does():
     # Pushed at the height of the floor, it does not tilt.
-    simulator, q = free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0)), k=4, mu=(0.4, 0.01))
+    simulator, q = free(BOX, (0, 0, 0.05), FLOOR, k=4, mu=(0.4, 0.01))
     found, _ = verdict(simulator, q, 0.1 * W * X)
     at_the_floor = X + np.array([0, 0, 0, 0, -0.05, 0])
     ahead = found.reach_along(tau=at_the_floor)
@@ -93,7 +93,7 @@ def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
     assert found.reaches["dq_dq"][0].distance == np.inf
     soft = smoothed(simulator, q, NONE, 1e-6)
     assert soft.reach == soft.reach_along(q=Z).distance == np.inf
-    tied, at = free(PointCloud(np.array([X[:3], -X[:3]])), (0, 0, 0), (FLOOR, (0, 0, 0)))
+    tied, at = free(PointCloud([X[:3], -X[:3]]), (0, 0, 0), FLOOR)
     named = verdict(tied, at)[0].reaches["dq_dq"][0]
     assert named == (0.0, "tie of points: c0/0, c0/1")
 
@@ -117,7 +117,7 @@ PAIRS = [case.id.partition("/")[2] for case in cases("derivative") if "/pair/" i
 def test_r41_the_rows_that_are_named_change_where_a_random_force_has_grown_so_far(seed):
     """Of a block on its corners, and of a pair of the vectors: steps linear piece by piece."""
     rng = np.random.default_rng(seed)
-    block = free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0)), k=4, mu=(0.4, 0.01))
+    block = free(BOX, (0, 0, 0.05), FLOOR, k=4, mu=(0.4, 0.01))
     ahead = 0
     for simulator, q, target in ((*block, NONE), vector_scene(str(rng.choice(PAIRS)))):
         arms = np.resize([1.0, 1.0, 1.0, 0.05, 0.05, 0.05], simulator.system.n_v)

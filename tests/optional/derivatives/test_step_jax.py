@@ -5,7 +5,14 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, NotDifferentiable, Sphere, derivatives, smoothed
+from quasistatic_ref import (
+    HalfSpace,
+    InputError,
+    NotDifferentiable,
+    Sphere,
+    derivatives,
+    smoothed,
+)
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, body_at_rest, points
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.optional.derivatives.step import reason
@@ -50,14 +57,15 @@ def turning_block():
 
 def planar_box():
     """A box in the plane, one corner of which is pushed into a wall."""
-    simulator, q = free(BOX, (0, 0.02, 0), (FLOOR, (0, 0, -1)), base="planar", rpy=(0, 0, 0.3))
+    wall = HalfSpace((0, 0, 1), -1.0)
+    simulator, q = free(BOX, (0, 0.02, 0), wall, base="planar", rpy=(0, 0, 0.3))
     return simulator, q, NONE
 
 
 def ball():
     """A box on a ball joint, one corner of which is pushed into the floor."""
     at = (0, 0, 0.129)
-    simulator, q = free(BOX, at, (FLOOR, (0, 0, 0)), base="ball", rpy=(0.4, 0.5, 0.3))
+    simulator, q = free(BOX, at, FLOOR, base="ball", rpy=(0.4, 0.5, 0.3))
     return simulator, q, NONE
 
 

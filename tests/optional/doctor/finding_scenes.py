@@ -89,13 +89,9 @@ def findings(
 ):
     """What is found in a short run of `contacts`: (alpha, beta, mu_v, k)."""
     system = System(bodies)
-    shapes = {
-        "floor": [
-            PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.array([0, 0, 1.0]), 0.0))
-        ]
-    }
+    shapes = {"floor": [PlacedShape.in_world("floor", HalfSpace((0, 0, 1.0), 0.0))]}
     for name, shape, xyz in stands:
-        shapes[name] = [PlacedShape(name, 0, np.eye(3), np.array(xyz), shape)]
+        shapes[name] = [PlacedShape.in_world(name, shape, xyz)]
     for body in bodies:
         shapes[body.name] = [
             s for s in system.shapes if system.links[s.link].startswith(f"{body.name}/")
@@ -202,7 +198,7 @@ found = findings(
 # %% guided friction: a rod in a shaft with three walls, no two of which are opposite
 rod = Body.of_shape("rod", Sphere(0.05), 0.3, xyz=(0, 0, 0))
 walls = [
-    (f"wall{i}", HalfSpace(np.array([np.cos(a), np.sin(a), 0.0]), -0.05), (0, 0, 0))
+    (f"wall{i}", HalfSpace((np.cos(a), np.sin(a), 0.0), -0.05), (0, 0, 0))
     for i, a in enumerate((0.0, 2.0, 4.0))
 ]
 found = findings([rod], [(f"wall{i}", "rod", 0.5, 1) for i in range(3)], walls)
@@ -345,7 +341,7 @@ found = findings([disk, finger], [("finger", "disk", 0.5, 1)])
 found = findings(
     [box(xyz=(0, 0, 0.3))],
     [("ceiling", "box", 0.5, 4)],
-    [("ceiling", HalfSpace(np.array([0, 0, -1.0]), -1.0), (0, 0, 0))],
+    [("ceiling", HalfSpace((0, 0, -1.0), -1.0), (0, 0, 0))],
 )
 
 # %% free fall: a smooth box slips from between two fingers, of which 2 mm are left

@@ -71,7 +71,7 @@ a = 0.3
 found = findings(
     [box(xyz=(0.05 * np.sin(a), 0, 0.05 * np.cos(a)), rpy=(0, a, 0))],
     [("slope", "box", 0.5, 4)],
-    [("slope", HalfSpace(np.array([np.sin(a), 0, np.cos(a)]), 0.0), (0, 0, 0))],
+    [("slope", HalfSpace((np.sin(a), 0, np.cos(a)), 0.0), (0, 0, 0))],
 )
 
 # %% nothing: a box against a wall

@@ -8,7 +8,6 @@ from docs.examples.joint_limits import joint_limits
 from quasistatic_ref import (
     Extension,
     InputError,
-    Scenario,
     StepData,
     StepDataError,
     load_scenario,
@@ -88,7 +87,7 @@ def scene(folder, text, drawer=DRAWER, **settings):
     return load_scenario(folder / "scene.toml", **settings)
 
 
-def step(scenario: Scenario, *force: float):
+def step(scenario, *force):
     q = scenario.system.q_start
     return scenario.simulator().step(q, np.zeros(0), np.array(force)).solution
 

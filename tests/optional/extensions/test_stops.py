@@ -17,25 +17,25 @@ M = 2.0
 """Of a link of these texts [kg]."""
 
 
-def joint_with_limits(lower: float, upper: float, more: str = "", name: str = "slide") -> str:
+def joint_with_limits(lower, upper, more="", name="slide"):
     text = joint(name, "cabinet", "drawer", "prismatic", "1 0 0", more)
     return text.replace('lower="-1" upper="1"', f'lower="{lower}" upper="{upper}"')
 
 
-def drawer(lower: float = -0.001, upper: float = 0.002, *more: str) -> str:
+def drawer(lower=-0.001, upper=0.002, *more):
     return robot(
         link("cabinet", inertial=""), link("drawer"), joint_with_limits(lower, upper), *more
     )
 
 
-def scene(urdf: str, joint_limits: str | None = "urdf", **fields):
+def scene(urdf, joint_limits="urdf", **fields):
     body = {"urdf": urdf, **fields}
     if joint_limits is not None:
         body["joint_limits"] = joint_limits
     return {"h": H, "steps": 3, "gravity": [0, 0, 0], "bodies": {"c": body}}
 
 
-def pushed_drawer(scenario, force: float, steps: int, extension=None):
+def pushed_drawer(scenario, force, steps, extension=None):
     """A run under a constant generalised force on the joint [N]."""
     simulator = scenario.simulator(extension)
     q = scenario.system.q_start

@@ -38,7 +38,7 @@ POLYHEDRAL = ("pyramid", "product", "facets-6", "frictionless")
 CONES = (*POLYHEDRAL, "ellipsoid")
 
 
-def block(rows: int = 6, push: float = 0.0, mu_omega: float = 0.01, cone: str = "pyramid"):
+def block(rows=6, push=0.0, mu_omega=0.01, cone="pyramid"):
     """A block of 0.1 x 0.1 x 0.06 m on four corners, pushed at its bottom."""
     wrench = [push, 0, -M * G, 0, 0.03 * -push, 0]
     frames = [np.eye(3)] * 4
@@ -90,9 +90,9 @@ def test_noise_of_rounding_size_does_not_change_them(cone):
     assert noise < bound < 1e-4
 
 
-def walled_block(wall: float = 1e-4):
+def walled_block(wall=1e-4):
     """One that slides against a wall, x <= 0.1 mm, before another one, x <= 1 m."""
-    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], np.array([-1.0, -wall]))
+    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], [-1.0, -wall])
     return block(push=9.0).replace(extra=rows)
 
 

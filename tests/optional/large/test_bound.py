@@ -38,7 +38,7 @@ def test_step_without_contacts_is_bounded_to_rounding():
 
 
 def test_wedged_or_broken_answers_are_not_bounded():
-    pair = Extra(("left", "right"), np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.zeros(2))
+    pair = Extra(("left", "right"), [[1.0, 0, 0], [-1.0, 0, 0]], np.zeros(2))
     step = point_between_walls([EAST], [1.0], force=(1.0, 0.0, 0.0)).replace(extra=pair)
     assert opening_direction(step) is None
     lam = np.zeros(6)
@@ -51,7 +51,7 @@ def test_wedged_or_broken_answers_are_not_bounded():
 
 def test_a_direction_is_found_in_a_narrow_wedge():
     eps = 1e-5  # half its angle [rad]
-    sides = Extra(("left", "right"), np.array([[1.0, eps, 0], [-1.0, eps, 0]]), np.zeros(2))
+    sides = Extra(("left", "right"), [[1.0, eps, 0], [-1.0, eps, 0]], np.zeros(2))
     step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 0.0, 0.0)).replace(extra=sides)
     v = opening_direction(step)
     assert (sides.A @ v > 0).all()  # |v_x| < eps v_y

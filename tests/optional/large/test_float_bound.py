@@ -75,7 +75,7 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
 
 def test_rows_of_the_user_s_own_are_bounded_in_dense_matrices():
     """A point on a floor is pulled against a wall, x <= 1e-3 m, and told to be a little beyond."""
-    wall = Extra(("wall",), -np.eye(3)[:1], np.array([-1e-3]))
+    wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
     step = point_on_floor(force=(400.0, 0.0, -3.0)).replace(extra=wall)
     exact = step_optimum(step)
     beyond = exact.delta_q + np.array([1e-12, 0.0, 0.0])
@@ -89,7 +89,7 @@ def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(module, monk
     """Each entry of a point's A, whose J is I, has a single term: its size is the entry's own."""
     step = point_on_floor(force=(400.0, 0.0, -3.0))
     if module is float_bound:  # in sparse matrices there are no rows of a user's own
-        wall = Extra(("wall",), -np.eye(3)[:1], np.array([-1e-3]))
+        wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
         step = step.replace(extra=wall)
     given = []
     sizes_of = module.step_sizes

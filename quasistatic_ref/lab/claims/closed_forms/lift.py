@@ -54,8 +54,8 @@ def lifting_step(speed: float, lever: float, h: float) -> StepData:
         K_q=K * np.eye(4),
         M_u=np.diag([M, M, M, *INERTIA]),
         tau_a=np.zeros(4),
-        tau_u=np.array([0.0, 0.0, -M * GRAVITY, 0.0, 0.0, 0.0]),
-        delta_q_bar_a=np.array([SQUEEZE / K, SQUEEZE / K, speed * h + lag, speed * h + lag]),
+        tau_u=[0.0, 0.0, -M * GRAVITY, 0.0, 0.0, 0.0],
+        delta_q_bar_a=[SQUEEZE / K, SQUEEZE / K, speed * h + lag, speed * h + lag],
         contacts=contacts_of(0.0, frames, J, MU_V),
     )
 

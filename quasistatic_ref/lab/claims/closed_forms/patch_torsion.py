@@ -48,7 +48,7 @@ def patch(r: Array, N: Array, tau: float) -> StepData:
     J[np.arange(n_c), 2, np.arange(n_c)] = 1.0  # along n
     J[:, 0, n_c] = r  # along d1, the direction of slip
     return StepData(
-        H, STIFFNESS * np.eye(n_c), np.array([[INERTIA]]), -N, np.array([tau]), np.zeros(n_c),
+        H, STIFFNESS * np.eye(n_c), [[INERTIA]], -N, [tau], np.zeros(n_c),
         contacts_of(0.0, np.tile(np.eye(3), (n_c, 1, 1)), J, MU),
     )  # fmt: skip
 

@@ -36,7 +36,7 @@ def steady_push(v: float, mu_v: float, h: float) -> Array:
     rail = {"base": "fixed", "actuated": "all", "xyz": (-0.005, 0.0, C)}
     system = system_of({"finger": RAIL, "block": BLOCK}, finger=rail, block=start)
     middle = system.q_start[system.n_q_a]
-    tip = on_link(system, "finger/finger", Box(np.array([0.005, 0.02, 0.02])))
+    tip = on_link(system, "finger/finger", Box((0.005, 0.02, 0.02)))
     # The finger's face starts at x = 0 and touches a ball about the block's centre.
     ball = on_link(system, "block", Sphere(middle))
     corners = cloud_on(system, "block", grid([-L, L], [-L, L], [-C]))

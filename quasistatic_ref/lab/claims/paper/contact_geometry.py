@@ -13,7 +13,7 @@ from quasistatic_ref.step.data import Array
 
 SHAPES: dict[str, Shape] = {
     "sphere": Sphere(0.05),
-    "box": Box(np.array([0.03, 0.05, 0.04])),
+    "box": Box((0.03, 0.05, 0.04)),
     "capsule": Capsule(0.03, 0.04),
     "cylinder": Cylinder(0.04, 0.05),
 }

@@ -24,7 +24,7 @@ from quasistatic_ref.step.data import Array
 HALF_AXES, POINTS, K, HEIGHT, TILT = (0.05, 0.03), 40, 5, 0.032, 25.0
 """Of an ellipse [m]; points on it; points that become contacts; of its centre [m]; tilt [deg]."""
 
-FLOOR = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0))
+FLOOR = PlacedShape.in_world("floor", HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0))
 TURNS = np.geomspace(1e-3, 0.3, 12)
 """About y [rad]."""
 

@@ -38,9 +38,7 @@ def finger_and_block(
     J = np.zeros((1, 4, 2))
     J[0, 0] = [-1.0, 1.0]  # the block's point relative to the finger's, along the world's x
     contact = contacts_of(phi, np.array([[Y, Z, X]]), J, mu_v=0.0)  # n from the finger to the block
-    return StepData(
-        h, np.array([[K_q]]), np.array([[m]]), np.zeros(1), np.zeros(1), np.array([target]), contact
-    )
+    return StepData(h, [[K_q]], [[m]], np.zeros(1), np.zeros(1), [target], contact)
 
 
 def main() -> Numbers:

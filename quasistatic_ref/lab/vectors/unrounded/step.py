@@ -27,9 +27,6 @@ from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precisio
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near
 from quasistatic_ref.lab.vectors.unrounded.world import World
 
-WIDE = 1024
-"""Bits of a ball on the way to delta_q: data of the grid have 400 and more."""
-
 
 @dataclass(frozen=True, eq=False)
 class Contact:

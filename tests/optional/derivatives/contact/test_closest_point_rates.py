@@ -68,8 +68,8 @@ def test_each_of_several_pairs_slides_along_its_own_line():
 
 
 SHAPES = (
-    Sphere(0.05), Capsule(0.03, 0.05), Box(np.array([0.03, 0.05, 0.04])), Cylinder(0.04, 0.06),
-    Cone(0.04, 0.06), Ellipsoid(np.array([0.03, 0.05, 0.04])),
+    Sphere(0.05), Capsule(0.03, 0.05), Box((0.03, 0.05, 0.04)), Cylinder(0.04, 0.06),
+    Cone(0.04, 0.06), Ellipsoid((0.03, 0.05, 0.04)),
 )  # fmt: skip
 PAIRS = list(combinations_with_replacement(SHAPES, 2))
 

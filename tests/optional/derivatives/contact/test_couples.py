@@ -32,7 +32,7 @@ from tests.contact.still import pair, placed_shape
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
 
 
 def pair_of(system, fixed, moving, first, k):
@@ -113,7 +113,7 @@ def test_edges_cross_where_bodies_lie_across_each_other(shape, xyz, rpy, k, cros
 
 
 def test_a_cloud_is_as_large_as_the_box_about_it():
-    cloud = PointCloud(np.array([[5.0, 0.0, 0.0], [5.5, 0.0, 0.25]]))
+    cloud = PointCloud([[5.0, 0.0, 0.0], [5.5, 0.0, 0.25]])
     bodies = tuple(ShapeInWorld(shape, np.eye(3), np.zeros(3)) for shape in (cloud, FLOOR))
     assert PairInWorld(pair(placed_shape(cloud), placed_shape(FLOOR, 1)), bodies).extents == (
         0.5,

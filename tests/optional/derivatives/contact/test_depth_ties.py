@@ -29,14 +29,14 @@ AWAY = 1e-6
 """[m], beyond TIED of any size here."""
 
 D, C, S = 0.03, 0.6, 0.8  # a depth [m], a cosine and its sine
-BOX = Box(np.array([0.1, 0.2, 0.3]))
+BOX = Box((0.1, 0.2, 0.3))
 TALL = Cylinder(0.1, 0.2)
 FLAT = Cylinder(0.3, 0.1)
 CONE = Cone(0.3, 0.1)
 # The side of a cone is D deep where (R - r) 2 l - (z + l) R = D |(R, 2 l)|; here z + l = D.
 CONE_R = 0.3 - D * (0.3 + np.hypot(0.3, 0.2)) / 0.2
 TETRAHEDRON = convex_hull([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2]])
-WIDE = Ellipsoid(np.array([0.3, 0.2, 0.1]))
+WIDE = Ellipsoid((0.3, 0.2, 0.1))
 # Circles that touch an ellipsoid above and below its shortest axis c, within its section, have
 # their centres within the ellipse of half-axes (a^2 - c^2) / a and (b^2 - c^2) / b.
 END = (0.3**2 - 0.1**2) / 0.3
@@ -47,7 +47,7 @@ TIES = {
     "side and base of a cone": (CONE, (C * CONE_R, S * CONE_R, D - 0.1), (C, S, 0)),
     "two faces of a mesh": (TETRAHEDRON, (0.02, 0.02, 0.06), (1, 0, 0)),
     "two sides of an ellipsoid": (WIDE, (0.1, 0.05, 0.0), (0, 0, 1)),
-    "the middle of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0, 0, 0), (1, 0, 0)),
+    "the middle of a long ellipsoid": (Ellipsoid((0.3, 0.1, 0.1)), (0, 0, 0), (1, 0, 0)),
 }
 """A solid, a point as deep below two parts of its surface, and a way to where it is not [-]."""
 
@@ -57,7 +57,7 @@ NO_TIES = {
     "an edge of a box": (BOX, (0.1, 0.2, 0.05)),
     "near a face of a mesh": (TETRAHEDRON, (0.02, 0.03, 0.06)),
     "beyond where two sides of an ellipsoid tie": (WIDE, (1.01 * END, 0.0, 0.0)),
-    "off the middle of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0.05, 0, 0)),
+    "off the middle of a long ellipsoid": (Ellipsoid((0.3, 0.1, 0.1)), (0.05, 0, 0)),
 }
 """A solid and a point with one nearest point, or with none below the surface."""
 
@@ -107,7 +107,7 @@ def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name):
     assert not inside(solid, p, POINT, STILL)
 
 
-B = Box(np.array([0.2, 0.2, 0.2]))
+B = Box((0.2, 0.2, 0.2))
 LOG = Cylinder(0.2, 0.2)
 LONG = Capsule(0.05, 0.2)
 PAIRS = {
@@ -185,7 +185,7 @@ def test_capsules_are_tied_where_their_axes_cross():
 
 def test_a_rim_that_touches_an_edge_has_two_normals():
     rim = Cylinder(0.25, 0.25)
-    half = Box(np.array([0.25, 0.25, 0.25]))
+    half = Box((0.25, 0.25, 0.25))
     found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
     assert depth_tie(found)
     assert depth_tie(found._replace(phi=0.0))
@@ -193,8 +193,8 @@ def test_a_rim_that_touches_an_edge_has_two_normals():
 
 def test_ellipsoids_that_leave_each_other_to_either_side_are_tied():
     """Both ways are mirrored in the plane y = 0 and along no axis; off it one is shorter."""
-    narrow = Ellipsoid(np.array([0.25, 0.12, 0.4]))
-    wide = Ellipsoid(np.array([0.3, 0.1, 0.4]))
+    narrow = Ellipsoid((0.25, 0.12, 0.4))
+    wide = Ellipsoid((0.3, 0.1, 0.4))
     for off, tied in ((NEAR * wide.extent, True), (AWAY, False)):
         there = np.eye(3), np.array([0.05, off, 0.0])
         assert depth_tie_words(wide, narrow, STILL, there) == tied

@@ -14,7 +14,7 @@ C, S = 0.6, 0.8  # a cosine and its sine
 U = np.array([C, S, 0.0])
 AROUND = np.array([-S, C, 0.0])
 TILTED = np.array([2.0, 3.0, 6.0]) / 7
-BOX = Box(np.array([0.01, 0.02, 0.03]))
+BOX = Box((0.01, 0.02, 0.03))
 LOG = Cylinder(0.01, 0.02)
 PILL = Capsule(0.01, 0.01)
 MESH = convex_hull(BOX.corners(Z)[0])
@@ -23,7 +23,6 @@ MESH = convex_hull(BOX.corners(Z)[0])
 CONE = Cone(0.03, 0.02)
 SIDE = 0.8 * U + 0.6 * Z
 GENERATOR = 0.8 * Z - 0.6 * U
-HALF_AXES = np.array([0.01, 0.02, 0.03])
 TETRAHEDRON = convex_hull([[0, 0, 0], [0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]])
 # Of its edge between the faces with normals -Z and (1, 1, 1) / sqrt 3, the normal halfway.
 EDGE = (np.ones(3) / np.sqrt(3) - Z) / np.linalg.norm(np.ones(3) / np.sqrt(3) - Z)

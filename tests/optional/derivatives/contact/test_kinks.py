@@ -11,7 +11,7 @@ from quasistatic_ref.tolerances import TIED, UNIQUE
 from tests.optional.derivatives.contact.test_depth_ties import couple_of
 
 HALF = np.sqrt(0.5)
-CUBE = Box(np.array([0.05, 0.05, 0.05]))
+CUBE = Box((0.05, 0.05, 0.05))
 # Both cubes on an edge, one along x and one along y: the edges cross at a right angle.
 ON_EDGE = Rotation.from_euler("x", np.pi / 4).as_matrix()
 CROSSED = Rotation.from_euler("z", np.pi / 2).as_matrix() @ ON_EDGE

@@ -13,7 +13,7 @@ from tests.contact.still import pair, placed_shape
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
 AT = np.array([0.5, -0.4, 0.3])
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
 BALL = Sphere(0.1)
 HEIGHTS = np.array([0.03, 0.01, 0.02, 0.03, 0.04])
 """Points 0 and 3 are level: of three that are kept, one is left out that is as near."""

@@ -12,10 +12,10 @@ from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.step import reason
 from tests.optional.derivatives.contact.test_couples import body, couples_of, pair_of
 
-SLAB = Box(np.array([0.3, 0.3, 0.05]))
-SMALL = Box(np.array([0.1, 0.1, 0.05]))
-LONG = Box(np.array([0.2, 0.02, 0.05]))
-BAR = Box(np.array([0.02, 0.2, 0.05]))
+SLAB = Box((0.3, 0.3, 0.05))
+SMALL = Box((0.1, 0.1, 0.05))
+LONG = Box((0.2, 0.02, 0.05))
+BAR = Box((0.02, 0.2, 0.05))
 PYRAMID = convex_hull([[0.1, 0.1, 0], [0.1, -0.1, 0], [-0.1, 0.1, 0], [-0.1, -0.1, 0], [0, 0, 0.1]])
 TRIANGLE = [(-0.2, -0.2), (0.05, -0.05), (-0.05, 0.05)]
 PRISM = convex_hull([[x, y, z] for x, y in TRIANGLE for z in (-0.05, 0.05)])
@@ -63,9 +63,9 @@ def test_a_unique_closest_pair_stays_where_it_is_whatever_corners_are_as_near(mo
 
 DISC = Cylinder(0.5, 0.2)
 CORNERS_FARTHEST_ALONG = [
-    (Box(np.array([0.5, 0.3, 0.2])), (0, 0, 1), 4),
-    (Box(np.array([0.5, 0.3, 0.2])), (0, 1, 1), 2),
-    (Box(np.array([0.5, 0.3, 0.2])), (1, 1, 1), 1),
+    (Box((0.5, 0.3, 0.2)), (0, 0, 1), 4),
+    (Box((0.5, 0.3, 0.2)), (0, 1, 1), 2),
+    (Box((0.5, 0.3, 0.2)), (1, 1, 1), 1),
     (DISC, (0, 0, 1), 1),  # its rim is a curve, whose corners stand for its face together
     (DISC, (1, 0, 0), 2),
     (DISC, (1, 0, 1), 1),

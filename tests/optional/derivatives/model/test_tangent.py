@@ -1,6 +1,5 @@
 """Derivatives of (+) and (-): small turns and half turns."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +18,6 @@ from quasistatic_ref.optional.derivatives.model.tangent import (
     right_jacobian,
     sum_rates,
 )
-from quasistatic_ref.step.arrays import Array
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import DIFFERENCE, FOUR_ULP, ROUNDING
 
@@ -61,7 +59,7 @@ def test_r30_sums_and_differences_change_as_written(seed, base):
     apart = system.difference(q, other)
     by_start, by_end = difference_rates(system.joints, apart)
 
-    def rate(function: Callable[[Array], Array]) -> Array:
+    def rate(function):
         return (function(e) - function(-e)) / 2e-6
 
     moved = rate(lambda t: system.difference(end, system.integrate(system.integrate(q, t), x)))

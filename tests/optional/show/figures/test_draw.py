@@ -142,8 +142,8 @@ def test_a_scene_is_legible_in_every_view(incline, view):
 @pytest.mark.parametrize(
     "shape",
     [
-        Box(np.array([0.1, 0.2, 0.3])), Sphere(0.1), Capsule(0.1, 0.4), Cylinder(0.1, 0.4),
-        Cone(0.1, 0.4), Ellipsoid(np.array([0.1, 0.2, 0.3])),
+        Box((0.1, 0.2, 0.3)), Sphere(0.1), Capsule(0.1, 0.4), Cylinder(0.1, 0.4),
+        Cone(0.1, 0.4), Ellipsoid((0.1, 0.2, 0.3)),
     ],
     ids=lambda shape: type(shape).__name__,
 )  # fmt: skip
