@@ -417,4 +417,6 @@ def _of_all(objects: Sequence[object], name: str) -> NDArray[Any]:
 def _over_all_steps(parts: list[StepArrays], key: str) -> NDArray[Any]:
     """One array of all steps, in which zero is 0.0, never -0.0."""
     array = np.concatenate([part[key] for part in parts])
-    return array + 0.0 if array.dtype == np.float64 else array
+    if array.dtype == np.float64:
+        array += 0.0
+    return array

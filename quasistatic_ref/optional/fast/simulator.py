@@ -494,6 +494,6 @@ class FastSimulator(Simulator):
 FAST_SIMULATOR.fill(FastSimulator)
 FAST_BACKEND.fill(
     lambda name, system, pairs, cone, certify, ordinary: fast_backend(
-        name, cone, certify, entries_of_J(system, pairs, ordinary)
+        name, cone, certify, entries_of_J(system, pairs, ordinary) if name is None else None
     )
 )

@@ -19,7 +19,7 @@ from quasistatic_ref.optional.fast.compiled.certificate import Prover, claims_of
 from quasistatic_ref.optional.fast.compiled.forces import FastSolution
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram
-from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.compiled.structure import Structure, address_of
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.rechecked import WHOLE, check, is_due
 from quasistatic_ref.optional.fast.solver import FastSolver
@@ -132,7 +132,7 @@ class Onward:
         s.put(
             {
                 "pieces": len(kept),
-                "piece": np.array([array.ctypes.data for array in kept.values()]),
+                "piece": np.array([*map(address_of, kept.values())]),
                 "size": np.array([array.nbytes // 8 for array in kept.values()]),
             }
         )

@@ -41,8 +41,10 @@ class Poses:
             t += part.t
             J = part.data.J.reshape(6, -1, order="F")
             assert J.strides[0] == 8
-            columns += [J.ctypes.data + J.strides[1] * i for i in range(J.shape[1])]
-            gravity += [part.data.g.ctypes.data + 8 * i for i in range(part.model.nv)]
+            of_J = J.ctypes.data
+            of_g = part.data.g.ctypes.data
+            columns += [of_J + J.strides[1] * i for i in range(J.shape[1])]
+            gravity += [of_g + 8 * i for i in range(part.model.nv)]
         assert all(one.strides == (8, 24) for one in R[1:])
         self.R = np.array([one.ctypes.data for one in R])
         self.t = np.array([one.ctypes.data for one in t])

@@ -63,13 +63,13 @@ class Structure:
 
     def point(self, name: str, array: NDArray[np.void]) -> None:
         """Point to an array that is not kept, of any shape [of its fields]."""
-        setattr(self._fields, name, array.ctypes.data)
+        setattr(self._fields, name, address_of(array))
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
         sizes = [math.prod(shape) for shape in shapes.values()]
         block: Array = np.zeros(sum(sizes), kind)
-        address = block.ctypes.data
+        address = address_of(block)
         for (name, shape), size in zip(shapes.items(), sizes, strict=True):
             self._arrays[name] = block[:size].reshape(shape)
             setattr(self._fields, name, address)
@@ -97,7 +97,14 @@ class Structure:
             array = np.ascontiguousarray(value)
             assert array.dtype in (np.float64, np.int64)
             self._arrays[name] = cast("Array", array)  # or of int64
-            setattr(self._fields, name, array.ctypes.data)
+            setattr(self._fields, name, address_of(array))
+
+
+def address_of(array: NDArray[np.generic]) -> int:
+    """Where a contiguous array begins in memory, of any shape [any unit]."""
+    if array.flags.writeable and array.size:  # in a third of the time
+        return ctypes.addressof(ctypes.c_char.from_buffer(array.data))
+    return array.ctypes.data
 
 
 @cache
