@@ -90,6 +90,7 @@ import sys
 sys.modules["daqp"] = sys.modules["piqp"] = None
 from quasistatic_ref import load_scenario
 from quasistatic_ref.optional.fast.backends import EntriesOfJ, default_backend
+from quasistatic_ref.cli.main import main
 run = load_scenario("sphere_spin", steps=2, fast=True).run(progress=False)
 print(run.header["backend"], *run["certificate"], main(["bench", "--out", sys.argv[1]]))
 print(*(default_backend("pyramid", "off", EntriesOfJ(n, n)) for n in (0, 10**9)))

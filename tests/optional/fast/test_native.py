@@ -115,6 +115,7 @@ def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
 
 NATIVE_RUN = """
 import sys
+from quasistatic_ref.cli.main import main
 status = main(["run", "sphere_spin", "--fast", "--set", "steps=3", "--json", "--out", sys.argv[1]])
 heavy = "cvxpy", "qpsolvers", "scipy", "matplotlib", "osqp", "piqp", "clarabel", "numba"
 print(status, [name for name in heavy if name in sys.modules])
