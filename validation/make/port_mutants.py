@@ -21,15 +21,12 @@ Exit status 1 if a right port is found wrong, or a mutant not at all.
 
 import hashlib
 import json
-import os
 import re
-import resource
-import subprocess
 import sys
 import tempfile
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cache
 from pathlib import Path
@@ -47,49 +44,33 @@ from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.port_changes import Change, changes, switched_line
+from validation.tools.port_places import conditions_of, places
+from validation.tools.port_programs import (
+    ENVIRONMENT,
+    Program,
+    Question,
+    committed_questions,
+    replies,
+)
 from validation.tools.ports import PORTS, compiler_errors, texts
-from validation.tools.scripts import ROOT, script_options, show_page
+from validation.tools.scripts import script_options, show_page
 
-VECTORS = ROOT / "validation" / "vectors"
 CAUSES = PORTS / "causes.toml"
 CASES = 1000
 """Of a challenge by default."""
 MORE = 12
 """Further cases of a layer in which something fails, by which a challenge names it."""
-PROCESSOR = 20
-"""After which a program is ended: it hangs [s]."""
-MEMORY = 2**31
-"""That it may ask for [B]."""
 EACH = 150
 """Mutants of each port."""
 OTHER = 1e-6
 """A number is another one from here on, relative to the largest of its field [-]."""
-ENVIRONMENT = {**os.environ, "GOGC": "800", "GOMAXPROCS": "1"}
 SWITCH = """#include <cstdlib>
 inline const int MUTANT = std::getenv("MUTANT") ? std::atoi(std::getenv("MUTANT")) : 0;
 """
 """Which mutant the program in C++ is, which is compiled once with all of them."""
-
-
-@dataclass(frozen=True)
-class Question:
-    """A case that is asked, and what is expected of it."""
-
-    id: str
-    layer: str
-    case: Json
-    record: Json
-
-
-@dataclass(frozen=True)
-class Program:
-    """How a program is started."""
-
-    path: Path
-    environment: Mapping[str, str] = field(default_factory=lambda: ENVIRONMENT)
 
 
 @dataclass
@@ -243,7 +224,7 @@ class Port:
         seen = Seen()
         for q in questions:
             if q.id not in given:
-                return Seen(True, seen.failed, seen.right, "hang")
+                return Seen(True, seen.failed, seen.right, trouble="hang")
             if given[q.id] == self._right[q.id]:
                 seen.right.setdefault(q.layer, []).append(self._judged[q.id])
             elif '"output"' not in given[q.id]:
@@ -271,37 +252,6 @@ class Port:
         case = Case(q.id, "", q.case)
         output = json.loads(line)["output"]
         return answer_judged(q.layer, case, q.record, output, Answers(), None, self.scope)
-
-
-def _limit_process() -> None:
-    """End a program that does not end."""
-    resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR, PROCESSOR))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-
-
-def started(program: Program) -> "subprocess.Popen[str]":
-    """A program that reads cases and writes answers, a line each."""
-    return subprocess.Popen(
-        [program.path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-        text=True, env=program.environment, preexec_fn=_limit_process,
-    )  # fmt: skip
-
-
-def replies(program: Program, questions: Sequence[Question]) -> dict[str, str]:
-    """The line of each answer by id; fewer if the program ended early."""
-    lines = (json.dumps({"id": q.id, "layer": q.layer, "input": q.case}) for q in questions)
-    with started(program) as process:
-        said, _ = process.communicate("".join(f"{line}\n" for line in lines))
-    answers = said.splitlines()[1:]  # the first line says what the program is
-    return {q.id: line for q, line in zip(questions, answers, strict=False) if line.endswith("}")}
-
-
-@cache
-def committed_questions(layer: str) -> list[Question]:
-    """The cases of a layer of the committed vectors."""
-    records = expected_read(VECTORS, layer)
-    inputs = inputs_read(VECTORS, layer)
-    return [Question(one.id, layer, one.input, records[one.id]) for one in inputs]
 
 
 @cache
@@ -395,9 +345,11 @@ names, is kept apart: no rule of the checker is written while looking at them, a
 only.
 
 Where nothing is named, a check says what failing cases have in common. *Place right*: the
-function that was changed is one of those, at most six of a port, that do what is said (the table
-`common` of the same file, written by the open half); *place wrong*: it is none of them. *Silent*:
-nothing is said, or nothing of a place.
+function that was changed is one of the six of its port whose running goes most with what is said:
+the port notes which functions each committed case runs, and those that run in the cases with these
+words, and seldom in others of the layer or of the layers before it, come first (Ochiai's
+coefficient, `validation/tools/port_places.py`; no mutant of either half is used for it). *Place
+wrong*: it is none of them. *Silent*: nothing is said.
 """
 VERDICTS = ("right", "wrong", "place right", "place wrong", "silent")
 WAYS = {"check": VERDICTS, "challenge": VERDICTS[:2]}
@@ -406,7 +358,7 @@ WAYS = {"check": VERDICTS, "challenge": VERDICTS[:2]}
 
 @cache
 def causes() -> Json:
-    """Of each mistake that has a name, the places in which it is made; ``common``: of words."""
+    """Of each mistake that has a name, the places in which it is made."""
     return tomllib.loads(CAUSES.read_text("utf-8"))
 
 
@@ -418,12 +370,15 @@ def verdict(one: Json, way: str) -> str:
     if said["names"]:
         named = any(re.search(causes()[name], one["where"]) for name in said["names"])
         return "right" if named else "wrong"
-    sentence = f"{said['layer']}: {said.get('common', '')}"
-    for words, functions in causes()["common"].items():
-        if said.get("common") and re.match(words, sentence):
-            here = one["where"].partition(":")[0] in functions.split()
-            return "place right" if here else "place wrong"
-    return "silent"
+    port = one["name"].partition(" ")[0]
+    if (known := conditions_of(said["layer"], said.get("common", ""))) is None:
+        return "silent"
+    return place_verdict(one["where"], places(port, said["layer"], *known))
+
+
+def place_verdict(where: str, functions: Sequence[str]) -> str:
+    """Whether the function that was changed is one of some."""
+    return "place right" if where.partition(":")[0] in functions else "place wrong"
 
 
 def _row(label: str, ones: Sequence[Json]) -> tuple[object, ...]:

@@ -22,7 +22,8 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.oracle.comparison import DIGITS, common_of_runs, comparison_of_run
+from quasistatic_ref.lab.oracle.comparison import DIGITS, FEW, comparison_of_run
+from quasistatic_ref.lab.oracle.parts import diagnosis
 from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.page.markdown import markdown_table
@@ -33,21 +34,20 @@ from validation.make.port_mutants import (
     EACH,
     VERDICTS,
     Port,
-    Program,
-    committed_questions,
     part_of,
-    replies,
-    started,
+    place_verdict,
     verdict,
 )
+from validation.tools.port_places import conditions_of_words, places
+from validation.tools.port_programs import Program, committed_questions, replies, started
 from validation.tools.scripts import ROOT, script_options, show_page
 
-SCENES = ("hinged", "gripped", "pushed", "keys", "solids")
+SCENES = ("free", "joints", "keys", "solids", "gripped", "pushed")
 DRAWN = {"go": 13, "cpp": 12}
 """Mutants of each port."""
 PARTS = 6
 """Every sixth change is drawn from; of an odd part, so that it is kept apart."""
-LAYERS = ("right", "among others", "wrong")
+LAYERS = ("right", "wrong")
 
 
 class RunsOutcome(NamedTuple):
@@ -96,8 +96,8 @@ def first_failure(port: Port, program: Program) -> str:
     return ""
 
 
-def run_of(program: Program, scenario: Scenario) -> OtherRun | None:
-    """The run of a scene by a program, as far as it goes; None if it takes no step."""
+def run_of(program: Program, scenario: Scenario) -> OtherRun:
+    """The run of a scene by a program, as far as it goes."""
     q = [scenario.system.q_start]
     with started(program) as process:
         assert process.stdin is not None
@@ -116,35 +116,51 @@ def run_of(program: Program, scenario: Scenario) -> OtherRun | None:
         with suppress(OSError):
             process.stdin.close()
         process.kill()
-    return OtherRun(0, np.array(q), 0.0) if len(q) > 1 else None
+    return OtherRun(0, np.array(q), 0.0)
 
 
-def runs_outcome(fails: str, where: str, program: Program) -> RunsOutcome:
+@cache
+def scenes_of(port: Port) -> tuple[str, ...]:
+    """The scenes that a port takes steps of."""
+    return tuple(name for name in SCENES if len(run_of(port.program, scene(name)).q) > 1)
+
+
+def runs_outcome(port: Port, fails: str, where: str, program: Program) -> RunsOutcome:
     """What `compare` says of the runs of a mutant, of which a layer fails in ``vectors check``."""
-    found = []
-    for name in SCENES:
-        if (run := run_of(program, scene(name))) is not None:
-            found.append(comparison_of_run(scene(name), run))
+    runs = [(scene(name), run_of(program, scene(name))) for name in scenes_of(port)]
+    found = [comparison_of_run(scenario, run) for scenario, run in runs]
+    if all(len(run.q) == 1 for _, run in runs):
+        return RunsOutcome("ends", fails)
     wrong = [one for one in found if one.first is not None]
-    if not wrong:
-        return RunsOutcome("same" if found else "ends", fails)
-    said = [{layer.partition(" ")[0] for layer in one.layers} for one in wrong]
-    layers = set.intersection(*said) or set.union(*said)
-    known = "wrong" if fails not in layers else "among others"
-    names = set.intersection(*({cause.name for cause in one.causes} for one in wrong))
-    way = {"kind": "wrong", "layer": "run", "names": [*names], "common": common_of_runs(found)}
-    cause = verdict({"where": where, "run": way}, "run")
-    return RunsOutcome("wrong", fails, "right" if layers == {fails} else known, cause)
+    said = diagnosis([part for one in found for part in one.parts])
+    if said is None:
+        return RunsOutcome("same", fails)
+    causes = [
+        {(cause.layer, cause.name) for cause in one.causes}
+        for one in wrong
+        if len(one.parts) <= FEW
+    ]
+    if named := sorted(set.intersection(*causes)) if causes else []:
+        way = {"kind": "wrong", "names": [name for _, name in named]}
+        cause = verdict({"name": port.name, "where": where, "run": way}, "run")
+        return RunsOutcome("wrong", fails, _held(fails, named[0][0]), cause)
+    known = conditions_of_words(said.layer, said.words)
+    cause = place_verdict(where, places(port.name, said.layer, *known))
+    return RunsOutcome("wrong", fails, _held(fails, said.layer), cause)
+
+
+def _held(fails: str, layer: str) -> str:
+    return "right" if layer == fails else "wrong"
 
 
 HEAD = f"""# Whole runs of programs with a mistake
 
 Made by `python -m validation.make.port_runs`: [mutants of the ports](port_mutants.md) are drawn
 from those that are kept apart and that the committed vectors find wrong. Each takes the steps of
-[the scenes for comparisons](../scenes/README.md), which `quasistatic-ref compare` is given
-together; a step of fewer than {DIGITS:g} digits is wrong. The layer, one that all scenes with a
-wrong step allow, is right if it is the first that fails in `vectors check`. What is said of the
-place is right, wrong or silent as in [the table of mutants](port_mutants.md).
+[the scenes for comparisons](../scenes/README.md) that its port can read, which `quasistatic-ref
+compare` is given together; a part of a step of fewer than {DIGITS:g} digits is wrong. The layer
+that is said is right if it is the first that fails in `vectors check`. What is said of the place
+is right or wrong as in [the table of mutants](port_mutants.md).
 """
 
 
@@ -154,7 +170,7 @@ def page(found: Sequence[RunsOutcome]) -> Iterator[str]:
     outcomes = Counter(one.outcome for one in found)
     yield f"Of {len(found)} mutants {outcomes['wrong']} take a step that compare finds wrong;"
     yield f"{outcomes['same']} take each as the reference does,"
-    yield f"{outcomes['ends']} end before a step."
+    yield f"{outcomes['ends']} end in every scene before a step."
     still = Counter(one.fails for one in found if one.outcome == "same")
     if still:
         words = ", ".join(f"{layer} ({count})" for layer, count in still.most_common())
@@ -182,7 +198,7 @@ def main() -> int:
                     fails = first_failure(port, program) if program is not None else ""
                     where = f"{change.place}: {change.old.strip()}"
                     wrong = fails and program is not None
-                    one = runs_outcome(fails, where, program) if wrong else None
+                    one = runs_outcome(port, fails, where, program) if wrong else None
                     done[change.name] = one
                     print(one or "not wrong", file=sys.stderr, flush=True)
                     if options.records:

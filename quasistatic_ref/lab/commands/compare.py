@@ -11,10 +11,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.oracle.comparison import (
     DIGITS,
+    FEW,
     Comparison,
-    common_of_runs,
     comparison_of_run,
 )
+from quasistatic_ref.lab.oracle.parts import diagnosis
 from quasistatic_ref.lab.oracle.run_table import other_run
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 
@@ -53,19 +54,19 @@ def run(options: argparse.Namespace) -> int:
         scenario = load_scenario(scene, settings)
         read = other_run(Path(path), scenario)
         found.append((scenario, comparison_of_run(scenario, read, options.digits)))
-    common = common_of_runs([one for _, one in found])
+    said = diagnosis([part for _, one in found for part in one.parts])
     if options.json:
         runs = [record(one, scenario) for scenario, one in found]
         whole = {"runs": runs} if options.more else runs[0]
-        shared.print_json(whole | {"common": common or None})
+        shared.print_json(whole | {"layer": said and said.layer, "common": said and said.sentence})
     else:
         for scene, (scenario, one) in zip(scenes, found, strict=True):
             head = f"{scene}: " if options.more else ""
             for line in sentences(one, scenario):
                 shared.print_wrapped(head + line)
-        if common:
-            shared.print_wrapped(common)
-    return max(int(one.first is not None or bool(one.failed)) for _, one in found)
+        if said is not None:
+            shared.print_wrapped(f"layer {said.layer}: {said.sentence}")
+    return int(any(one.first or one.failed or not one.steps for _, one in found))
 
 
 def record(found: Comparison, scenario: Scenario) -> dict[str, Any]:
@@ -76,7 +77,6 @@ def record(found: Comparison, scenario: Scenario) -> dict[str, Any]:
         first = {"step": found.first.k, "t": found.first.k * scenario.h,
                  "digits": found.first.digits, "coordinate": _largest(found, scenario),
                  "off": float(off[np.abs(off).argmax()]), "contact": found.contact or None,
-                 "layers": list(found.layers),
                  "causes": [{"layer": c.layer, "name": c.name, "sentence": c.sentence}
                             for c in found.causes]}  # fmt: skip
     return {"steps": found.steps, "digits": found.digits, "resolution": found.resolution,
@@ -94,7 +94,9 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
     if found.resolution:
         lines.append(f"the numbers of the run are rounded to {found.resolution:.1g}")
     first = found.first
-    if first is None:
+    if not found.steps:
+        lines.append("the run has no step")
+    elif first is None:
         lines.append(
             f"{found.steps} steps, each as the reference takes it, to {found.digits:.1f} digits"
         )
@@ -107,12 +109,11 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
             f"{first.digits:.1f} digits, {name} is off by {off:.3g} {unit}; "
             f"{found.steps} steps were compared"
         )
-        layers = " or ".join(found.layers)
-        at = f", contact {found.contact}" if found.contact else ""
-        lines.append(f"layer {layers}{at}")
+        if found.contact:
+            lines.append(f"contact {found.contact} is off the most")
         for cause in found.causes[:SHOWN]:
-            lines.append(f"looks like {cause.name}: {cause.sentence}")
-        if not found.causes:
+            lines.append(f"looks like {cause.name} (layer {cause.layer}): {cause.sentence}")
+        if not found.causes and len(found.parts) <= FEW:
             lines.append("no classic mistake ends its steps as they end")
     if found.failed:
         lines.append(f"the reference takes no further step: {found.failed}")

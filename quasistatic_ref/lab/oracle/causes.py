@@ -26,15 +26,12 @@ class Taken(NamedTuple):
         As an input of the layer ``step``.
     q_next : ndarray, shape (n_q,)
         Where that program ended.
-    delta_q : ndarray, shape (n_v,)
-        How far it moved [m, rad].
     allowed : float
         How far from there is near enough: the largest entry of the difference [m, rad].
     """
 
     case: Json
     q_next: Array
-    delta_q: Array
     allowed: float
 
 

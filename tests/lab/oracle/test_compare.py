@@ -9,9 +9,9 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.oracle import comparison as comparison_of_runs
 from quasistatic_ref.lab.oracle.comparison import comparison_of_run
-from quasistatic_ref.lab.oracle.run_table import OtherRun, other_run, positions, resolution
+from quasistatic_ref.lab.oracle.parts import Part, diagnosis
+from quasistatic_ref.lab.oracle.run_table import OtherRun, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.extras import marked_parameters
@@ -19,7 +19,8 @@ from tests.quoted import ROOT, flat, printed_blocks
 
 PUSHED = "block_push"
 SCENES = ROOT / "validation" / "scenes"
-OF_SCENES = [SCENES / f"{n}.toml" for n in ("hinged", "gripped", "pushed", "keys", "solids")]
+NAMES = ("free", "joints", "keys", "solids", "gripped", "pushed")
+OF_SCENES = [SCENES / f"{name}.toml" for name in NAMES]
 
 
 def table(path, scenario, q, first=0):
@@ -36,11 +37,6 @@ def run_with(tmp_path, scene, patch, steps):
     made = program(patch)
     q = states_by(scenario, lambda case: made("step", case), steps)
     return table(tmp_path / "run.csv", scenario, q)
-
-
-def comparison(tmp_path, scene, patch, steps):
-    scenario = qr.load_scenario(scene)
-    return comparison_of_run(scenario, other_run(run_with(tmp_path, scene, patch, steps), scenario))
 
 
 OF_ALL_KINDS = marked_parameters([*OF_SCENES, "panda_push"], {"panda_push": "robots"})
@@ -72,27 +68,75 @@ def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys)
     assert flat(capsys.readouterr().out) == flat(shown)
 
 
-def test_what_wrong_steps_of_two_runs_have_in_common_is_said(tmp_path, cli):
+def test_what_wrong_parts_of_two_scenes_have_alone_is_said_with_its_layer(tmp_path, cli):
     patch = "mechanism.py:\n- own[moving, 0] = pace * along"
     patch += '\n+ own[moving, 0] = pace * along * (3 if body["joint"] == "prismatic" else 1)'
     given = []
-    for scene in OF_SCENES[0], OF_SCENES[2]:  # the second has no such joint
-        run = run_with(tmp_path, str(scene), patch, 10).rename(tmp_path / f"{scene.stem}.csv")
-        given += [str(scene), str(run)]
+    for name in "joints", "pushed":  # the second has no such joint
+        scene = str(SCENES / f"{name}.toml")
+        run = run_with(tmp_path, scene, patch, 1).rename(tmp_path / f"{name}.csv")
+        given += [scene, str(run)]
     said = flat(cli("compare", *given, "--quiet", status=1).out)
-    assert "pushed.toml: 10 steps, each as the reference takes it" in said
-    assert "delta_q is wrong with joint prismatic in 10 of 10 failing cases, and right" in said
+    assert "pushed.toml: 1 steps, each as the reference takes it" in said
+    assert (
+        "layer jacobian: parts with joint under the contact prismatic are wrong, 3 of 3 wrong "
+        "parts, and 0 of 8 right ones have that"
+    ) in said
     assert "is a scene without a run" in cli("compare", *given[:3], status=2).err
 
 
-def test_what_nothing_explains_has_a_layer_by_its_forces_alone(tmp_path, monkeypatch):
-    monkeypatch.setattr(comparison_of_runs, "causes", lambda *_: [])
-    patch = "distance.py:\n- phi = n @ (beta - pose_h[1]) - offset"
-    patch += "\n+ phi = n @ (beta - pose_h[1]) - offset + np.sin(beta[0]) * 1e-4"
-    found = comparison(tmp_path, PUSHED, patch, 60)
-    assert found.causes == ()
-    assert "distance" in found.layers
-    assert found.contact
+def test_a_program_that_ends_at_once_lacks_what_its_scenes_have_and_others_have_not(tmp_path, cli):
+    given = []
+    for name, steps in (("free", 1), ("joints", 1), ("pushed", 0)):
+        scene = str(SCENES / f"{name}.toml")
+        run = run_with(tmp_path, scene, "", steps).rename(tmp_path / f"{name}.csv")
+        given += [scene, str(run)]
+    found = json.loads(cli("compare", *given, "--json", status=1).out)
+    assert [one["steps"] for one in found["runs"]] == [1, 1, 0]
+    assert found["layer"] == "distance"
+    assert found["common"].startswith("parts with meeting corner on face are wrong, 1 of 1 wrong ")
+    said = cli("compare", *given[4:], "--quiet", status=1).out
+    assert said.strip() == "the run has no step"
+
+
+def test_a_part_is_wrong_alone():
+    scenario = qr.load_scenario(SCENES / "free.toml", steps=2)
+    q = scenario.run(progress=False).q.copy()
+    names = [name for joint in scenario.system.joints for name in joint.positions]
+    q[2, names.index("driven/slide [m]")] += 1e-3
+    parts = comparison_of_run(scenario, OtherRun(0, q, 0.0)).parts
+    (wrong,) = [part for part in parts if part.fails]
+    assert wrong.words == {"integrate: joint: prismatic", "step: actuated joint: prismatic"}
+    assert len(parts) > 20
+
+
+PARTS = {
+    # what each part has (wrong ones first, behind a bar right ones): the layer, the words
+    "one word": ("distance: pair: a+rows: cone: x, distance: pair: a | rows: cone: x", "pair a"),
+    "two of a kind": (
+        "distance: pair: a, distance: pair: b, distance: pair: a | distance: pair: c", "pair a or b"
+    ),
+    "the first layer of equals": ("step: friction+rows: friction | rows: cone: x", "friction"),
+    "several things": (
+        "step: joint: a, step: joint: a, integrate: joint: b, integrate: joint: b | rows: k",
+        "joint b",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("given", "said"), PARTS.values(), ids=PARTS)
+def test_what_wrong_parts_have_alone(given, said):
+    sides = [side.split(", ") for side in given.split(" | ")]
+    parts = [
+        Part(fails, frozenset(words.split("+")))
+        for side, fails in zip(sides, (True, False), strict=True)
+        for words in side
+    ]
+    found = diagnosis(parts)
+    assert found.sentence.startswith(f"parts with {said} are wrong, ")
+    layers = {"pair": "distance", "friction": "rows", "joint": "integrate"}
+    assert found.layer == layers[said.split()[0]]
+    assert diagnosis(parts[: len(sides[0])]) is None  # without a right one
 
 
 def test_numbers_of_few_digits_are_known_as_such_and_rest_is_not():
@@ -129,6 +173,6 @@ def test_a_scene_that_cases_cannot_hold_is_compared_without_causes():
 
 
 def test_corners_that_cases_lack_are_refused():
-    scenario = qr.load_scenario(SCENES / "keys.toml", ["contacts.capsule.k=2"])
+    scenario = qr.load_scenario(SCENES / "keys.toml", ["contacts.rod_plane.k=2"])
     with pytest.raises(InputError, match="has 2 contacts of a capsule"):
         SceneCases(scenario)

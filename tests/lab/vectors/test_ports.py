@@ -6,7 +6,9 @@ import pytest
 
 from quasistatic_ref.lab.vectors.check.table import MISTAKES
 from validation.make.port_changes import RULES, changes, switched_line
-from validation.make.port_mutants import Question, causes, differs, kept_apart
+from validation.make.port_mutants import causes, differs, kept_apart
+from validation.tools.port_places import conditions_of, noting
+from validation.tools.port_programs import Question
 from validation.tools.ports import PORTS, texts
 
 LIBRARIES = {
@@ -59,3 +61,18 @@ def test_an_answer_without_a_number_is_another_answer():
 
 def test_every_mistake_that_is_named_has_its_places():
     assert {one.name for one in MISTAKES if set(one.predictions) - {"derivative"}} <= set(causes())
+
+
+@pytest.mark.parametrize("name", LIBRARIES)
+def test_every_function_that_can_be_changed_notes_that_it_runs(name):
+    noted = {one for text in noting(name).values() for one in re.findall(r'note\("(.*?)"\)', text)}
+    assert {change.place for change in changes(PORTS / name)} <= noted
+
+
+def test_a_sentence_on_failing_cases_has_conditions():
+    said = "q is wrong with joint not planar and a turn from 0.1 rad in 7 of 7 failing cases"
+    field, (joint, turn) = conditions_of("integrate", said)
+    assert (field, joint.wanted, turn.wanted) == ("q", False, True)
+    assert joint.words == {"joint: planar"}
+    assert turn.words == {"a turn from 0.1 rad"}
+    assert conditions_of("integrate", "") is None

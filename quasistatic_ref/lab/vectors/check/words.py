@@ -4,7 +4,7 @@ A word may be one of a kind, as ``joint: planar``.
 """
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -17,8 +17,12 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.features import features
 from quasistatic_ref.lab.vectors.tables import ORIGIN
 from quasistatic_ref.lab.vectors.trees import Path, nodes
+from quasistatic_ref.step.arrays import Array
 
 Words = frozenset[str]
+Pose = tuple[Array, Array]
+"""(R, t), as ``frame`` gives it."""
+SIDES = ("alpha", "beta")
 AXES = {
     "J": ("contact", "row of J", "coordinate"),
     "A": ("row", "coordinate"),
@@ -58,9 +62,6 @@ def words_of_numbers(case: Json, output: Json, field: str) -> Iterator[tuple[Pat
         own |= _of_sides(case, output["phi"], output["n"])
         axes = axes[1:]  # the contact is the case
     known = _of_places(case, output)
-    if field == "delta_q":
-        for j, (_, _, f_n, _) in enumerate(output.get("wrench", [])):
-            own |= {f"pressing {word}" for word in known["contact"][j]} if f_n else set()
     if field not in parts(output):
         own = own.union(*(words for places in known.values() for words in places.values()))
     for path, value in nodes(parts(output).get(field)):
@@ -109,7 +110,7 @@ def _of_places(case: Json, output: Json) -> dict[str, dict[Json, set[str]]]:
             found["contact"][i] = _of_sides(case, phi, n)
     for j, contact in enumerate(case.get("contacts", output.get("contacts", []))):
         pair = next((p for p in case.get("pairs", []) if p["name"] == contact["pair"]), contact)
-        own = found["contact"][j] = _of_contact(case, contact, pair)
+        own = found["contact"][j] = contact_words(case, contact, pair)
         for side in ("alpha", "beta"):
             words = found["body"].setdefault(contact.get(f"{side}_body"), set())
             words |= own | {f"{side} of a contact"}
@@ -122,11 +123,15 @@ def _of_places(case: Json, output: Json) -> dict[str, dict[Json, set[str]]]:
 
 
 def _of_sides(case: Json, phi: float, n: Json) -> set[str]:
-    """Of two shapes: how they meet."""
+    """Of two shapes of a case: how they meet."""
+    shapes = [case[side] for side in SIDES]
+    return side_words(shapes, [frame(case[f"pose_{side}"]) for side in SIDES], phi, n)
+
+
+def side_words(shapes: Sequence[Json], poses: Sequence[Pose], phi: float, n: Json) -> set[str]:
+    """Of two shapes in the world, alpha's first: how they meet."""
     met = []
-    for side, sign in (("alpha", 1.0), ("beta", -1.0)):
-        shape = case[side]
-        pose = frame(case[f"pose_{side}"])
+    for shape, pose, sign in zip(shapes, poses, (1.0, -1.0), strict=True):
         if found := core(shape, pose):
             heights = sign * found[0] @ n
             ends = int(np.count_nonzero(heights >= heights.max() - AXIS))
@@ -151,8 +156,8 @@ def _of_joint(case: Json, body: Json, v: slice, turns: int) -> set[str]:
     return found
 
 
-def _of_contact(case: Json, contact: Json, pair: Json) -> set[str]:
-    """Of a contact: its rows, its shapes, the joints that carry its sides."""
+def contact_words(case: Json, contact: Json, pair: Json) -> set[str]:
+    """Of a contact of a pair: its rows, its shapes, the joints that carry its sides."""
     found = {f"rows: {pair['rows']}"} if "rows" in pair else set()
     if "phi" in contact:
         found.add("phi below 0" if contact["phi"] < 0 else "phi above 0")
