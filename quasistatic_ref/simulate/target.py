@@ -16,6 +16,9 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.ordered import total
 
+FEW = 4
+"""Times between two waypoints from which numbers of all at once are formed sooner than each."""
+
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:
     """Linear between waypoints, held before the first and after the last.
@@ -74,19 +77,23 @@ class JointTrack(Plain):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             return np.array([joint.at(position) for position in positions.tolist()])
         intervals, shares = _interval(self.times, t)
-        found: Array = self.values[intervals]
-        for i in np.unique(intervals[shares > 0]).tolist():
-            start = self.values[i].tolist()
-            way = self._ways[i]
-            between = (intervals == i) & (shares > 0)
-            s = shares[between]
+        found = self.values[intervals].astype(np.float64)
+        changes = (np.flatnonzero(np.diff(intervals)) + 1).tolist()
+        for first, end in pairwise([0, *changes, len(t)]):
+            s = shares[first:end]
+            if not s.any():
+                continue
+            start = found[first].tolist()
+            way = self._ways[intervals[first]]
             # The geodesic of (+): a screw when the base both moves and turns.
-            if joint.in_c is None or any(way[joint.lengths :]):
-                found[between] = [joint.moved(start, [x * y for y in way]) for x in s.tolist()]
+            if joint.in_c is None or len(s) < FEW or any(way[joint.lengths :]):
+                found[first:end] = [
+                    joint.moved(start, [x * y for y in way]) if x else start for x in s.tolist()
+                ]
             else:  # all at once: only lengths depend on time
                 moved = joint.moved(start, [cast("float", s) * y if y else 0.0 for y in way])
                 for entry, values in enumerate(moved):
-                    found[between, entry] = values
+                    found[first:end, entry] = np.where(s > 0, values, start[entry])
         return found
 
     @cached_property

@@ -39,7 +39,7 @@ def positive_definite(key: str, S: Array) -> Array:
         About the field `key`, if S is not symmetric or not positive definite.
     """
     if np.equal(S, S.mT).all():
-        S = S + 0.0
+        S = np.add(S, 0.0, order="C")
     else:
         if np.abs(S - S.mT).max() > SYMMETRIC * np.abs(S).max():
             raise StepDataError("must be symmetric", field=key, value=S.tolist())

@@ -76,9 +76,17 @@ def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng, k
     end = np.concatenate([rng.normal(size=3), start[3:]])
     way = joint.change(start.tolist(), end.tolist())
     shares = rng.uniform(size=9)
-    found = JointTrack(joint, np.array([0.0, 1.0]), np.array([start, end])).over(shares)
+    track = JointTrack(joint, np.array([0.0, 1.0]), np.array([start, end]))
     expected = [joint.moved(start.tolist(), [s * x for x in way]) for s in shares.tolist()]
-    assert found.tolist() == expected
+    assert track.over(shares).tolist() == expected
+    assert track.over(shares[:2]).tolist() == expected[:2]
+
+
+def test_waypoints_of_a_base_may_be_whole_numbers():
+    joint = Floating("arm/base", True, slice(0, 7), slice(0, 6))
+    ends = np.array([[0, 0, 0, 0, 0, 0, 1], [1, 2, 0, 0, 0, 0, 1]])
+    for t in (np.array([0.25]), np.linspace(0.0, 0.75, 8)):
+        assert JointTrack(joint, np.array([0.0, 1.0]), ends).over(t)[:, 0].tolist() == t.tolist()
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])

@@ -57,8 +57,8 @@ class Joint(Plain, ABC):
         Whether nothing guides the link that it moves.
     in_c : int or None
         Its number in ``screws.c``; None where compiled code does not know it. It is not inherited,
-        since a class may change the sum of the one from which it inherits. Where there is one, the
-        lengths that :meth:`moved` is given may be arrays, if it does not turn.
+        since a class may change the sum of the one from which it inherits. A class with a number
+        takes arrays as lengths in :meth:`moved` where all angles are 0.
     """
 
     name: str

@@ -384,9 +384,9 @@ class FastSimulator(Simulator):
         of this function, and must end with the bits of one that was not.
         """
         own = self.constant.kind is not StepData or self.system.varying_mass is not None
-        if own or not finite(tau):
-            return super().step_under(q, q_bar_a, tau, contacts)
         change = read_only(self.system.actuated_difference(q, q_bar_a) + 0.0)
+        if own or not (finite(tau) and finite(change)):
+            return super().step_under(q, q_bar_a, tau, contacts)
         return self.posed_data(read_only(tau + 0.0), change, contacts)
 
     def posed_data(self, tau: Array, delta_q_bar_a: Array, contacts: Contacts) -> StepData:
@@ -400,7 +400,7 @@ class FastSimulator(Simulator):
         """As in the base."""
         if self.blocks is not None:
             return super().contacts_at(points, kinematics)
-        d1, d2 = map(read_only, tangents(points.n))
+        d1, d2, *_ = map(read_only, (*tangents(points.n), points.phi, points.n))
         J = self.geometry.jacobian(kinematics.columns, points.alpha, points.beta, points.n)
         return self.posed_contacts(points, d1, d2, read_only(J))
 

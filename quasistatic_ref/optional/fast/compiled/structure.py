@@ -101,7 +101,7 @@ class Structure:
 
 
 def address_of(array: NDArray[np.generic]) -> int:
-    """Where a contiguous array begins in memory, of any shape [any unit]."""
+    """Where a C-contiguous array begins in memory, of any shape [any unit]."""
     if array.flags.writeable and array.size:  # in a third of the time
         return ctypes.addressof(ctypes.c_char.from_buffer(array.data))
     return array.ctypes.data

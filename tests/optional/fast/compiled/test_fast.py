@@ -21,6 +21,7 @@ from quasistatic_ref import (
     PointCloud,
     Simulator,
     StepData,
+    StepDataError,
     System,
     load_scenario,
     standard_form,
@@ -105,7 +106,9 @@ def of_plain(simulator, q, q_bar_a, force):
     """What the plain path makes of a step."""
     kinematics = simulator.system.kinematics(q)
     points = closest_points(simulator.pairs, kinematics)
-    step = Simulator.step_data(simulator, q, q_bar_a, force, points, kinematics)
+    contacts = simulator.geometry.contacts(points, kinematics)
+    tau = simulator.generalised_force(q, force)
+    step = Simulator.step_under(simulator, q, q_bar_a, tau, contacts)
     return step, standard_form(step), points
 
 
@@ -118,6 +121,18 @@ def arrays(step, form, points):
 
 def differing_names(one, other):
     return [name for name in one if one[name] != other[name]]
+
+
+@needs_compiler
+def test_a_target_that_is_no_number_is_refused_in_the_words_of_the_plain_path():
+    scenario = load_scenario("block_push", fast=True)
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    kinematics = scenario.system.kinematics(q)
+    points = closest_points(simulator.pairs, kinematics)
+    target = np.full_like(scenario.targets(0.0), np.nan)
+    with pytest.raises(StepDataError, match="delta_q_bar_a: must contain finite numbers only"):
+        simulator.step_data(q, target, 0.0, points, kinematics)
 
 
 @needs_compiler
