@@ -22,8 +22,12 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.oracle.comparison import DIGITS, FEW, comparison_of_run
-from quasistatic_ref.lab.oracle.parts import diagnosis
+from quasistatic_ref.lab.oracle.comparison import (
+    DIGITS,
+    common_causes,
+    comparison_of_run,
+    diagnosis_of_runs,
+)
 from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.page.markdown import markdown_table
@@ -47,7 +51,7 @@ DRAWN = {"go": 13, "cpp": 12}
 """Mutants of each port."""
 PARTS = 6
 """Every sixth change is drawn from; of an odd part, so that it is kept apart."""
-LAYERS = ("right", "wrong")
+LAYERS = ("right", "wrong", "open")
 
 
 class RunsOutcome(NamedTuple):
@@ -131,26 +135,22 @@ def runs_outcome(port: Port, fails: str, where: str, program: Program) -> RunsOu
     found = [comparison_of_run(scenario, run) for scenario, run in runs]
     if all(len(run.q) == 1 for _, run in runs):
         return RunsOutcome("ends", fails)
-    wrong = [one for one in found if one.first is not None]
-    said = diagnosis([part for one in found for part in one.parts])
-    if said is None:
+    if not any(one.is_wrong for one in found):
         return RunsOutcome("same", fails)
-    causes = [
-        {(cause.layer, cause.name) for cause in one.causes}
-        for one in wrong
-        if len(one.parts) <= FEW
-    ]
-    if named := sorted(set.intersection(*causes)) if causes else []:
-        way = {"kind": "wrong", "names": [name for _, name in named]}
-        cause = verdict({"name": port.name, "where": where, "run": way}, "run")
-        return RunsOutcome("wrong", fails, _held(fails, named[0][0]), cause)
+    if named := common_causes(found):
+        way = {"kind": "wrong", "names": [cause.name for cause in named]}
+        held = _held(fails, {cause.layer for cause in named})
+        place = verdict({"name": port.name, "where": where, "run": way}, "run")
+        return RunsOutcome("wrong", fails, held, place)
+    if (said := diagnosis_of_runs(found)) is None:
+        return RunsOutcome("wrong", fails, "open", "silent")
     known = conditions_of_words(said.layer, said.words)
     cause = place_verdict(where, places(port.name, said.layer, *known))
-    return RunsOutcome("wrong", fails, _held(fails, said.layer), cause)
+    return RunsOutcome("wrong", fails, _held(fails, {said.layer}), cause)
 
 
-def _held(fails: str, layer: str) -> str:
-    return "right" if layer == fails else "wrong"
+def _held(fails: str, layers: set[str]) -> str:
+    return "right" if layers == {fails} else "wrong"
 
 
 HEAD = f"""# Whole runs of programs with a mistake
@@ -158,9 +158,9 @@ HEAD = f"""# Whole runs of programs with a mistake
 Made by `python -m validation.make.port_runs`: [mutants of the ports](port_mutants.md) are drawn
 from those that are kept apart and that the committed vectors find wrong. Each takes the steps of
 [the scenes for comparisons](../scenes/README.md) that its port can read, which `quasistatic-ref
-compare` is given together; a part of a step of fewer than {DIGITS:g} digits is wrong. The layer
-that is said is right if it is the first that fails in `vectors check`. What is said of the place
-is right or wrong as in [the table of mutants](port_mutants.md).
+compare` is given together; a step of fewer than {DIGITS:g} digits is wrong. The layer that is said
+is right if it is the first that fails in `vectors check`. What is said of the place is right or
+wrong as in [the table of mutants](port_mutants.md).
 """
 
 

@@ -11,11 +11,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.oracle.comparison import (
     DIGITS,
-    FEW,
     Comparison,
+    common_causes,
     comparison_of_run,
+    diagnosis_of_runs,
 )
-from quasistatic_ref.lab.oracle.parts import diagnosis
 from quasistatic_ref.lab.oracle.run_table import other_run
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 
@@ -54,11 +54,16 @@ def run(options: argparse.Namespace) -> int:
         scenario = load_scenario(scene, settings)
         read = other_run(Path(path), scenario)
         found.append((scenario, comparison_of_run(scenario, read, options.digits)))
-    said = diagnosis([part for _, one in found for part in one.parts])
+    every = [one for _, one in found]
+    parts = [part for one in every for part in one.parts]
+    causes = common_causes(every)
+    said = diagnosis_of_runs(every)
     if options.json:
         runs = [record(one, scenario) for scenario, one in found]
         whole = {"runs": runs} if options.more else runs[0]
-        shared.print_json(whole | {"layer": said and said.layer, "common": said and said.sentence})
+        layers = {one.layer for one in causes} if said is None else {said.layer}
+        layer = layers.pop() if len(layers) == 1 else None  # mistakes of several layers may fit
+        shared.print_json(whole | {"layer": layer, "common": said and said.sentence})
     else:
         for scene, (scenario, one) in zip(scenes, found, strict=True):
             head = f"{scene}: " if options.more else ""
@@ -66,7 +71,9 @@ def run(options: argparse.Namespace) -> int:
                 shared.print_wrapped(head + line)
         if said is not None:
             shared.print_wrapped(f"layer {said.layer}: {said.sentence}")
-    return int(any(one.first or one.failed or not one.steps for _, one in found))
+        elif not causes and len(parts) > 1 and all(part.fails for part in parts):
+            shared.print_wrapped(f"all {len(parts)} parts are wrong: the layer is open")
+    return int(any(one.is_wrong or one.failed for one in every))
 
 
 def record(found: Comparison, scenario: Scenario) -> dict[str, Any]:
@@ -94,13 +101,13 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
     if found.resolution:
         lines.append(f"the numbers of the run are rounded to {found.resolution:.1g}")
     first = found.first
-    if not found.steps:
+    if not found.steps and not found.failed:
         lines.append("the run has no step")
-    elif first is None:
+    elif first is None and found.steps:
         lines.append(
             f"{found.steps} steps, each as the reference takes it, to {found.digits:.1f} digits"
         )
-    else:
+    elif first is not None:
         off = first.off[np.abs(first.off).argmax()]
         name = _largest(found, scenario)
         unit = scenario.system.coordinates[int(np.abs(first.off).argmax())].unit
@@ -113,7 +120,7 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
             lines.append(f"contact {found.contact} is off the most")
         for cause in found.causes[:SHOWN]:
             lines.append(f"looks like {cause.name} (layer {cause.layer}): {cause.sentence}")
-        if not found.causes and len(found.parts) <= FEW:
+        if not found.causes and not found.is_told_by_parts:
             lines.append("no classic mistake ends its steps as they end")
     if found.failed:
         lines.append(f"the reference takes no further step: {found.failed}")

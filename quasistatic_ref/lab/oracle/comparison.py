@@ -4,7 +4,8 @@ Each step of the other program is taken once more, from where it began in that r
 step is one wrong step, however far the runs have drifted apart.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -12,12 +13,13 @@ import numpy as np
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.oracle.causes import Cause, Taken, causes
-from quasistatic_ref.lab.oracle.parts import Moved, Part, ended, parts_of
+from quasistatic_ref.lab.oracle.parts import Diagnosis, Moved, Part, diagnosis, ended, parts_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.oracle.scene_case import SceneCases
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -26,8 +28,8 @@ DIGITS = 6.0
 TRIED = 12
 """Wrong steps, and as many right ones, by which causes are told apart."""
 FEW = 4
-"""Parts of a scene in which causes are tried: each takes a step of the plain program, and many
-parts tell where a mistake is by themselves."""
+"""Parts of a scene in which causes are tried: each takes a step of the plain program, and of more
+parts those that are wrong tell where a mistake is, unless all are."""
 MATCH = 1e-3
 """How far from the other program's state a cause may end, over how far the reference does [-]."""
 EXACT = 1e-9
@@ -94,6 +96,43 @@ class Comparison:
     failed: str = ""
     parts: tuple[Part, ...] = ()
 
+    @property
+    def is_wrong(self) -> bool:
+        """Whether a step is wrong, or there is none."""
+        return self.first is not None or not self.steps
+
+    @property
+    def is_told_by_parts(self) -> bool:
+        """Whether parts tell where a mistake is: causes are not tried then."""
+        return len(self.parts) > FEW and not all(part.fails for part in self.parts)
+
+
+def common_causes(found: Sequence[Comparison]) -> list[Cause]:
+    """The causes of all wrong runs in which causes are tried; what parts tell counts without them.
+
+    Parameters
+    ----------
+    found : sequence of Comparison
+
+    Returns
+    -------
+    list of Cause
+    """
+    tried = [one.causes for one in found if one.first and not one.is_told_by_parts]
+    return [cause for cause in tried[0] if all(cause in one for one in tried)] if tried else []
+
+
+def diagnosis_of_runs(found: Sequence[Comparison]) -> Diagnosis | None:
+    """What wrong parts alone have; None where no step is wrong, or mistakes explain what is.
+
+    Parameters
+    ----------
+    found : sequence of Comparison
+    """
+    if common_causes(found) or not any(one.is_wrong for one in found):
+        return None
+    return diagnosis([part for one in found for part in one.parts])
+
 
 def comparison_of_run(
     scenario: Scenario,
@@ -117,10 +156,8 @@ def comparison_of_run(
     failed = ""
     for i, (q, q_next) in enumerate(zip(run.q[:-1], run.q[1:], strict=True)):
         k = run.first + i
-        t = (k + 1) * scenario.h
-        force = 0.0 if scenario.force is None else scenario.force(t, q)
         try:
-            result = simulator.step(q, scenario.targets(t), force)
+            result = _reference_step(scenario, simulator, k, q)
         except StepNotSolved as error:
             failed = f"step {k}: {error}"
             break
@@ -141,13 +178,25 @@ def comparison_of_run(
         taken = [_taken_step(cases, one, run, True) for one in spread(wrong)]
         kept = [_taken_step(cases, one, run, False) for one in spread(right)]
     if cases is not None and len(run.q) == 1:
-        parts = (_all_as_one(scenario, cases),)
+        q = run.q[0]
+        try:
+            result = _reference_step(scenario, simulator, run.first, q)
+            parts = (ended(cases.at(run.first, q), result),)
+        except StepNotSolved as error:
+            failed = f"step {run.first}: {error}"
     if first is None:
         return Comparison(steps, worst, unit, failed=failed, parts=parts)
-    found: tuple[Cause, ...] = ()
-    if taken and len(parts) <= FEW and _is_reproduced(scenario, taken[0], first):
-        found = tuple(causes(scenario.system, taken, kept))
-    return Comparison(steps, worst, unit, first, contact_of(first), found, failed, parts)
+    whole = Comparison(steps, worst, unit, first, contact_of(first), (), failed, parts)
+    if whole.is_told_by_parts or not taken or not _is_reproduced(scenario, taken[0], first):
+        return whole
+    return replace(whole, causes=tuple(causes(scenario.system, taken, kept)))
+
+
+def _reference_step(scenario: Scenario, simulator: Simulator, k: int, q: Array) -> StepResult:
+    """Step k of the reference, from a state of the other program."""
+    t = (k + 1) * scenario.h
+    force = 0.0 if scenario.force is None else scenario.force(t, q)
+    return simulator.step(q, scenario.targets(t), force)
 
 
 def _cases(scenario: Scenario) -> SceneCases | None:
@@ -156,14 +205,6 @@ def _cases(scenario: Scenario) -> SceneCases | None:
         return SceneCases(scenario)
     except InputError:
         return None
-
-
-def _all_as_one(scenario: Scenario, cases: SceneCases) -> Part:
-    """A scene of which the other program takes no step."""
-    q = scenario.system.q_start
-    force = 0.0 if scenario.force is None else scenario.force(scenario.h, q)
-    result = scenario.simulator().step(q, scenario.targets(scenario.h), force)
-    return ended(cases.at(0, q), result)
 
 
 def spread(some: list[StepOff]) -> list[StepOff]:

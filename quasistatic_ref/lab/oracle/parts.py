@@ -11,7 +11,6 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse.csgraph import connected_components
 
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.lab.program.mechanism import kinematics
@@ -21,6 +20,7 @@ from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.groups import groups
 from quasistatic_ref.step.standard_form import standard_form
 
 LAYERS = {
@@ -112,11 +112,11 @@ def parts_of(steps: Sequence[Moved], digits: float, least: float) -> tuple[Part,
     for one in steps:
         form = standard_form(one.result.step)
         frames = one.frames
-        rows = form.A != 0.0
         small = max(least, NOTHING * np.abs(one.result.solution.delta_q).max(initial=0.0))
-        label = connected_components((form.H != 0.0) | (rows.T @ rows))[1][: len(one.off)]
-        for i in range(label.max(initial=-1) + 1):
-            mine = np.flatnonzero(label == i)
+        for group in groups(one.result.step):
+            mine = group.coordinates[group.coordinates < len(one.off)]  # without an extension's
+            if not len(mine):
+                continue
             norm = energy_norm(form.H[np.ix_(mine, mine)])
             off = one.off[mine]
             right = relative_digits(norm.of_displacement(off), norm.of_impulse(form.g[mine]))

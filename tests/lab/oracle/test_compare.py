@@ -9,7 +9,11 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.oracle.comparison import comparison_of_run
+from quasistatic_ref.lab.oracle.comparison import (
+    Comparison,
+    comparison_of_run,
+    diagnosis_of_runs,
+)
 from quasistatic_ref.lab.oracle.parts import Part, diagnosis
 from quasistatic_ref.lab.oracle.run_table import OtherRun, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
@@ -99,6 +103,36 @@ def test_a_program_that_ends_at_once_lacks_what_its_scenes_have_and_others_have_
     assert said.strip() == "the run has no step"
 
 
+def test_where_the_reference_takes_no_step_it_says_why(tmp_path, cli):
+    q = qr.load_scenario(PUSHED, ["bodies.block.pose.xyz=[0,0,-0.2]"]).system.q_start
+    for states in 1, 2:
+        run = table(tmp_path / "run.csv", qr.load_scenario(PUSHED), [q] * states)
+        said = cli("compare", PUSHED, str(run), "--quiet", status=1).out
+        assert flat(said).startswith("the reference takes no further step: step 0: "), states
+
+
+def test_a_mistake_that_is_named_has_no_second_layer(tmp_path, cli):
+    patch = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
+    given = []
+    for name, steps in (("free", 1), ("joints", 1)):  # all parts of the second are wrong
+        scene = str(SCENES / f"{name}.toml")
+        run = run_with(tmp_path, scene, patch, steps).rename(tmp_path / f"{name}.csv")
+        given += [scene, str(run)]
+    found = json.loads(cli("compare", *given, "--json", status=1).out)
+    assert "sign of b" in [cause["name"] for cause in found["runs"][1]["first"]["causes"]]
+    assert (found["layer"], found["common"]) == (None, None)  # mistakes of two layers fit
+
+
+def test_where_all_parts_are_wrong_and_no_mistake_fits_the_layer_is_open(tmp_path, cli):
+    scene = str(SCENES / "joints.toml")
+    scenario = qr.load_scenario(scene, steps=1)
+    q = scenario.run(progress=False).q
+    off = np.full(scenario.system.n_v, 1e-3)
+    run = table(tmp_path / "run.csv", scenario, [q[0], scenario.system.integrate(q[1], off)])
+    said = flat(cli("compare", scene, str(run), "--quiet", status=1).out)
+    assert "no classic mistake ends its steps as they end all 10 parts are wrong: the layer" in said
+
+
 def test_a_part_is_wrong_alone():
     scenario = qr.load_scenario(SCENES / "free.toml", steps=2)
     q = scenario.run(progress=False).q.copy()
@@ -108,6 +142,15 @@ def test_a_part_is_wrong_alone():
     (wrong,) = [part for part in parts if part.fails]
     assert wrong.words == {"integrate: joint: prismatic", "step: actuated joint: prismatic"}
     assert len(parts) > 20
+
+
+def test_a_part_that_moves_little_counts_only_where_a_step_is_wrong():
+    small = Part(True, frozenset({"rows: friction"}))
+    great = Part(False, frozenset({"rows: 6"}))
+    right = Comparison(9, 7.0, 0.0, parts=(small, great))
+    assert diagnosis_of_runs([right]) is None
+    none = Comparison(0, 16.0, 0.0, parts=(Part(True, frozenset({"rows: friction"})),))
+    assert diagnosis_of_runs([right, none]).layer == "rows"
 
 
 PARTS = {
