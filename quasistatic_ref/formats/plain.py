@@ -67,6 +67,8 @@ def bits(value: Any) -> Any:
         A number, array or text; a tuple, list or mapping of such; plain data; or anything that
         compares itself.
     """
+    if isinstance(value, str | int):
+        return type(value), value
     if isinstance(value, Plain):
         compared = [f.name for f in _declared(value) if f.compare]
         return value.compared_as(), tuple(bits(getattr(value, name)) for name in compared)

@@ -94,14 +94,16 @@ def sides(step: StepData) -> list[Indices]:
     list of ndarray of int, shape (n,)
     """
     first, second = step.coupled()
-    moved = step.contacts.J.any(axis=1)  # (n_c, n_v)
-    _, same = np.unique(moved, axis=1, return_inverse=True)
+    moved = np.asarray(step.contacts.J.any(axis=1))  # (n_c, n_v)
+    alike: dict[bytes, int] = {}
+    kinds = [alike.setdefault(one.tobytes(), v) for v, one in enumerate(moved.T)]
+    same = np.array(kinds, dtype=np.int64)
     some = np.flatnonzero(moved.any(axis=0))
     entries = np.arange(len(first))
     label, _ = labels(
         step.n_v,
         len(first) + step.n_v,
-        coupling=np.concatenate([entries, entries, len(first) + same.ravel()[some]]),
+        coupling=np.concatenate([entries, entries, len(first) + same[some]]),
         coordinate=np.concatenate([first, second, some]),
     )
     label[: step.n_a] = 0

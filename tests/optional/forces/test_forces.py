@@ -167,17 +167,19 @@ def test_the_compliance_is_next_to_a_share_of_the_least_mobility():
             assert np.log2(c) == round(np.log2(c))
 
 
-def test_sides_are_what_moves_by_itself():
+@pytest.mark.parametrize("n_a", [2, 0])
+def test_sides_are_what_moves_by_itself(n_a):
     """The actuated ones, of which nothing touches the second, and two mechanisms coupled by M_u."""
     J = np.zeros((2, 4, 6))
     J[0][:3, [0, 2, 3]] = 1.0
     J[1][:3, 2:] = 1.0
     step = StepData(
-        h=H, K_q=np.eye(2), M_u=np.kron(np.eye(2), [[2.0, 1.0], [1.0, 2.0]]), tau_a=np.zeros(2),
-        tau_u=np.zeros(4), delta_q_bar_a=np.zeros(2),
-        contacts=contacts_of([0.0, 0.0], [np.eye(3)] * 2, J, MU_V),
+        h=H, K_q=np.eye(n_a), M_u=np.kron(np.eye(2), [[2.0, 1.0], [1.0, 2.0]]),
+        tau_a=np.zeros(n_a), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(n_a),
+        contacts=contacts_of([0.0, 0.0], [np.eye(3)] * 2, J[..., 2 - n_a :], MU_V),
     )  # fmt: skip
-    assert [side.tolist() for side in of_group.sides(step)] == [[0, 1], [2, 3], [4, 5]]
+    expected = [[0, 1], [2, 3], [4, 5]] if n_a else [[0, 1], [2, 3]]
+    assert [side.tolist() for side in of_group.sides(step)] == expected
 
 
 def slider(directions, mu_v=0.5, K=1.0):
