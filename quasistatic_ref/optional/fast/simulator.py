@@ -393,8 +393,9 @@ class FastSimulator(Simulator):
         """A step at the poses, from tau (n_v,) [N, N m] and its own read-only arrays."""
         constant = self.constant_here()
         n_a = len(delta_q_bar_a)
-        own = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
-        return posed(constant.kind, self.same, {**own, "contacts": contacts})
+        own: dict[str, object] = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "contacts": contacts}
+        own["delta_q_bar_a"] = delta_q_bar_a
+        return posed(constant.kind, self.same, own)
 
     def contacts_at(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """As in the base."""

@@ -63,7 +63,7 @@ class Structure:
 
     def point(self, name: str, array: NDArray[np.void]) -> None:
         """Point to an array that is not kept, of any shape [of its fields]."""
-        setattr(self._fields, name, address_of(array))
+        setattr(self._fields, name, array.ctypes.data)  # sooner than address_of, for records
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""
