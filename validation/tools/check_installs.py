@@ -102,8 +102,10 @@ def environment_with(
     own = environment(home, python=python)
     uv = environment(wheel.parent / "uv", "uv").with_name("uv")
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
-    command = [uv, "pip", "install", "-q", "--python", own, *(LOWEST if lowest else ())]
-    command += ["--compile-bytecode", what]
+    command = [uv, "pip", "install", "-q", "--python", own, "--compile-bytecode", what]
+    if lowest:  # what a wheel asks for is direct only where pyproject.toml asks for it, too
+        command += [*LOWEST, "-r", ROOT / "pyproject.toml"]
+        command += [] if extra == "base" else ["--extra", extra]
     subprocess.run([str(word) for word in command], check=True)
     return Environment(home, empty)
 
