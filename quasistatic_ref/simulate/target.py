@@ -17,7 +17,7 @@ from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.ordered import total
 
 FEW = 4
-"""Times between two waypoints from which numbers of all at once are formed sooner than each."""
+"""Times between two waypoints: of as many, positions are formed sooner all at once than singly."""
 
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:

@@ -18,10 +18,10 @@ LAUGHS = f'<!DOCTYPE r [<!ENTITY e0 "ha">{ENTITIES}]><r>&e9;</r>'
 """Entities that make 10^9 words."""
 
 
-def mjcf(world, beside=""):
+def mjcf(world, sections=""):
     """A model of MuJoCo's."""
     body = '<body name="b"><geom size="1"/></body>'
-    return f"<mujoco>{beside}<worldbody>{body}{world}</worldbody></mujoco>".encode()
+    return f"<mujoco>{sections}<worldbody>{body}{world}</worldbody></mujoco>".encode()
 
 
 def urdf(inside):

@@ -4,8 +4,8 @@ Run ``python -m validation.make.port_runs --records FILE --out FILE`` (half an h
 it alone). Of the mutants of ``port_mutants`` that are kept apart, and that the committed vectors
 find wrong, 25 are drawn by a hash of their names. Each takes the steps of all scenes in
 ``validation/scenes``, which ``compare`` is given together. What it says is held against what the
-mutant is: the layer against the first that fails in ``vectors check``; a name, or what wrong steps
-have in common, against the function that was changed, as in ``port_mutants``. The records have
+mutant is: the layer against the first that fails in ``vectors check``; a name, or what wrong parts
+alone have, against the function that was changed, as in ``port_mutants``. The records have
 what is known of each, and a second run goes on from there.
 """
 

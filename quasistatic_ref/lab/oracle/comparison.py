@@ -26,7 +26,7 @@ from quasistatic_ref.step.standard_form import standard_form
 DIGITS = 6.0
 """Correct digits of a step that count as right, if not another number is asked for [-]."""
 TRIED = 12
-"""Wrong steps, and as many right ones, by which causes are told apart."""
+"""Wrong steps, and as many right ones, on which causes are tried."""
 FEW = 4
 """Parts of a scene in which causes are tried: each takes a step of the plain program, and of more
 parts those that are wrong tell where a mistake is, unless all are."""
@@ -39,7 +39,7 @@ ROUNDED = 8
 
 
 class StepOff(NamedTuple):
-    """A step of the other program beside the reference's.
+    """A step of the other program, compared with the reference's from the same state.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class Comparison:
     failed : str
         Why the reference takes no step from a state of the run.
     parts : tuple of Part
-        By which several runs are told apart; none if the plain program cannot hold the scene.
+        What moves by itself, right or wrong; none if the plain program cannot hold the scene.
     """
 
     steps: int

@@ -59,7 +59,7 @@ class Part(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """A step of the other program, beside the reference's.
+    """A step of the other program, and the reference's from the same state.
 
     Parameters
     ----------
