@@ -1,20 +1,21 @@
 """Mistakes in programs that the checker's rules were not written with, and what it says of each.
 
-Run ``python -m validation.make.port_mutants --records FILE --out FILE`` (hours; name a port for it
-alone). Every formula of the ports in ``validation/ports``, which were written from the README of
-the vectors, is changed mechanically, one place at a time (``port_changes``). Of the changed
-programs those are kept, ``--each`` of each port at most, that answer another number in a
-committed or random case. Each of these is
+Run ``python -m validation.make.port_mutants --out FILE`` (hours; name a port for it alone). Every
+formula of the ports in ``validation/ports``, which were written from the README of the vectors, is
+changed mechanically, one place at a time (``port_changes``). Of the changed programs those are
+kept, ``--each`` of each port at most, that answer another number in a committed or random case.
+Each of these is
 
-- checked with the committed vectors, as ``vectors check`` does, layer by layer until something
-  fails, and
+- checked with the committed vectors, as ``vectors check`` does, and
 - challenged, as ``vectors challenge`` does by default: 1,000 cases from seed 0, until something is
   found. What is found is named in the same way; its case is not made smaller, which changes no
-  name.
+  name. Where it has no name, a challenge asks the committed cases, and says of them what a check
+  says.
 
 Half of the mutants, by a hash of their names, is kept apart: no rule is written while looking at
-them, and the page counts them only. The records have what is known of each, and a second run goes
-on from there; ``--each 0`` prints the page of what they hold, ``--cases N`` sends fewer.
+them, and the page counts them only. The records (``--records``, by default those that are
+committed) have what is known of each, and a second run goes on from there; ``--each 0`` prints the
+page of what they hold, ``--cases N`` sends fewer.
 
 Exit status 1 if a right port is found wrong, or a mutant not at all.
 """
@@ -37,17 +38,17 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case
 from quasistatic_ref.lab.vectors.challenge.rounds import ROUND
 from quasistatic_ref.lab.vectors.check.answers import Answers
-from quasistatic_ref.lab.vectors.check.common import common_of
 from quasistatic_ref.lab.vectors.check.compare import leaves
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
+from quasistatic_ref.lab.vectors.check.likeness import likely, wrong_parts
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from validation.make.fingerprints import subjects
 from validation.make.port_changes import Change, changes, switched_line
-from validation.tools.port_places import conditions_of, places
 from validation.tools.port_programs import (
     ENVIRONMENT,
     Program,
@@ -56,9 +57,10 @@ from validation.tools.port_programs import (
     replies,
 )
 from validation.tools.ports import PORTS, compiler_errors, texts
-from validation.tools.scripts import script_options, show_page
+from validation.tools.scripts import RESULTS, script_options, show_page
 
 CAUSES = PORTS / "causes.toml"
+RECORDS = RESULTS / "port_mutants.jsonl"
 CASES = 1000
 """Of a challenge by default."""
 MORE = 12
@@ -85,14 +87,14 @@ class Found:
         Of the mistakes that are named there.
     kind : str
         ``wrong``, ``error`` or ``hang``; empty if nothing is found.
-    common : str
-        Where nothing is named, what the failing cases have in common.
+    formulas : list of str
+        Where nothing is named, what the formulas compute that are said.
     """
 
     layer: str = ""
     names: list[str] = field(default_factory=list)
     kind: str = ""
-    common: str = ""
+    formulas: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -134,7 +136,8 @@ class Seen:
         """What further cases came to."""
         self.other = self.other or more.other
         self.trouble = self.trouble or more.trouble
-        for mine, theirs in ((self.failed, more.failed), (self.right, more.right)):
+        kinds = ("failed", "right", "silent")
+        for mine, theirs in ((getattr(self, kind), getattr(more, kind)) for kind in kinds):
             for layer, ones in theirs.items():
                 mine.setdefault(layer, []).extend(ones)
 
@@ -143,13 +146,22 @@ class Seen:
         """What is found, and named: in the first layer that fails."""
         for layer in LAYERS:
             failed = self.failed.get(layer, [])
-            right = self.right.get(layer, [])
-            if said := failed or self.silent.get(layer, []):
+            if failed or layer in self.silent:
                 with np.errstate(all="ignore"):  # answers may be any numbers
-                    names = [one.name for one in mistakes_of(layer, failed, right)]
-                    common = "" if names else common_of(layer, said, right)
-                return Found(layer, names, self.trouble or "wrong", common)
+                    named = mistakes_of(layer, failed, self.right.get(layer, []))
+                return Found(layer, [one.name for one in named], self.trouble or "wrong")
         return Found(kind=self.trouble)
+
+    @property
+    def formulas(self) -> list[str]:
+        """What the formulas compute in which a mistake would spoil nearly the same."""
+        wrong: set[str] = set()
+        for layer in LAYERS:
+            for one in (*self.failed.get(layer, []), *self.silent.get(layer, [])):
+                wrong |= {*wrong_parts(layer, one)}
+        sides = (self.failed, self.right, self.silent)
+        judged = {one.id for side in sides for ones in side.values() for one in ones}
+        return [one.subject for one in likely(wrong, judged)]
 
 
 class Port:
@@ -224,7 +236,7 @@ class Port:
         seen = Seen()
         for q in questions:
             if q.id not in given:
-                return Seen(True, seen.failed, seen.right, trouble="hang")
+                return Seen(True, seen.failed, seen.right, seen.silent, "hang")
             if given[q.id] == self._right[q.id]:
                 seen.right.setdefault(q.layer, []).append(self._judged[q.id])
             elif '"output"' not in given[q.id]:
@@ -297,13 +309,13 @@ def trial_of(port: Port, change: Change, program: Program | None, cases: int = C
     if program is None:
         trial.outcome = "no program"
         return trial
-    other = False
+    checked = Seen()
     for layer in port.scope.layers:
-        seen = port.look(program, port.within(committed_questions(layer)))
-        other = other or seen.other
-        if seen.failed or seen.trouble:
-            trial.check = seen.first_found
-            break
+        if checked.trouble != "hang":
+            checked.add(port.look(program, port.within(committed_questions(layer))))
+    trial.check = checked.first_found
+    formulas = checked.formulas
+    trial.check.formulas = [] if trial.check.names else formulas
     seen, sent, number = Seen(), 0, 0
     while sent < cases and not seen.failed and not seen.trouble:
         here = challenge_round(number, port.scope.layers)
@@ -318,7 +330,9 @@ def trial_of(port: Port, change: Change, program: Program | None, cases: int = C
         seen.add(port.look(program, port.within(again)))
         number += 1
     trial.challenge = seen.first_found
-    if other or seen.other:
+    if trial.challenge.kind and not trial.challenge.names:
+        trial.challenge.formulas = formulas
+    if checked.other or seen.other:
         trial.outcome = "other"
     return trial
 
@@ -338,22 +352,19 @@ HEAD = """# Mistakes in programs that the checker's rules were not written with
 Made by `python -m validation.make.port_mutants`: each formula of [the ports in Go and
 C++](../ports/README.md) can be changed by a program, one place at a time. Each changed program that
 answers another number is checked with the committed vectors, and challenged with the 1,000 cases
-that a challenge has by default, until something is found. *Right*: of the names that are given in
-the first layer that fails one belongs to the place that was changed
-(`validation/ports/causes.toml`); *wrong*: none does. Half of the mutants, by a hash of their
-names, is kept apart: no rule of the checker is written while looking at them, and they are counted
-only.
-
-Where nothing is named, a check says what failing cases have in common. *Place right*: the
-function that was changed is one of the six of its port whose running goes most with what is said:
-the port notes which functions each committed case runs, and those that run in the cases with these
-words, and seldom in others of the layer or of the layers before it, come first (Ochiai's
-coefficient, `validation/tools/port_places.py`; no mutant of either half is used for it). *Place
-wrong*: it is none of them. *Silent*: nothing is said.
+that a challenge has by default, until something is found. *Right*: of the classic mistakes that are
+named in the first layer that fails, one belongs to the place that was changed
+(`validation/ports/causes.toml`). Where none is named, a check says in which one or two formulas a
+planted mistake spoils nearly the same cases and fields
+(`quasistatic_ref/lab/vectors/check/likeness.py`), and a challenge asks the committed cases for it:
+right, if the place that was changed computes one of them (`validation/ports/subjects.toml`, of 30
+things). *Wrong*: neither. *Silent*: nothing is said. Half of the mutants, by a hash of their names,
+is kept apart: no rule of the checker is written while looking at them, and they are counted only.
+The table of subjects was written before any mutant was tried; one line of it was corrected by the
+open half.
 """
-VERDICTS = ("right", "wrong", "place right", "place wrong", "silent")
-WAYS = {"check": VERDICTS, "challenge": VERDICTS[:2]}
-"""What is counted of each way of looking."""
+VERDICTS = ("right", "wrong", "silent")
+WAYS = ("check", "challenge")
 
 
 @cache
@@ -370,22 +381,18 @@ def verdict(one: Json, way: str) -> str:
     if said["names"]:
         named = any(re.search(causes()[name], one["where"]) for name in said["names"])
         return "right" if named else "wrong"
-    port = one["name"].partition(" ")[0]
-    if (known := conditions_of(said["layer"], said.get("common", ""))) is None:
+    if not said["formulas"]:
         return "silent"
-    return place_verdict(one["where"], places(port, said["layer"], *known))
-
-
-def place_verdict(where: str, functions: Sequence[str]) -> str:
-    """Whether the function that was changed is one of some."""
-    return "place right" if where.partition(":")[0] in functions else "place wrong"
+    port = one["name"].partition(" ")[0]
+    function, _, line = one["where"].partition(": ")
+    return "wrong" if set(said["formulas"]).isdisjoint(subjects(port, function, line)) else "right"
 
 
 def _row(label: str, ones: Sequence[Json]) -> tuple[object, ...]:
     cells: list[object] = [label, len(ones)]
-    for way, said in WAYS.items():
+    for way in WAYS:
         count = Counter(verdict(one, way) for one in ones)
-        cells += [len(ones) - count["not found"], *(count[name] for name in said)]
+        cells += [len(ones) - count["not found"], *(count[name] for name in VERDICTS)]
     return tuple(cells)
 
 
@@ -397,8 +404,11 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
     count = Counter(one["outcome"] for one in trials)
     yield f"Of {every:,} changes {len(trials)} were tried, of each kind one in turn: {len(kept)}"
     yield f"answer another number, {count['same']} do not, {count['no program']} are no program."
+    by_name = sum(1 for one in kept if one["check"]["names"])
+    two = sum(1 for one in kept if len(one["check"]["formulas"]) == 2)
+    yield f"A check names {by_name} by a classic mistake, and says two formulas of {two}."
     yield ""
-    ways = [f"{way}: {name}" for way, said in WAYS.items() for name in ("found", *said)]
+    ways = [f"{way}: {name}" for way in WAYS for name in ("found", *VERDICTS)]
     for title, apart in (("The half that is open", False), ("The half that is kept apart", True)):
         half = [one for one in kept if one["apart"] == apart]
         kinds = sorted({one["kind"] for one in half})
@@ -409,12 +419,11 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
         yield ""
         yield from markdown_table(("kind", "mutants", *ways), rows)
         yield ""
-    for wanted in ("not found", "wrong", "place wrong"):
+    for wanted in ("not found", "wrong"):
         yield f"## Open, and {wanted}"
         yield ""
         for one in kept:
-            asked = [way for way, said in WAYS.items() if wanted in ("not found", *said)]
-            seen = [way for way in asked if verdict(one, way) == wanted]
+            seen = [way for way in WAYS if verdict(one, way) == wanted]
             if seen and not one["apart"]:
                 yield f"- {' and '.join(seen)}: `{one['name']}`"
         yield ""
@@ -422,9 +431,11 @@ def page(trials: Sequence[Json]) -> Iterator[str]:
 
 def main() -> int:
     """Try mutants, and print the page."""
-    options = script_options(__doc__, ("go", "cpp"), out=Path, records=Path, each=EACH, cases=CASES)
+    options = script_options(
+        __doc__, ("go", "cpp"), out=Path, records=RECORDS, each=EACH, cases=CASES
+    )
     done: dict[str, Json] = {}
-    if options.records and options.records.exists():
+    if options.records.exists():
         lines = options.records.read_text("utf-8").splitlines()
         done = {one["name"]: one for one in map(json.loads, lines)}
     alarms: list[str] = []
@@ -435,9 +446,8 @@ def main() -> int:
             for change, program in port.mutants(2 * options.each, lambda change: True):
                 if change.name not in done:
                     done[change.name] = asdict(trial_of(port, change, program, options.cases))
-                    if options.records:
-                        with options.records.open("a") as file:
-                            file.write(json.dumps(done[change.name]) + "\n")
+                    with options.records.open("a") as file:
+                        file.write(json.dumps(done[change.name]) + "\n")
                 kept += done[change.name]["outcome"] == "other"
                 if kept >= options.each:
                     break

@@ -34,15 +34,8 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from validation.make.port_mutants import (
-    EACH,
-    VERDICTS,
-    Port,
-    part_of,
-    place_verdict,
-    verdict,
-)
-from validation.tools.port_places import conditions_of_words, places
+from validation.make.port_mutants import EACH, Port, part_of, verdict
+from validation.tools.port_places import places
 from validation.tools.port_programs import Program, committed_questions, replies, started
 from validation.tools.scripts import ROOT, script_options, show_page
 
@@ -52,6 +45,7 @@ DRAWN = {"go": 13, "cpp": 12}
 PARTS = 6
 """Every sixth change is drawn from; of an odd part, so that it is kept apart."""
 LAYERS = ("right", "wrong", "open")
+VERDICTS = ("right", "wrong", "place right", "place wrong", "silent")
 
 
 class RunsOutcome(NamedTuple):
@@ -144,8 +138,8 @@ def runs_outcome(port: Port, fails: str, where: str, program: Program) -> RunsOu
         return RunsOutcome("wrong", fails, held, place)
     if (said := diagnosis_of_runs(found)) is None:
         return RunsOutcome("wrong", fails, "open", "silent")
-    known = conditions_of_words(said.layer, said.words)
-    cause = place_verdict(where, places(port.name, said.layer, *known))
+    right = where.partition(":")[0] in places(port.name, said.layer, said.words)
+    cause = "place right" if right else "place wrong"
     return RunsOutcome("wrong", fails, _held(fails, {said.layer}), cause)
 
 
@@ -159,8 +153,9 @@ Made by `python -m validation.make.port_runs`: [mutants of the ports](port_mutan
 from those that are kept apart and that the committed vectors find wrong. Each takes the steps of
 [the scenes for comparisons](../scenes/README.md) that its port can read, which `quasistatic-ref
 compare` is given together; a step of fewer than {DIGITS:g} digits is wrong. The layer that is said
-is right if it is the first that fails in `vectors check`. What is said of the place is right or
-wrong as in [the table of mutants](port_mutants.md).
+is right if it is the first that fails in `vectors check`. A name is right or wrong as in [the table
+of mutants](port_mutants.md). *Place right*: the function that was changed is one of the six of its
+port whose running goes most with what is said (`validation/tools/port_places.py`).
 """
 
 

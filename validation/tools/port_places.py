@@ -1,8 +1,8 @@
 """Which functions of a port do what is said of failing cases: those that run in such cases alone.
 
 Each function of a port notes that it runs (a line that a program adds). So each committed case has
-its functions. Of a sentence of ``vectors check``, the cases with the words that it says are taken
-for those that fail, the others of the layer and all of the layers before it for right ones. A
+its functions. Of a sentence of ``compare``, the cases with the words that it says are taken for
+those that fail, the others of the layer and all of the layers before it for right ones. A
 function that runs in a of the n failing cases, and in b right ones, scores a / sqrt(n (a + b)),
 Ochiai's coefficient (Abreu et al., "On the accuracy of spectrum-based fault localization", 2007).
 The functions of the highest scores are said: no list of words and functions is written by hand.
@@ -12,13 +12,14 @@ import json
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
 from math import sqrt
 from pathlib import Path
-from typing import NamedTuple
 
-from quasistatic_ref.lab.vectors.check.words import Words, words_of_numbers
+from quasistatic_ref.lab.oracle.words import Words, contact_words, pair_words, side_words
+from quasistatic_ref.lab.program.rotation import frame
+from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.port_changes import BEGINS, FILES
 from validation.tools.port_programs import Program, committed_questions, replies
@@ -50,14 +51,6 @@ ANSWERED = {
     ),
 }
 """How an answer is written, and how it is with the functions that made it."""
-SENTENCE = re.compile(r"(?:(\S+) is wrong|no output is answered) with (.*?) in \d+ of \d+ failing")
-
-
-class Condition(NamedTuple):
-    """One of some words, or none of them."""
-
-    words: Words
-    wanted: bool = True
 
 
 def noting(name: str) -> Mapping[str, str]:
@@ -95,70 +88,57 @@ def functions_by_case(name: str) -> dict[str, dict[str, frozenset[str]]]:
 
 
 @cache
-def words_by_case(layer: str, field: str) -> dict[str, list[Words]]:
-    """By committed case, the words of its numbers of a field."""
-    return {
-        q.id: [words for _, words in words_of_numbers(q.case, q.record["output"], field)]
-        for q in committed_questions(layer)
-    }
+def words_by_case(layer: str) -> dict[str, Words]:
+    """By committed case, its words."""
+    asked = committed_questions(layer)
+    return {q.id: frozenset(_words(q.case, q.record["output"])) for q in asked}
 
 
-def conditions_of(layer: str, sentence: str) -> tuple[str, list[Condition]] | None:
-    """The field and the conditions of a sentence of ``vectors check``; None of an empty one."""
-    if not (said := SENTENCE.match(sentence)):
-        return None
-    field = said[1] or ""
-    known = {
-        word for case in words_by_case(layer, field).values() for word in frozenset().union(*case)
-    }
-    return field, [_condition(text, known) for text in said[2].split(" and ")]
+def _words(case: Json, output: Json) -> set[str]:
+    found = {f"cone: {case['cone'].partition('-')[0]}"} if "cone" in case else set()
+    for body in case.get("mechanism", {}).get("bodies", []):
+        if body["joint"] != "fixed" and "mimic" not in body:
+            how = "actuated" if body.get("actuated") else "un-actuated"
+            found |= {f"joint: {body['joint']}", f"{how} joint: {body['joint']}"}
+    if "pose_alpha" in case:
+        shapes = [case["alpha"], case["beta"]]
+        poses = [frame(case["pose_alpha"]), frame(case["pose_beta"])]
+        found |= pair_words(*shapes)
+        several = isinstance(output["phi"], list)
+        phi, n = (output[key] if several else [output[key]] for key in ("phi", "n"))
+        for one, normal in zip(phi, n, strict=True):
+            found |= side_words(shapes, poses, one, normal)
+    for contact in case.get("contacts", output.get("contacts", [])):
+        pairs = (one for one in case.get("pairs", []) if one["name"] == contact["pair"])
+        found |= contact_words(case, contact, next(pairs, contact))
+    return found
 
 
-def _condition(text: str, known: set[str]) -> Condition:
-    """A condition from its text: a word, some of a kind, or none of some."""
-    plain = {word.replace(":", ""): word for word in known}
-    if text in plain:
-        return Condition(frozenset({plain[text]}))
-    for kind in {word.rpartition(": ")[0] for word in known}:
-        values = text.removeprefix(f"{kind} ")
-        words = frozenset(f"{kind}: {v}" for v in values.removeprefix("not ").split(" or "))
-        if kind and values != text and words <= known:
-            return Condition(words, not values.startswith("not "))
-    raise SystemExit(f"no case has what is said: {text}")
-
-
-def conditions_of_words(layer: str, words: Words) -> tuple[str, list[Condition]]:
-    """Of what ``compare`` says of parts: words that no case of the layer has tell nothing."""
-    meant = {word.replace("kinematics of joint:", "joint under the contact:") for word in words}
-    known = frozenset().union(*(one for case in words_by_case(layer, "").values() for one in case))
-    return "", [Condition(frozenset(meant))] if meant <= known else []
-
-
-def places(name: str, layer: str, field: str, conditions: Sequence[Condition]) -> list[str]:
-    """The functions of a port that run most in the cases of which some things are said alone.
+def places(name: str, layer: str, said: Words) -> list[str]:
+    """The functions of a port that run most in the cases of which some words are said alone.
 
     Parameters
     ----------
     name : str
         The port's.
-    layer, field : str
-        Of which that is said.
-    conditions : sequence of Condition
+    layer : str
+    said : set of str
+        By ``compare`` of parts. Words that no case of the layer has tell nothing.
     """
-
-    def is_meant(case: str) -> bool:
-        numbers = words_by_case(layer, field)[case]
-        return any(
-            all(words.isdisjoint(one.words) != one.wanted for one in conditions)
-            for words in numbers
-        )
-
+    words = words_by_case(layer)
+    meant = frozenset(
+        one.replace("kinematics of joint:", "joint under the contact:") for one in said
+    )
+    if not meant <= frozenset().union(*words.values()):
+        meant = frozenset()
+    failing = {case for case, own in words.items() if not meant or not meant.isdisjoint(own)}
     ran = functions_by_case(name)
     inside: Counter[str] = Counter()
     outside: Counter[str] = Counter()
     for one in LAYERS[: LAYERS.index(layer) + 1]:
         for case, functions in ran[one].items():
-            (inside if one == layer and is_meant(case) else outside).update(functions)
-    number = sum(map(is_meant, ran[layer]))
-    score = {f: n / sqrt(number * (n + outside[f])) for f, n in inside.items()}
+            (inside if case in failing else outside).update(functions)
+    score = {
+        f: n / sqrt(len(failing & ran[layer].keys()) * (n + outside[f])) for f, n in inside.items()
+    }
     return sorted(score, key=lambda f: (-score[f], f))[:MOST]

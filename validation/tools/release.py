@@ -58,7 +58,18 @@ def to_file(name: str, ending: str = "md", command: str = "") -> Result:
 
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
-    to_file("port_mutants"),
+    Result(
+        "fingerprints",
+        "validation.make.fingerprints",
+        ("quasistatic_ref/lab/vectors/check/fingerprints.json.gz",),
+    ),
+    Result(
+        "port_mutants",
+        "validation.make.port_mutants --records {temporary}/port_mutants.jsonl "
+        "--out validation/results/port_mutants.md",
+        ("validation/results/port_mutants.md", "validation/results/port_mutants.jsonl"),
+        (("port_mutants.jsonl", "validation/results"),),
+    ),
     to_file("port_runs"),
     to_file("served_steps"),
     to_file("challenges"),

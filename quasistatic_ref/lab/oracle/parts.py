@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
+from quasistatic_ref.lab.oracle.words import Words, contact_words, side_words
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.step import pose_in_world
-from quasistatic_ref.lab.vectors.check.words import Words, contact_words, side_words
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.simulate.result import StepResult

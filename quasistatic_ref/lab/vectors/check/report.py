@@ -1,5 +1,6 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
 from quasistatic_ref.lab.vectors.check.scope import Scope
@@ -34,6 +35,30 @@ class Named:
 
 
 @dataclass(frozen=True)
+class Likely:
+    """A formula in which a mistake would spoil nearly the same.
+
+    Parameters
+    ----------
+    subject : str
+        What it computes.
+    place : str
+        Where the plain program has it.
+    likeness : float
+        Of the most alike mistake in it, from 0 to 1 [-].
+    """
+
+    subject: str
+    place: str
+    likeness: float
+
+    @property
+    def words(self) -> str:
+        """The formula, and how like its mistake is."""
+        return f"{self.subject} ({self.place} of the plain program, {self.likeness:.0%} alike)"
+
+
+@dataclass(frozen=True)
 class LayerReport:
     """What became of one layer.
 
@@ -50,8 +75,8 @@ class LayerReport:
         Of every case, in the order of the inputs.
     mistakes : tuple of Named
         What explains the failures, the best explanation first.
-    common : str
-        What failing cases have in common, if nothing explains them.
+    wrong : set of str
+        What is wrong, by case and field, as ``wrong_parts`` names it.
     must : bool
         Whether a layer without a file is a failure.
     """
@@ -62,7 +87,7 @@ class LayerReport:
     problem: str
     verdicts: tuple[Verdict, ...]
     mistakes: tuple[Named, ...] = ()
-    common: str = ""
+    wrong: frozenset[str] = frozenset()
     must: bool = False
 
     def required(self) -> "LayerReport":
@@ -188,7 +213,6 @@ class LayerReport:
             "worst_case": self.worst.id if self.worst else None,
             "first_failure": self.first.record if self.present and self.first else None,
             "mistakes": [asdict(mistake) for mistake in self.mistakes],
-            "common": self.common or None,
             "cases": [v.record for v in self.verdicts] if self.present else [],
         }
 
@@ -206,12 +230,15 @@ class Report:
         [-] To how many digits an answer is acceptable.
     scope : Scope, optional
         What was looked at; by default everything.
+    likely : tuple of Likely
+        The formulas to look at first, if no classic mistake explains what fails.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
     digits: float | None = None
     scope: Scope | None = None
+    likely: tuple[Likely, ...] = ()
 
     @property
     def few(self) -> tuple[str, ...]:
@@ -246,8 +273,8 @@ class Report:
                     f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
                     f"{m.sentence}"
                 )
-            said += [f"{layer.layer}: {layer.common}"] if layer.common else []
             said += [words for words in (layer.partial, layer.unasked) if words]
+        said += [sentence_of(self.likely)] if self.likely else []
         if self.scope:
             words = f": {self.scope.words}" if self.scope.words else ""
             said.append(f"only cases of the scope {self.scope.name!r} were looked at{words}")
@@ -270,5 +297,12 @@ class Report:
             "ok": self.ok,
             "digits": self.digits,
             "scope": self.scope and {"name": self.scope.name, "words": self.scope.words},
+            "likely": [asdict(one) for one in self.likely],
             "layers": [layer.record for layer in self.layers],
         }
+
+
+def sentence_of(some: Sequence[Likely]) -> str:
+    """Where to look first."""
+    formulas = ", or in ".join(one.words for one in some)
+    return f"what is wrong is most like what a mistake spoils in {formulas}"
