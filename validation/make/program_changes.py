@@ -47,6 +47,8 @@ class Change(NamedTuple):
         Counted from 1.
     old, new : str
         The expression.
+    source : str
+        The function with it.
     text : str
         The whole file with it.
     """
@@ -56,6 +58,7 @@ class Change(NamedTuple):
     line: int
     old: str
     new: str
+    source: str
     text: str
 
 
@@ -85,23 +88,27 @@ def changes(text_of: Callable[[str], str] = text_of_file) -> Iterator[Change]:
 
 def changes_of_file(file: str, text: str) -> Iterator[Change]:
     """Those of the functions of a file."""
-    for i, function in enumerate(ast.parse(text).body):
+    rows = text.splitlines()
+    for function in ast.parse(text).body:
         if not isinstance(function, ast.FunctionDef):
             continue
-        names = sorted({one.id for one in ast.walk(function) if isinstance(one, ast.Name)})
-        known = {ast.unparse(ast.parse(text))}
-        for j, node in enumerate(ast.walk(function)):
+        first, last = function.lineno - 1, function.end_lineno
+        own = "\n".join(rows[first:last])
+        whole = ast.parse(own)
+        names = sorted({one.id for one in ast.walk(whole) if isinstance(one, ast.Name)})
+        known = {ast.unparse(whole)}
+        for j, node in enumerate(ast.walk(whole)):
             for k, other in enumerate(changed(node, names)):
-                tree = ast.parse(text)
-                place = list(ast.walk(tree.body[i]))[j]
+                tree = ast.parse(own)
+                place = list(ast.walk(tree))[j]
                 swap = Swap(place, list(changed(place, names))[k])
                 new = ast.unparse(ast.fix_missing_locations(swap.visit(tree)))
                 if new not in known:
                     known.add(new)
-                    line = getattr(node, "lineno", function.lineno)
-                    yield Change(
-                        file, function.name, line, ast.unparse(node), ast.unparse(other), new
-                    )
+                    line = first + getattr(node, "lineno", 1)
+                    texts = ast.unparse(node), ast.unparse(other)
+                    file_text = "\n".join([*rows[:first], new, *rows[last:]]) + "\n"
+                    yield Change(file, function.name, line, *texts, new, file_text)
 
 
 def changed(node: ast.AST, names: list[str]) -> Iterator[ast.AST]:
