@@ -17,16 +17,8 @@
 enum { GUESSES = 8, STARTS = 3, SWEEPS = 36 };
 enum { FIRST = 80, LAST = 240, FINER = 60, PRODUCTS = 1 << 14 };
 
+#define ROUNDED 0x1p-38 /* of a sum of fewer than PRODUCTS terms in float64: its error over their sizes */
 #define OPEN 1e-5 /* of an exponent that is as near to one whole number as to the next */
-
-static void turned(double *x, double *y, int stride, double angle)
-{
-    for (int l = 0; l < 3; l++, x += stride, y += stride) {
-        double turned = cos(angle) * *x - sin(angle) * *y;
-        *y = sin(angle) * *x + cos(angle) * *y;
-        *x = turned;
-    }
-}
 
 /* optional/forces/of_group.counted. */
 static double counted(double b, double largest)
@@ -35,19 +27,46 @@ static double counted(double b, double largest)
     return b >= small ? b : small * small / fmax(b, HARDLY_MOVES * small);
 }
 
+/* Turn two vectors of three numbers in their plane. */
+static void turned(double *x, double *y, int stride, double cosine, double sine)
+{
+    for (int l = 0; l < 3; l++, x += stride, y += stride) {
+        double turned = cosine * *x - sine * *y;
+        *y = sine * *x + cosine * *y;
+        *x = turned;
+    }
+}
+
+/* Whether all eigenvalues of b surely count as they are, and so its diagonal: b less twice what counts as
+   small is definite. */
+static int counts_as_it_is(double b[3][3])
+{
+    double small = 2 * HARDLY_MOVES * (b[0][0] + b[1][1] + b[2][2]);
+    double x = b[0][0] - small, y = b[1][1] - small, z = b[2][2] - small;
+    double minor = x * y - b[0][1] * b[0][1], off = b[0][1] * b[1][2] - b[0][2] * y;
+    double other = x * b[1][2] - b[0][1] * b[0][2];
+    return x > 0.0 && minor > 0.0 && z * minor - b[1][2] * other + b[0][2] * off > 0.0;
+}
+
 /* What a side counts for along n, d1 and d2 of a contact, from b = J H^-1 J' there: its eigenvalues, by
    Jacobi's rotations. */
 static void counted_along(double b[3][3], double *out)
 {
     double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++)
+        out[i] = b[i][i];
+    if (counts_as_it_is(b))
+        return;
     for (int k = 0; k < SWEEPS; k++) {
         int i = k % 3, j = (k + 1) % 3;
         if (fabs(b[i][j]) <= 0x1p-60 * (b[i][i] + b[j][j]))
             continue;
-        double angle = atan(2 * b[i][j] / (b[j][j] - b[i][i])) / 2;
-        turned(b[0] + i, b[0] + j, 3, angle);
-        turned(b[i], b[j], 1, angle);
-        turned(axes[0] + i, axes[0] + j, 3, angle);
+        double twice = (b[j][j] - b[i][i]) / (2 * b[i][j]); /* the cotangent of twice the angle */
+        double tangent = copysign(1 / (fabs(twice) + sqrt(twice * twice + 1)), twice);
+        double cosine = 1 / sqrt(tangent * tangent + 1), sine = tangent * cosine;
+        turned(b[0] + i, b[0] + j, 3, cosine, sine);
+        turned(b[i], b[j], 1, cosine, sine);
+        turned(axes[0] + i, axes[0] + j, 3, cosine, sine);
     }
     double most = fmax(b[0][0], fmax(b[1][1], b[2][2]));
     for (int i = 0; i < 3; i++) {
@@ -57,11 +76,34 @@ static void counted_along(double b[3][3], double *out)
     }
 }
 
-/* By which a row of B is multiplied that is to have no coefficient of friction; 0 if it bears nothing. */
-static double borne(const Force *g, int64_t c, int i)
+/* Three rows of J in SI units, along n, d1 and d2: zero along what the contact does not bear. */
+static void borne(const Force *g, int64_t c, double *J)
 {
-    double mu = g->s->mu[4 * c + i];
-    return g->f->bears[i] && mu > 0.0 ? 1 / mu : 0.0;
+    int64_t n = g->s->n_v;
+    for (int i = 0; i < 3; i++) {
+        double mu = g->s->mu[4 * c + i], by = g->f->bears[i] && mu > 0.0 ? 1 / mu : 0.0;
+        for (int64_t v = 0; v < n; v++)
+            J[i * n + v] = by * g->B[(4 * c + i) * n + v] * g->way[v];
+    }
+}
+
+/* b = J H^-1 J' of the coordinates of a side; whether they move the contact. */
+static int mobility(const Force *g, int64_t side, const double *J, double b[3][3])
+{
+    int64_t n = g->s->n_v;
+    int moves = 0;
+    for (int64_t x = g->f->start[side]; x < g->f->start[side + 1]; x++) {
+        int64_t v = g->f->side[x];
+        for (int i = 0; i < 3; i++) {
+            double motion = 0.0;
+            for (int64_t y = g->f->start[side]; y < g->f->start[side + 1]; y++)
+                motion += g->s->inverse[v * n + g->f->side[y]] * J[i * n + g->f->side[y]];
+            for (int j = 0; j < 3; j++)
+                b[i][j] += J[j * n + v] * motion;
+            moves |= J[i * n + v] != 0.0;
+        }
+    }
+    return moves;
 }
 
 /* optional/forces/of_group: the compliance; 0 where its exponent is open. */
@@ -69,26 +111,15 @@ static double compliance(const Force *g)
 {
     const Forces *f = g->f;
     const Proof *s = g->s;
-    int64_t n = s->n_v;
     double least = INFINITY;
+    for (int64_t c = 0; c < s->n_c; c++)
+        borne(g, c, g->borne + 3 * c * s->n_v);
     for (int64_t side = 0; side < f->sides; side++) {
         int64_t count = 0;
         double largest = 0.0;
         for (int64_t c = 0; c < s->n_c; c++) {
-            const double *B = g->B + 4 * c * n;
             double b[3][3] = {{0.0}};
-            int moves = 0;
-            for (int64_t x = f->start[side]; x < f->start[side + 1]; x++)
-                for (int i = 0; i < 3; i++) {
-                    double motion = 0.0, by = borne(g, c, i);
-                    for (int64_t y = f->start[side]; y < f->start[side + 1]; y++)
-                        motion += s->inverse[f->side[x] * n + f->side[y]] * by * B[i * n + f->side[y]]
-                                * g->way[f->side[y]];
-                    for (int j = 0; j < 3; j++)
-                        b[i][j] += borne(g, c, j) * B[j * n + f->side[x]] * g->way[f->side[x]] * motion;
-                    moves |= by * B[i * n + f->side[x]] != 0.0;
-                }
-            if (!moves)
+            if (!mobility(g, side, g->borne + 3 * c * s->n_v, b))
                 continue;
             counted_along(b, g->along + count);
             for (int i = 0; i < 3; i++)
@@ -101,7 +132,8 @@ static double compliance(const Force *g)
     return fabs(exponent - whole) < 0.5 - OPEN && fabs(whole) < 900 ? ldexp(1.0, (int)whole) : 0.0;
 }
 
-/* B of all contacts, in natural units of coordinates; what SI units are of these, in `way`. */
+/* B of all contacts, in natural units of coordinates, and the sizes of what its entries are sums of; what
+   SI units are of these, in `way`. */
 static void in_floats(const Force *g)
 {
     const Proof *s = g->s;
@@ -110,10 +142,14 @@ static void in_floats(const Force *g)
         g->way[v] = 1 / s->coordinate[v];
     for (int64_t i = 0; i < 4 * s->n_c; i++)
         for (int64_t v = 0; v < n; v++) {
-            double sum = 0.0;
-            for (int a = 0; a < 4; a++)
-                sum += s->frame[4 * i + a] * s->J[(i / 4 * 4 + a) * n + v];
+            double sum = 0.0, size = 0.0;
+            for (int a = 0; a < 4; a++) {
+                double term = s->frame[4 * i + a] * s->J[(i / 4 * 4 + a) * n + v];
+                sum += term;
+                size += fabs(term);
+            }
             g->B[i * n + v] = s->mu[i] * sum * s->coordinate[v];
+            g->large[i * n + v] = s->mu[i] * size * s->coordinate[v];
         }
 }
 
@@ -171,7 +207,7 @@ static void pressed(const Force *g, const Number *x, int with_gaps, Number *r)
 {
     const Proof *s = g->s;
     int64_t n = s->n_v;
-    double D = (double)g->f->multiple;
+    double D = (double)g->f->multiple, stiffness = 1 / g->c;
     Float h = exact(*s->h);
     Sum one = EMPTY;
     for (int64_t c = 0; c < s->n_c; c++) {
@@ -187,8 +223,6 @@ static void pressed(const Force *g, const Number *x, int with_gaps, Number *r)
                     add_product(&one, z + b, exact((double)of_s(g->f, c)[4 * a + b] * share), 1);
             carried(&one, push + a);
             times(&one, push + a, exact(s->mu[4 * c + a]));
-            times(&one, push + a, h);
-            times(&one, push + a, h);
         }
         for (int i = 0; i < 4; i++) {
             for (int a = 0; a < 4; a++)
@@ -197,19 +231,22 @@ static void pressed(const Force *g, const Number *x, int with_gaps, Number *r)
             carried(&one, &w);
             for (int64_t v = 0; v < n; v++)
                 if (J[i * n + v] != 0.0)
-                    add_product(g->sum + v, &w, scaled(J[i * n + v], s->coordinate[v] / g->c), 1);
+                    add_product(g->sum + v, &w, scaled(J[i * n + v], s->coordinate[v] * stiffness), 1);
         }
     }
     for (int64_t v = 0; v < n; v++) {
         const Number *H = (const Number *)s->hessian + v * n;
+        Number inert, force;
         for (int64_t w = 0; w < n; w++)
-            for (int j = x[w].low; j < x[w].high && !empty(H + w); j++)
+            for (int j = x[w].low; j < x[w].high && s->hessian_values[v * n + w] != 0.0; j++)
                 add_product(&one, H + w, (Float){j, x[w].d[j], 0}, -1);
-        Number inert;
         carried(&one, &inert);
-        add_product(g->sum + v, &inert, exact(D), 1);
-        add(g->sum + v, r + v);
-        carried(g->sum + v, r + v);
+        carried(g->sum + v, &force);
+        times(&one, &force, h);
+        add_product(&one, &force, h, 1);
+        add_product(&one, &inert, exact(D), 1);
+        add(&one, r + v);
+        carried(&one, r + v);
     }
 }
 
@@ -222,7 +259,8 @@ static void remaining(const Force *g, const Number *z, Number *r)
     pressed(g, z, 1, r);
 }
 
-/* Add x to z, and refine z until no residual is above 2^-bits; x is the next correction then. */
+/* Add x to z, and refine z until no residual r, which is what acts at z = 0 first, is above 2^-bits; x
+   is the next correction then. */
 static void refine(Force *g, int bits)
 {
     Workspace *m = &g->m;
@@ -233,10 +271,11 @@ static void refine(Force *g, int bits)
             m->net[v] = number(digits_of(g->x[v], bits + FINER, 1));
             total(m->z + v, m->net + v, m->z + v);
         }
-        if (round == 0)
+        if (!g->refined)
             remaining(g, m->z, m->r);
         else
             pressed(g, m->net, 0, m->r);
+        g->refined = 1;
         for (int64_t v = 0; v < n; v++) {
             m->rest[v] = value(m->r + v) / (double)g->f->multiple * UP;
             most = fmax(most, fabs(m->rest[v]));
@@ -266,6 +305,35 @@ static int may_be_zero(const Number *x, double error)
     return error > 0.0 && fabs(value(x)) * DOWN <= error;
 }
 
+/* Whether a contact that bears nothing surely is on the right face: float64 shows that all conditions of
+   this face are positive. */
+static int surely_free(const Force *g, int64_t c)
+{
+    const Proof *s = g->s;
+    const int64_t *row = numbers(g->f, c, 0);
+    int64_t n = s->n_v;
+    double z[4], error[4];
+    for (int a = 0; a < 4; a++) {
+        z[a] = a == 0 ? s->phi[c] / g->units[1] : 0.0;
+        error[a] = fabs(z[a]) * ROUNDED;
+        for (int64_t v = 0; v < n; v++) {
+            double x = value(g->m.z + v);
+            z[a] += g->B[(4 * c + a) * n + v] * x;
+            error[a] += g->large[(4 * c + a) * n + v] * (fabs(x) * ROUNDED + g->m.e[v]);
+        }
+    }
+    for (int64_t i = 0; i < g->f->count[c]; i++, row += 4) {
+        double sum = 0.0, most = 0.0;
+        for (int a = 0; a < 4; a++) {
+            sum += (double)row[a] * z[a];
+            most += fabs((double)row[a]) * (error[a] + fabs(z[a]) * ROUNDED);
+        }
+        if (!(sum > 2 * most + FLOOR))
+            return 0;
+    }
+    return 1;
+}
+
 /* The forces, if each face is right: DECIDED, REFUTED with other faces, or OPEN_NUMBER. What may be
    zero, and at the finest what may be half-way, is collected. */
 static int judged(Force *g, int finest)
@@ -278,6 +346,10 @@ static int judged(Force *g, int finest)
         double h = denominator(g->f, c, g->f->face[c]), e[4], near[4];
         Number z[4], x;
         int wrong = 0;
+        if (!g->f->face[c] && surely_free(g, c)) {
+            memset(g->f->wrench + 4 * c, 0, 4 * sizeof(double));
+            continue;
+        }
         motion(s, g->m.z, g->m.e, c, 1, z, e);
         for (int64_t i = 0; i < g->f->count[c]; i++, row += 4) {
             double error = summed(row, 1.0, z, e, &x);
@@ -382,6 +454,7 @@ static int forced(Force *g)
     defect(m->R, m->K, g->size, n, m->G, m->e);
     lost = 0;
     memset(m->z, 0, (size_t)n * sizeof(Number));
+    g->refined = 0;
     int code = OPEN_NUMBER;
     for (int bits = FIRST; code == OPEN_NUMBER && bits <= LAST; bits += FIRST) {
         refine(g, bits);
@@ -429,7 +502,7 @@ int forces(Forces *f)
     void *workspace = workspace_of(&s, &g.m);
     g.sum = calloc(n, sizeof(Sum));
     g.open = calloc(n_c * (size_t)f->width + 1, sizeof(Open));
-    g.B = calloc(4 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
+    g.B = calloc(11 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
     int code = NO_MEMORY;
     if (workspace && g.sum && g.open && g.B) {
         g.z = g.B + 4 * n_c * n;
@@ -437,7 +510,9 @@ int forces(Forces *f)
         g.size = g.along + 4 * n_c;
         g.x = g.size + n * n;
         g.way = g.x + n;
-        g.before = (int64_t *)(g.way + n);
+        g.borne = g.way + n;
+        g.large = g.borne + 3 * n_c * n;
+        g.before = (int64_t *)(g.large + 4 * n_c * n);
         for (size_t v = 0; v < n; v++)
             g.sum[v] = EMPTY;
         lost = 0;

@@ -38,8 +38,10 @@ typedef struct {
     double c, k, units[2];
     double *B, *size, *x, *way; /* size: of what K is the sum of */
     double *z, *along;          /* z at x, and how it changes along the way */
+    double *borne, *large;      /* J along n, d1 and d2; sizes of what the entries of B are the sums of */
     int64_t *before;            /* faces */
     Sum *sum;
+    int refined; /* whether m.r is what is left at m.z */
     int64_t opened;
     Open *open;
 } Force;
