@@ -22,7 +22,7 @@ from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.standard_form import inequalities, linear_term
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -31,6 +31,8 @@ PACKED = 100
 """Steps that are kept one by one before they become arrays, all at once."""
 LARGEST = 1_000_000
 """Entries of J that are kept so, beyond those of one step."""
+FORMED = ("g", "A", "b", "J")
+"""What of a program is no field of its step."""
 POINTS = ("phi", "alpha", "beta", "n", "point")
 IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED)
 SECONDS = "seconds."
@@ -174,12 +176,11 @@ class Recorder(Shown):
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._latest:
             results = self._latest[0] if len(self._latest) == 1 else _Joined(self._latest)
-            targets = self._targets
             read = [arrays_of(part, self.system.n_v) for part in self._latest]
+            every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
+            arrays = self._arrays(results, every)
             self._latest = []
             self._targets = []
-            every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
-            arrays = self._arrays(targets, results, every)
             for array in (*arrays.values(), every["motion"]):
                 read_only(array)
             before = self.parts[-1] if self.parts else arrays
@@ -190,15 +191,13 @@ class Recorder(Shown):
                     arrays[name] = _checked_note(name, note, len(results), before.get(name))
         return self.parts
 
-    def _arrays(
-        self, q_bar_a: Sequence[Array], results: Sequence[StepResult], every: StepArrays
-    ) -> StepArrays:
+    def _arrays(self, results: Sequence[StepResult], every: StepArrays) -> StepArrays:
         """What is kept of the last steps, of which `every` array is read, and no more."""
         first = results[0]
         lam = every["lam"]
         arrays: StepArrays = {
             "t": np.arange(self.steps - len(results) + 1, self.steps + 1) * self.h,
-            "q_bar_a": np.array(q_bar_a),
+            "q_bar_a": np.array(self._targets),
             "wrench": without_warnings(
                 contact_wrenches, first.step.contacts, lam, self.h, self.cone
             ),
@@ -212,7 +211,7 @@ class Recorder(Shown):
         elif self.record == "full":
             known = self.simulator.records_forces(first.solution)
         if known:
-            arrays["forces"] = _of_all(results, "forces")
+            arrays["forces"] = self._forces(arrays["wrench"])
         if self.record == "forces":
             arrays["imbalance"] = _of_all(results, "imbalance")
             arrays["motion"] = every["motion"]
@@ -220,6 +219,16 @@ class Recorder(Shown):
         if first.step.extra.names:
             more = (*more, "lam_extra")
         return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
+
+    def _forces(self, wrench: Array) -> Array:
+        """The forces of the last steps, from those without compliance: (steps, n_c, 4) [N, N m]."""
+        ends = np.cumsum([len(part) for part in self._latest])
+        return np.concatenate(
+            [
+                part.forces(own) if isinstance(part, Steps) else _of_all(part, "forces")
+                for part, own in zip(self._latest, np.split(wrench, ends[:-1]), strict=True)
+            ]
+        )
 
     def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
         """Add steps that were taken before, as :meth:`packed` gave them.
@@ -377,10 +386,10 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
         By the notation's names [in its units].
     """
-    forms = [standard_form(step) for step in steps]
-    arrays = {name: _of_all(forms, name) for name in StandardForm._fields}
+    arrays: StepArrays = {name: _of_all(steps, name) for name in PROGRAM if name not in FORMED}
+    arrays["g"] = np.array([linear_term(step) for step in steps])
+    arrays["A"], arrays["b"] = inequalities(steps)
     arrays["J"] = np.array([step.contacts.J for step in steps])
-    arrays |= {name: _of_all(steps, name) for name in PROGRAM if name not in arrays}
     if steps[0].extra.names:
         extra = [step.extra for step in steps]
         arrays |= {"extra_A": _of_all(extra, "A"), "extra_b": _of_all(extra, "b")}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -185,6 +187,28 @@ class Contacts(Plain, Shown):
             field = self.name[j]
             value = axes[:, j].tolist()
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
+
+
+class Frames(NamedTuple):
+    """The contacts of several steps, one after the other, as far as rows are made of them.
+
+    Parameters
+    ----------
+    phi, n, d1, d2, mu, J : ndarray, shape (n_c, ...)
+        As in :class:`Contacts`, n_c contacts in all.
+    """
+
+    phi: Array
+    n: Array
+    d1: Array
+    d2: Array
+    mu: Array
+    J: Array
+
+    @classmethod
+    def of_all(cls, contacts: Sequence[Contacts]) -> Frames:
+        """Those of the contacts of each step."""
+        return cls(*(np.concatenate([getattr(c, name) for c in contacts]) for name in cls._fields))
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:

@@ -256,13 +256,15 @@ class StepData(Plain, Shown):
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets
 
-    def present(self, rows: Array) -> Array:
+    def present(self, rows: Array, steps: int | None = None) -> Array:
         """The rows that the contacts have, shape (m, ...), of all rows (n_c, R, ...) of the cone.
 
-        It is ``rows[mask]``, in half the time.
+        It is ``rows[mask]``, in half the time. Of several steps, whose contacts follow one another,
+        the rows have shape (steps, m, ...).
         """
-        flat = rows.reshape(self.mask.size, *rows.shape[2:])
-        return flat.take(self.row_layout.numbers, axis=0)
+        flat = rows.reshape(steps or 1, self.mask.size, *rows.shape[2:])
+        found = flat.take(self.row_layout.numbers, axis=1)
+        return found[0] if steps is None else found
 
     @cached_property
     def H(self) -> Array:

@@ -308,6 +308,14 @@ class Taken(Steps):
             **{SECONDS + name: records["seconds"][:, i] for i, name in enumerate(LAPS)},
         }
 
+    def forces(self, wrench: Array) -> Array:
+        """As of any such steps, none of whose solutions is made."""
+        in_c = self._simulator.in_c
+        if in_c is None:
+            return np.array([result.forces for result in self])
+        near = zip(self._records["delta_q"], wrench, strict=True)
+        return np.array([in_c.wrench(self[k].step, one) for k, one in enumerate(near)])
+
     def _result(self, k: int) -> StepResult:
         record = self._records[k, ...]  # an array, whose fields are read in less time
         own = {
