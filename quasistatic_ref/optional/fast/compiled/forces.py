@@ -1,5 +1,6 @@
 """The forces of single contacts in fixed point: those of ``optional/forces``, if it is there."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import accumulate, combinations
@@ -7,6 +8,7 @@ from operator import attrgetter
 from threading import Lock
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.certify.contact_forces import ForcesOfGroups, forces_near
 from quasistatic_ref.certify.solution import StepSolution
@@ -22,7 +24,8 @@ from quasistatic_ref.optional.fast.compiled.library import library, why_not
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
-from quasistatic_ref.optional.fast.rechecked import check_forces
+from quasistatic_ref.optional.fast.rechecked import FORCES, check_forces, is_due
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.solve.units import hessian_in_both_units
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.cones import cone, cone_matrix
@@ -83,6 +86,46 @@ class Forces:
         left = self.s.integers("code").nonzero()[0].tolist()
         return self.s["wrench"].copy(), [i for i in left if len(self.groups[i].contacts)]
 
+    def of_block(
+        self, first: StepData, records: NDArray[np.void], near: Array
+    ) -> tuple[Array, NDArray[np.int64]]:
+        """The same of steps that follow one another, with what becomes of each of their groups.
+
+        Parameters
+        ----------
+        first : StepData
+            One of them.
+        records : ndarray, shape (steps,)
+            As of :class:`~quasistatic_ref.optional.fast.compiled.onward.Onward`.
+        near : ndarray, shape (steps, n_c, 4)
+            As of :meth:`in_c` [N, N m].
+
+        Returns
+        -------
+        (ndarray, ndarray)
+            Of shapes (steps, n_c, 4) [N, N m] and (steps, groups).
+        """
+        self.s["mu"][:, 1:] = first.contacts.mu
+        scene = records["scene"]
+        frame = np.zeros((*near.shape, 4))
+        frame[..., 3, 3] = 1.0
+        for i, name in enumerate(("n", "d1", "d2")):
+            frame[..., i, :3] = scene[name]
+        wrench = np.zeros(near.shape)
+        code = np.zeros((len(records), len(self.groups)), np.int64)
+        s = Structure("groups.c", "Step")
+        s.put({"groups": len(self.groups)})
+        s.share(self.s, ("group", "forces", "mu"))
+        for _ in s.along(
+            {
+                **{name: scene[name] for name in ("J", "phi", "tau")}, "frame": frame,
+                "delta_q_bar_a": records["delta_q_bar_a"], "near": np.ascontiguousarray(near),
+                "code": code, "wrench": wrench,
+            }
+        ):  # fmt: skip
+            self._form(s.address)
+        return wrench, code
+
     def compliance(self) -> Array:
         """Of each contact in the last step of :meth:`in_c`, which has decided all, (n_c,) [m/N]."""
         found = np.zeros(len(self._none))
@@ -105,7 +148,7 @@ class Forces:
         for group, own in [group_steps(step)[i] for i in left]:
             of_group = delta_q[group.coordinates], wrenches[group.contacts]
             wrench[group.contacts] = forces_near(own, of_group).wrench
-        if not left:
+        if not left and is_due(FORCES, step.n_v):
             check_forces(step, wrench)
         return read_only(wrench)
 
@@ -126,6 +169,34 @@ class ForcesOfSteps:
         with self._one_at_a_time:
             return self._of_steps_like(step).wrench(step, near)
 
+    def of_block(
+        self, results: Sequence[StepResult], records: NDArray[np.void], near: Array
+    ) -> Array:
+        """The same of steps that follow one another: shape (steps, n_c, 4) [N, N m].
+
+        Parameters
+        ----------
+        results : sequence of StepResult
+            Of which few are made.
+        records, near
+            As of :meth:`Forces.of_block`.
+        """
+        moving = np.asarray(records["scene"]["J"].any(axis=2))
+        if (moving != moving[0]).any():
+            each = zip(results, records["delta_q"], near, strict=True)
+            return np.array([self.wrench(one.step, (delta_q, own)) for one, delta_q, own in each])
+        with self._one_at_a_time:
+            forces = self._of_steps_like(results[0].step)
+            wrench, code = forces.of_block(results[0].step, records, near)
+        known = [i for i, group in enumerate(forces.groups) if len(group.contacts)]
+        left_open = np.asarray(code[:, known].any(axis=1))
+        for k, left in enumerate(left_open.tolist()):
+            if left:
+                wrench[k] = self.wrench(results[k].step, (records["delta_q"][k], near[k]))
+            elif is_due(FORCES, records["delta_q"].shape[1]):
+                check_forces(results[k].step, wrench[k])
+        return wrench
+
     def decided(self, step: StepData, near: Array) -> ForcesOfGroups | None:
         """The same; None if a force is open.
 
@@ -141,7 +212,8 @@ class ForcesOfSteps:
             if left:
                 return None
             compliance = forces.compliance()
-        check_forces(step, wrench)
+        if is_due(FORCES, step.n_v):
+            check_forces(step, wrench)
         return read_only(wrench), read_only(compliance), forces.groups
 
     def _of_steps_like(self, step: StepData) -> Forces:

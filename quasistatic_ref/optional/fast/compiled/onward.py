@@ -313,8 +313,7 @@ class Taken(Steps):
         in_c = self._simulator.in_c
         if in_c is None:
             return np.array([result.forces for result in self])
-        near = zip(self._records["delta_q"], wrench, strict=True)
-        return np.array([in_c.wrench(self[k].step, one) for k, one in enumerate(near)])
+        return in_c.of_block(self, self._records, wrench)
 
     def _result(self, k: int) -> StepResult:
         record = self._records[k, ...]  # an array, whose fields are read in less time

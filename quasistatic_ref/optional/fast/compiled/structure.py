@@ -3,7 +3,7 @@
 import ctypes
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import cast
 
@@ -64,6 +64,20 @@ class Structure:
     def point(self, name: str, array: NDArray[np.void]) -> None:
         """Point to an array that is not kept, of any shape [of its fields]."""
         setattr(self._fields, name, array.ctypes.data)  # sooner than address_of, for records
+
+    def along(self, arrays: Mapping[str, NDArray[np.generic]]) -> Iterator[int]:
+        """Point to the first entries of some arrays, then to the next, and give their number.
+
+        Parameters
+        ----------
+        arrays : mapping of str to ndarray
+            Of equal length; each entry is contiguous [any unit].
+        """
+        first = [(name, address_of(one), one.strides[0]) for name, one in arrays.items()]
+        for k in range(min(map(len, arrays.values()))):
+            for name, address, size in first:
+                setattr(self._fields, name, address + k * size)
+            yield k
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""

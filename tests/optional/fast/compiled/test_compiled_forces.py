@@ -6,6 +6,7 @@ from fractions import Fraction
 from threading import Event, Lock, Thread
 
 import numpy as np
+import pytest
 
 from quasistatic_ref import Simulator, contact_forces, load_scenario
 from quasistatic_ref.lab.bench.scenes import Boxes
@@ -77,6 +78,51 @@ def test_a_full_record_of_fast_holds_the_forces_of_the_plain_path():
     assert "forces" not in plain.arrays
     assert fast.arrays["forces"].tobytes() == plain.forces.tobytes()
     assert np.abs(plain.forces).max() > 4.0  # [N]
+
+
+def block_of(name, steps):
+    """A few steps of a scenario that C takes at once, after its first one."""
+    scenario = load_scenario(name, fast=True)
+    simulator = scenario.simulator()
+    goal = scenario.system.q_start[: scenario.system.n_q_a]
+    simulator.step(scenario.system.q_start, goal)
+    given = goal, np.zeros(scenario.system.n_v)
+    block = simulator.steps(scenario.system.q_start, lambda k, q: given, steps)
+    assert len(block) == steps
+    return block, np.array([result.solution.wrench for result in block])
+
+
+@pytest.mark.parametrize("name", ["stack", "two_finger_pinch", "block_incline"])
+def test_forces_of_a_block_are_those_of_each_of_its_steps(name):
+    block, near = block_of(name, 4)
+    found = block.forces(near)
+    assert np.abs(found).max() > 0.1  # [N]
+    for result, own in zip(block, found, strict=True):
+        assert own.tobytes() == contact_forces(result.step).wrench.tobytes()
+
+
+def test_what_c_leaves_open_of_a_block_comes_from_the_core(monkeypatch):
+    block, near = block_of("stack", 3)
+    right = block.forces(near)
+    of_block = forces.Forces.of_block
+
+    def opened(self, first, records, near):
+        wrench, code = of_block(self, first, records, near)
+        wrench[1] = np.nan
+        code[1, -1] = 1
+        return wrench, code
+
+    monkeypatch.setattr(forces.Forces, "of_block", opened)
+    assert block.forces(near).tobytes() == right.tobytes()
+
+
+def test_forces_of_a_block_in_which_other_coordinates_move_a_contact_are_those_of_each_step():
+    block, near = block_of("stack", 3)
+    right = block.forces(near)
+    records = block._records.copy()
+    records["scene"]["J"][1] = 0.0
+    of_steps = forces.ForcesOfSteps()
+    assert of_steps.of_block(block, records, near).tobytes() == right.tobytes()
 
 
 def test_forces_of_two_solutions_may_be_read_in_two_threads(monkeypatch):
