@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import takewhile, zip_longest
+from itertools import accumulate, takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -222,7 +222,7 @@ class Recorder(Shown):
 
     def _forces(self, wrench: Array) -> Array:
         """The forces of the last steps, from those without compliance: (steps, n_c, 4) [N, N m]."""
-        ends = np.cumsum([len(part) for part in self._latest])
+        ends = [*accumulate(map(len, self._latest))]
         return np.concatenate(
             [
                 part.forces(own) if isinstance(part, Steps) else _of_all(part, "forces")

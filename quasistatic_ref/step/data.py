@@ -256,15 +256,13 @@ class StepData(Plain, Shown):
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets
 
-    def present(self, rows: Array, steps: int | None = None) -> Array:
-        """The rows that the contacts have, shape (m, ...), of all rows (n_c, R, ...) of the cone.
+    def present(self, rows: Array, steps: int = 1) -> Array:
+        """The rows that contacts have, shape (steps, m, ...), of all, (steps n_c, R, ...).
 
-        It is ``rows[mask]``, in half the time. Of several steps, whose contacts follow one another,
-        the rows have shape (steps, m, ...).
+        Of one step it is ``rows[mask]``, in half the time.
         """
-        flat = rows.reshape(steps or 1, self.mask.size, *rows.shape[2:])
-        found = flat.take(self.row_layout.numbers, axis=1)
-        return found[0] if steps is None else found
+        flat = rows.reshape(steps, self.mask.size, *rows.shape[2:])
+        return flat.take(self.row_layout.numbers, axis=1)
 
     @cached_property
     def H(self) -> Array:

@@ -30,14 +30,15 @@ SAMPLE = {
         f"{PAGE} StepProblem.__init__: gap - slip_2 -> gap + slip_2",
         f"{PAGE} StepProblem.__init__: gap - spin -> gap + spin",
         f"{PAGE} StepProblem.__init__: tau_k + tau_a -> tau_k - tau_a",
-        f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
+        f"{FORM} inequalities: [A, [step.extra.A for step in steps]] -> "
+        "[[step.extra.A for step in steps], A]",
     ),
     "step/test_friction.py::test_each_row_alone_reaches_a_vertex_of_the_octahedron": (
         f"{FRICTION} wrenches: [1, 2, 0, 3] -> [2, 1, 0, 3]",
     ),
     "certify/test_residuals.py::test_a_planted_optimum_has_no_residual": (
-        f"{FORM} standard_form: -step.present(row_constants(step.contacts, step.cone)) -> "
-        "step.present(row_constants(step.contacts, step.cone))",
+        f"{FORM} inequalities: -first.present(row_constants(contacts, first.cone), len(steps)) -> "
+        "first.present(row_constants(contacts, first.cone), len(steps))",
         f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
         f"{CONES} row_violations: -slack -> slack",
         f"{CONES} row_violations: -lam -> lam",

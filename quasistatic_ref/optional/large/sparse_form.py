@@ -101,6 +101,6 @@ def sparse_hessian(step: StepData) -> csc_matrix:
 
 def sparse_form(step: StepData, pattern: Pattern) -> StandardForm:
     """Its standard form, with sparse H and A in the places of the pattern."""
-    rows = step.present(rows_along(step.contacts, in_blocks(step).J, step.cone))  # Eqs. (4), (8)
-    b = -step.present(row_constants(step.contacts, step.cone))
+    (rows,) = step.present(rows_along(step.contacts, in_blocks(step).J, step.cone))  # Eqs. (4), (8)
+    (b,) = -step.present(row_constants(step.contacts, step.cone))
     return StandardForm(pattern.H, linear_term(step), pattern.matrix(rows), b)

@@ -96,14 +96,16 @@ class Forces:
         first : StepData
             One of them.
         records : ndarray, shape (steps,)
-            As of :class:`~quasistatic_ref.optional.fast.compiled.onward.Onward`.
+            As of :class:`~quasistatic_ref.optional.fast.compiled.onward.Onward` [of the notation].
         near : ndarray, shape (steps, n_c, 4)
             As of :meth:`in_c` [N, N m].
 
         Returns
         -------
-        (ndarray, ndarray)
-            Of shapes (steps, n_c, 4) [N, N m] and (steps, groups).
+        ndarray, shape (steps, n_c, 4)
+            [N, N m].
+        ndarray, shape (steps, groups)
+            As in proof.h.
         """
         self.s["mu"][:, 1:] = first.contacts.mu
         scene = records["scene"]
@@ -178,8 +180,10 @@ class ForcesOfSteps:
         ----------
         results : sequence of StepResult
             Of which few are made.
-        records, near
-            As of :meth:`Forces.of_block`.
+        records : ndarray, shape (steps,)
+            As of :meth:`Forces.of_block` [of the notation].
+        near : ndarray, shape (steps, n_c, 4)
+            The same [N, N m].
         """
         moving = np.asarray(records["scene"]["J"].any(axis=2))
         if (moving != moving[0]).any():

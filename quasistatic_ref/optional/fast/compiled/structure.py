@@ -71,7 +71,7 @@ class Structure:
         Parameters
         ----------
         arrays : mapping of str to ndarray
-            Of equal length; each entry is contiguous [any unit].
+            Of equal length and any shape; each entry is contiguous [any unit].
         """
         first = [(name, address_of(one), one.strides[0]) for name, one in arrays.items()]
         for k in range(min(map(len, arrays.values()))):
