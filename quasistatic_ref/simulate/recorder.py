@@ -176,11 +176,17 @@ class Recorder(Shown):
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._latest:
             results = self._latest[0] if len(self._latest) == 1 else _Joined(self._latest)
-            read = [arrays_of(part, self.system.n_v) for part in self._latest]
-            every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
-            arrays = self._arrays(results, every)
-            self._latest = []
-            self._targets = []
+            try:
+                read = [arrays_of(part, self.system.n_v) for part in self._latest]
+                every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
+                arrays = self._arrays(results, every)
+            except BaseException:  # what is not known of these steps cannot be recorded
+                self.steps -= len(results)
+                self.q = self.parts[-1]["q"][-1] if self.parts else self.start
+                raise
+            finally:
+                self._latest = []
+                self._targets = []
             for array in (*arrays.values(), every["motion"]):
                 read_only(array)
             before = self.parts[-1] if self.parts else arrays

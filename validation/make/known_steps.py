@@ -30,6 +30,7 @@ from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
 from quasistatic_ref.optional.fast.compiled.known_steps import FILE, Known, letter, tried
 from quasistatic_ref.step.files import step_record
+from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.groups import group_steps
 from tests.oracles.random_steps import designed_step
 from tests.oracles.rows_given import (
@@ -54,7 +55,7 @@ from validation.tools.scripts import script_options
 SEEDS = 3000
 EACH = 3
 """Steps of one kind: of equal family, size and outcomes of proofs."""
-MOST = 394
+MOST = 400
 CONES = ("pyramid", "frictionless", "facets-8")
 
 
@@ -98,6 +99,20 @@ def varied_step(seed: int) -> StepData:
     return step.replace(cone=CONES[seed // 8 % 3])
 
 
+def nearly_pressed(seed: int) -> StepData:
+    """A designed step: float64 hardly shows that one of its contacts bears nothing, or does."""
+    rng = np.random.default_rng([seed, 5])
+    step = designed_step(seed)
+    forces = contact_forces(step)
+    contacts = step.contacts
+    j = rng.choice(np.flatnonzero(~forces.wrench.any(axis=1)))
+    rows = friction_rows(contacts, step.cone)[j, : step.counts[j]] @ forces.delta_q
+    off = float(rng.choice([-1, 1])) * 2.0 ** -int(rng.integers(40, 60))
+    phi = contacts.phi.copy()
+    phi[j] = -rows.min() + np.abs(rows).max() * off
+    return step.replace(contacts=replace(contacts, phi=phi))
+
+
 def chosen_steps() -> Iterator[StepData]:
     """Steps that refuse a wrong prover which others do not: ``prover_mutants``."""
     yield from (without_rows(1), without_rows(2))
@@ -109,6 +124,7 @@ def chosen_steps() -> Iterator[StepData]:
     yield half_way_forces(2.0**39 + 1.0)
     yield from (half_way_forces(2.0**39 + 5.0, gap) for gap in (2.0**-75, 2.0**-300))
     yield from (*forces_float64_misses(), at_rest())  # which has an even number
+    yield from map(nearly_pressed, (2, 71, 90, 438, 584, 2530))
 
 
 def main() -> int:

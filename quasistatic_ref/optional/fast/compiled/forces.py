@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import accumulate, combinations
 from operator import attrgetter
 from threading import Lock
@@ -24,7 +24,7 @@ from quasistatic_ref.optional.fast.compiled.library import library, why_not
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.proofs import Coupling, coupled_by, unchanged
-from quasistatic_ref.optional.fast.rechecked import FORCES, check_forces, is_due
+from quasistatic_ref.optional.fast.rechecked import check_forces
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.solve.units import hessian_in_both_units
 from quasistatic_ref.step.arrays import read_only
@@ -150,8 +150,8 @@ class Forces:
         for group, own in [group_steps(step)[i] for i in left]:
             of_group = delta_q[group.coordinates], wrenches[group.contacts]
             wrench[group.contacts] = forces_near(own, of_group).wrench
-        if not left and is_due(FORCES, step.n_v):
-            check_forces(step, wrench)
+        if not left:
+            check_forces(lambda: step, step.n_v, wrench)
         return read_only(wrench)
 
 
@@ -185,20 +185,25 @@ class ForcesOfSteps:
         near : ndarray, shape (steps, n_c, 4)
             The same [N, N m].
         """
+
+        def step_of(k: int) -> StepData:
+            return results[k].step
+
         moving = np.asarray(records["scene"]["J"].any(axis=2))
         if (moving != moving[0]).any():
             each = zip(results, records["delta_q"], near, strict=True)
             return np.array([self.wrench(one.step, (delta_q, own)) for one, delta_q, own in each])
         with self._one_at_a_time:
-            forces = self._of_steps_like(results[0].step)
-            wrench, code = forces.of_block(results[0].step, records, near)
+            step = results[0].step
+            forces = self._of_steps_like(step)
+            wrench, code = forces.of_block(step, records, near)
         known = [i for i, group in enumerate(forces.groups) if len(group.contacts)]
         left_open = np.asarray(code[:, known].any(axis=1))
         for k, left in enumerate(left_open.tolist()):
             if left:
                 wrench[k] = self.wrench(results[k].step, (records["delta_q"][k], near[k]))
-            elif is_due(FORCES, records["delta_q"].shape[1]):
-                check_forces(results[k].step, wrench[k])
+            else:
+                check_forces(partial(step_of, k), step.n_v, wrench[k])
         return wrench
 
     def decided(self, step: StepData, near: Array) -> ForcesOfGroups | None:
@@ -216,8 +221,7 @@ class ForcesOfSteps:
             if left:
                 return None
             compliance = forces.compliance()
-        if is_due(FORCES, step.n_v):
-            check_forces(step, wrench)
+        check_forces(lambda: step, step.n_v, wrench)
         return read_only(wrench), read_only(compliance), forces.groups
 
     def _of_steps_like(self, step: StepData) -> Forces:

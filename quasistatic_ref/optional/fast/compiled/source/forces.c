@@ -259,30 +259,31 @@ static void remaining(const Force *g, const Number *z, Number *r)
     pressed(g, z, 1, r);
 }
 
-/* Add x to z, and refine z until no residual r, which is what acts at z = 0 first, is above 2^-bits; x
-   is the next correction then. */
+/* Add x to z, without what is below 2^-bits by far. */
+static void corrected_by(Force *g, int bits)
+{
+    Workspace *m = &g->m;
+    for (int64_t v = 0; v < g->s->n_v; v++) {
+        m->net[v] = number(digits_of(g->x[v], bits + FINER, 1));
+        total(m->z + v, m->net + v, m->z + v);
+    }
+}
+
+/* Refine z until no residual r is above 2^-bits; x is the next correction then. */
 static void refine(Force *g, int bits)
 {
     Workspace *m = &g->m;
-    int64_t n = g->s->n_v;
-    for (int round = 0; round < ROUNDS && !lost; round++) {
+    for (int round = 0; !lost; round++) {
         double most = 0.0;
-        for (int64_t v = 0; v < n; v++) {
-            m->net[v] = number(digits_of(g->x[v], bits + FINER, 1));
-            total(m->z + v, m->net + v, m->z + v);
-        }
-        if (!g->refined)
-            remaining(g, m->z, m->r);
-        else
-            pressed(g, m->net, 0, m->r);
-        g->refined = 1;
-        for (int64_t v = 0; v < n; v++) {
+        for (int64_t v = 0; v < g->s->n_v; v++) {
             m->rest[v] = value(m->r + v) / (double)g->f->multiple * UP;
             most = fmax(most, fabs(m->rest[v]));
         }
         solved(g, g->x);
-        if (most < ldexp(1.0, -bits))
+        if (most < ldexp(1.0, -bits) || round == ROUNDS)
             break;
+        corrected_by(g, bits);
+        pressed(g, m->net, 0, m->r);
     }
 }
 
@@ -454,7 +455,8 @@ static int forced(Force *g)
     defect(m->R, m->K, g->size, n, m->G, m->e);
     lost = 0;
     memset(m->z, 0, (size_t)n * sizeof(Number));
-    g->refined = 0;
+    corrected_by(g, FIRST);
+    remaining(g, m->z, m->r);
     int code = OPEN_NUMBER;
     for (int bits = FIRST; code == OPEN_NUMBER && bits <= LAST; bits += FIRST) {
         refine(g, bits);
@@ -510,9 +512,9 @@ int forces(Forces *f)
         g.size = g.along + 4 * n_c;
         g.x = g.size + n * n;
         g.way = g.x + n;
-        g.borne = g.way + n;
-        g.large = g.borne + 3 * n_c * n;
-        g.before = (int64_t *)(g.large + 4 * n_c * n);
+        g.large = g.way + n;
+        g.borne = g.large + 4 * n_c * n;
+        g.before = (int64_t *)(g.borne + 3 * n_c * n);
         for (size_t v = 0; v < n; v++)
             g.sum[v] = EMPTY;
         lost = 0;

@@ -41,7 +41,6 @@ typedef struct {
     double *borne, *large;      /* J along n, d1 and d2; sizes of what the entries of B are the sums of */
     int64_t *before;            /* faces */
     Sum *sum;
-    int refined; /* whether m.r is what is left at m.z */
     int64_t opened;
     Open *open;
 } Force;
