@@ -8,8 +8,9 @@ from threading import Event, Lock, Thread
 import numpy as np
 import pytest
 
-from quasistatic_ref import Simulator, contact_forces, load_scenario
+from quasistatic_ref import RunFailed, Simulator, contact_forces, load_scenario
 from quasistatic_ref.lab.bench.scenes import Boxes
+from quasistatic_ref.optional.fast import rechecked
 from quasistatic_ref.optional.fast.compiled import forces
 from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.oracles.rows_given import SQUARES, half_way_forces
@@ -114,6 +115,23 @@ def test_what_c_leaves_open_of_a_block_comes_from_the_core(monkeypatch):
 
     monkeypatch.setattr(forces.Forces, "of_block", opened)
     assert block.forces(near).tobytes() == right.tobytes()
+
+
+def test_wrong_forces_of_a_block_are_noticed_and_no_run_holds_them(monkeypatch):
+    """The record is formed when the run has ended; no part of it is kept."""
+    of_block = forces.Forces.of_block
+
+    def wrong(*given):
+        wrench, code = of_block(*given)
+        return wrench + 1.0, code
+
+    monkeypatch.setattr(forces.Forces, "of_block", wrong)
+    monkeypatch.setitem(rechecked._proofs, rechecked.FORCES, rechecked.EVERY - 3)
+    with pytest.raises(RunFailed, match="proved a step wrongly: a force is not what") as failed:
+        load_scenario("stack", steps=20, fast=True).run(progress=False)
+    trajectory = failed.value.trajectory
+    assert len(trajectory) == len(trajectory.t) == 0
+    assert len(trajectory.q) == 1
 
 
 def test_forces_of_a_block_in_which_other_coordinates_move_a_contact_are_those_of_each_step():
