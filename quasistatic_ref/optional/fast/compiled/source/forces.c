@@ -348,7 +348,8 @@ static int judged(Force *g, int finest)
         Number z[4], x;
         int wrong = 0;
         if (!g->f->face[c] && surely_free(g, c)) {
-            memset(g->f->wrench + 4 * c, 0, 4 * sizeof(double));
+            for (int a = 0; a < 4; a++)
+                g->f->wrench[4 * c + a] = 0.0;
             continue;
         }
         motion(s, g->m.z, g->m.e, c, 1, z, e);
@@ -509,10 +510,10 @@ int forces(Forces *f)
     if (workspace && g.sum && g.open && g.B) {
         g.z = g.B + 4 * n_c * n;
         g.along = g.z + 4 * n_c;
-        g.size = g.along + 4 * n_c;
-        g.x = g.size + n * n;
+        g.x = g.along + 4 * n_c;
         g.way = g.x + n;
-        g.large = g.way + n;
+        g.size = g.way + n;
+        g.large = g.size + n * n;
         g.borne = g.large + 4 * n_c * n;
         g.before = (int64_t *)(g.borne + 3 * n_c * n);
         for (size_t v = 0; v < n; v++)
