@@ -505,9 +505,10 @@ int forces(Forces *f)
     void *workspace = workspace_of(&s, &g.m);
     g.sum = calloc(n, sizeof(Sum));
     g.open = calloc(n_c * (size_t)f->width + 1, sizeof(Open));
-    g.B = calloc(11 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
+    g.before = calloc(11 * n_c * n + 9 * n_c + n * n + 2 * n, sizeof(double));
     int code = NO_MEMORY;
-    if (workspace && g.sum && g.open && g.B) {
+    if (workspace && g.sum && g.open && g.before) {
+        g.B = (double *)(g.before + n_c);
         g.z = g.B + 4 * n_c * n;
         g.along = g.z + 4 * n_c;
         g.x = g.along + 4 * n_c;
@@ -515,7 +516,6 @@ int forces(Forces *f)
         g.size = g.way + n;
         g.large = g.size + n * n;
         g.borne = g.large + 4 * n_c * n;
-        g.before = (int64_t *)(g.borne + 3 * n_c * n);
         for (size_t v = 0; v < n; v++)
             g.sum[v] = EMPTY;
         lost = 0;
@@ -527,7 +527,7 @@ int forces(Forces *f)
         for (int start = 0; g.c > 0.0 && code != DECIDED && start < STARTS; start++)
             code = guessed(&g, start) ? from_guess(&g) : OPEN_CLAIM;
     }
-    free(g.B);
+    free(g.before);
     free(g.open);
     free(g.sum);
     free(workspace);
