@@ -55,7 +55,7 @@ from validation.tools.scripts import script_options
 SEEDS = 3000
 EACH = 3
 """Steps of one kind: of equal family, size and outcomes of proofs."""
-MOST = 402
+MOST = 405
 CONES = ("pyramid", "frictionless", "facets-8")
 
 
@@ -124,7 +124,7 @@ def chosen_steps() -> Iterator[StepData]:
     yield half_way_forces(2.0**39 + 1.0)
     yield from (half_way_forces(2.0**39 + 5.0, gap) for gap in (2.0**-75, 2.0**-300))
     yield from (*forces_float64_misses(), at_rest())  # which has an even number
-    yield from map(nearly_pressed, (2, 71, 90, 436, 438, 584, 2530))
+    yield from map(nearly_pressed, (2, 71, 90, 436, 438, 584, 724, 2404, 2530, 2851))
 
 
 def main() -> int:
