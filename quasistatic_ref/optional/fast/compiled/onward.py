@@ -309,7 +309,7 @@ class Taken(Steps):
         }
 
     def forces(self, wrench: Array) -> Array:
-        """As of any such steps, (steps, n_c, 4) [N, N m]; where C knows them, none is made."""
+        """As of any such steps, (steps, n_c, 4) [N, N m]; few of the steps are made."""
         in_c = self._simulator.in_c
         if in_c is None:
             return np.array([result.forces for result in self])

@@ -97,7 +97,7 @@ def block_of(name, steps):
 def test_forces_of_a_block_are_those_of_each_of_its_steps(name):
     block, near = block_of(name, 4)
     found = block.forces(near)
-    assert np.abs(found).max() > 0.1  # [N]
+    assert found.any()
     for result, own in zip(block, found, strict=True):
         assert own.tobytes() == contact_forces(result.step).wrench.tobytes()
 
