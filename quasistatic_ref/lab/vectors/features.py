@@ -38,6 +38,8 @@ def features(case: Json, output: Json) -> set[str]:
         found.add("springs coupled")
     for key in ("wrenches", "normals", "second_order"):
         found |= {key} if case.get(key) else set()
+    if "pose_alpha" in case and np.min(output["phi"]) < 0:
+        found.add("phi below 0")
     if "indices" in output:
         for group, kept in zip(case["phi"], output["indices"], strict=True):
             found |= {"equal phi"} if len(set(group)) < len(group) else set()

@@ -1,24 +1,17 @@
 """The features of the vectors' cases are counted, and the committed table has the counts."""
 
+from itertools import product
+
 from quasistatic_ref.lab.vectors.features import FEW, features
 from quasistatic_ref.lab.vectors.tables import follower, free_body, scene
 from tests.lab.vectors.committed_cases import ROOT
 from validation.make import vector_features
 
 TABLE = ROOT / "validation" / "results" / "vector_features.csv"
-THIN_BEFORE = {
-    "selection": ("normals", "empty group", "k above the candidates"),
-    "integrate": ("mimic with a factor", "mimic with an offset", "joint revolute of the world"),
-    "jacobian": ("mimic with a factor", "mimic with an offset", "joint continuous of the world",
-                 "joint revolute of a mimic with an offset"),
-    "rows": ("cone product", "cone facets-4", "cone facets-6", "cone frictionless"),
-    "wrench": ("cone product", "cone facets-8", "cone frictionless", "cone ellipsoid"),
-    "step": ("springs coupled", "mimic with an offset", "cone product", "cone frictionless",
-             "planar base actuated", "cone facets-8", "joint continuous of the world",
-             "joint prismatic of the world", "joint revolute of a mimic with an offset",
-             "no solution"),
-}  # fmt: skip
-"""Features of which version 6 or 7 had fewer than five cases."""
+SOLIDS = ("box", "capsule", "cone", "convex", "cylinder", "ellipsoid", "sphere")
+ALONE = {*product(("cone", "ellipsoid"), repeat=2), ("cloud", "cloud"), ("halfspace", "halfspace")}
+"""Pairs of shapes that the layer `distance` refuses."""
+PAIRS = {f"{a} on {b}" for a, b in {*product((*SOLIDS, "cloud", "halfspace"), repeat=2)} - ALONE}
 
 
 def test_features_of_a_case():
@@ -31,11 +24,14 @@ def test_features_of_a_case():
     assert "two least entries of n equal" not in found
 
 
-def test_the_committed_table_is_that_of_the_vectors_and_what_was_thin_is_not():
+def test_the_committed_table_is_that_of_the_vectors_and_no_feature_is_thin():
     lines = [*vector_features.page()]
     assert lines == TABLE.read_text().splitlines()
     head, *rows = (line.split(",") for line in lines)
-    counts = {row[0]: dict(zip(head[1:], row[1:], strict=True)) for row in rows}
-    for layer, names in THIN_BEFORE.items():
-        for name in names:
-            assert int(counts[name][layer]) >= FEW, (layer, name)
+    counts = {row[0]: dict(zip(head[1:], map(int, row[1:]), strict=True)) for row in rows}
+    assert {name for name in counts if " on " in name} == PAIRS
+    for name, by_layer in counts.items():
+        if name in PAIRS:  # a step and a derivative have the closest points of each pair once
+            assert by_layer["distance"] >= FEW, name
+        else:
+            assert all(count == 0 or count >= FEW for count in by_layer.values()), name
