@@ -81,10 +81,10 @@ def test_a_scope_of_the_names_words_are_those_of_its_fields(scope):
 
 
 def test_a_scope_of_few_cases_is_called_that(scope, tmp_path):
-    own = scope(f'{HEAD}name = "all"\nlayers = ["distance"]\npairs = ["cone-box"]')
+    own = scope(f'{HEAD}name = "all"\nlayers = ["derivative"]\npairs = ["cone-cloud"]')
     found = conformance(cut_down(tmp_path / "answers", own), VECTORS, scope=own)
     assert 0 < len(found.layers[0].verdicts) < 5
-    assert found.message.endswith(", few cases of distance")
+    assert found.message.endswith(", few cases of derivative")
     assert colour(found) == AMBER
 
 
