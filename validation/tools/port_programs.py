@@ -4,16 +4,19 @@ import json
 import os
 import resource
 import subprocess
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import takewhile
 from pathlib import Path
 
+from quasistatic_ref.lab.vectors.challenge.diagnosis import GIVEN_UP
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from validation.tools.ports import VECTORS
 
-PROCESSOR = 20
+PROCESSOR = 10
 """After which a program is ended: it hangs [s]."""
 MEMORY = 2**31
 """That it may ask for [B]."""
@@ -53,12 +56,32 @@ def started(program: Program) -> "subprocess.Popen[str]":
 
 
 def replies(program: Program, questions: Sequence[Question]) -> dict[str, str]:
-    """The line of each answer by id; fewer if the program ended early."""
+    """The line of each answer by id; an empty one where the program ended or hung.
+
+    It is started again for the cases that follow, and a layer is asked no more after GIVEN_UP of
+    those, as in a challenge.
+    """
+    found: dict[str, str] = {}
+    troubles: Counter[str] = Counter()
+    left = [*questions]
+    while left:
+        lines = _lines(program, left)
+        found |= {q.id: line for q, line in zip(left, lines, strict=False)}
+        if len(lines) < len(left):
+            silent = left[len(lines)]
+            found[silent.id] = ""
+            troubles[silent.layer] += 1
+        left = [q for q in left[len(lines) + 1 :] if troubles[q.layer] < GIVEN_UP]
+    return found
+
+
+def _lines(program: Program, questions: Sequence[Question]) -> list[str]:
+    """The lines of the answers, in the order of the questions; fewer if the program ended early."""
     lines = (json.dumps({"id": q.id, "layer": q.layer, "input": q.case}) for q in questions)
     with started(program) as process:
         said, _ = process.communicate("".join(f"{line}\n" for line in lines))
     answers = said.splitlines()[1:]  # the first line says what the program is
-    return {q.id: line for q, line in zip(questions, answers, strict=False) if line.endswith("}")}
+    return list(takewhile(lambda line: line.endswith("}"), answers))
 
 
 @cache

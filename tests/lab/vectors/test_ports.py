@@ -1,6 +1,7 @@
 """The ports' formulas are changed one place at a time, and names have places in them."""
 
 import re
+import sys
 
 import pytest
 
@@ -10,7 +11,7 @@ from validation.make.port_changes import RULES, changes, switched_line
 from validation.make.port_mutants import causes, differs, kept_apart
 from validation.make.program_changes import changes as program_changes
 from validation.tools.port_places import noting
-from validation.tools.port_programs import Question
+from validation.tools.port_programs import Program, Question, replies
 from validation.tools.ports import PORTS, texts
 
 LIBRARIES = {
@@ -59,6 +60,33 @@ def test_an_answer_without_a_number_is_another_answer():
     assert not differs(asked, one, rounded)
     assert differs(asked, one, none)
     assert differs(asked, none, one)
+
+
+@pytest.mark.parametrize("end", ["sys.exit(1)", "os.kill(os.getpid(), 9)", "print('{', end='')"])
+def test_after_a_case_without_an_answer_a_program_is_asked_the_next(end, tmp_path):
+    path = tmp_path / "program"
+    path.write_text(f"""#!{sys.executable}
+import json, os, sys
+print("mine", flush=True)
+for one in map(json.loads, sys.stdin):
+    if one["input"] == "bad":
+        {end}
+        sys.exit(1)
+    print(json.dumps({{"id": one["id"]}}), flush=True)
+""")
+    path.chmod(0o700)
+    inputs = {"qp": "bad good bad good bad good", "rows": "good bad good"}
+    asked = [
+        Question(f"{layer}/{number}", layer, case, {})
+        for layer, cases in inputs.items()
+        for number, case in enumerate(cases.split())
+    ]
+    given = replies(Program(path), asked)
+    # Nothing more is asked of qp after its third.
+    assert {one.id: given.get(one.id) for one in asked} == {
+        "qp/0": "", "qp/1": '{"id": "qp/1"}', "qp/2": "", "qp/3": '{"id": "qp/3"}', "qp/4": "",
+        "qp/5": None, "rows/0": '{"id": "rows/0"}', "rows/1": "", "rows/2": '{"id": "rows/2"}',
+    }  # fmt: skip
 
 
 def test_every_mistake_that_is_named_has_its_places():

@@ -92,9 +92,11 @@ class Diagnosis:
 
     def goes_on(self, layer: str) -> bool:
         """Whether a layer gets further cases."""
+        return self._supports(layer) and self._troubles[layer] < GIVEN_UP
+
+    def _supports(self, layer: str) -> bool:
         answered = self.outcome.verdicts[layer, "unsupported"] < self.outcome.sent[layer]
-        known = layer in self.program.layers
-        return known and answered and self._troubles[layer] < GIVEN_UP
+        return layer in self.program.layers and answered
 
     def play(self, tasks: Sequence[Task]) -> None:
         """Ask one round, and look into what failed."""
@@ -141,14 +143,15 @@ class Diagnosis:
         wrong: set[str] = set()
         for layer in (name for name in LAYERS if name in self._wanted):
             records = expected_read(vectors_folder(), layer)
+            troubles = 0  # anew: where it always crashes, that says which formula it is
             for case in inputs_read(vectors_folder(), layer):
                 record = records[case.id]
-                if self.late or not self.goes_on(layer):
+                if self.late or not self._supports(layer) or troubles >= GIVEN_UP:
                     break
                 if not self._scope.holds(layer, case.input, record):
                     continue
                 reply = self.program.ask(case.id, layer, case.input)
-                self._troubles[layer] += reply.kind in TROUBLES
+                troubles += reply.kind in TROUBLES
                 one = Failed(case.id, case.input, record, None, Verdict(case.id, MISSING))
                 if reply.kind == "output":
                     one = self._judgement(case.id, layer, case.input, record, reply)

@@ -30,7 +30,7 @@ from quasistatic_ref.lab.vectors.check.report import Likely
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 
-LEAST = 0.35
+LEAST = 0.3
 """Likeness below which nothing is said [-]."""
 NEARLY = 0.8
 """A second formula is said if it is that nearly as like as the first [-]."""

@@ -37,6 +37,11 @@ for number, case in enumerate(cases):
     if number % 4 == 3: raise SystemExit("out of memory, or so")
     say(case["id"], output=right(case))
 """,
+    "crashes in one layer": """
+for case in cases:
+    if case["layer"] == "qp": raise SystemExit("out of memory, or so")
+    say(case["id"], output=right(case))
+""",
     "is killed": """
 import os, signal
 for number, case in enumerate(cases):
