@@ -28,6 +28,7 @@ import tempfile
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from functools import cache
 from pathlib import Path
@@ -40,6 +41,7 @@ from quasistatic_ref.lab.vectors.challenge.rounds import ROUND
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.compare import leaves
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
+from quasistatic_ref.lab.vectors.check.freedoms import aligned
 from quasistatic_ref.lab.vectors.check.likeness import likely, wrong_parts
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.scope import scope_read
@@ -281,14 +283,18 @@ def challenge_round(number: int, layers: tuple[str, ...]) -> list[Question]:
 
 
 def differs(q: Question, one: str, other: str) -> bool:
-    """Whether an answer has another number in a field that has one right value."""
-    a = json.loads(one)["output"]
-    b = json.loads(other)["output"]
+    """Whether an answer has another number in a field that has one right value.
+
+    A quaternion and its opposite are one.
+    """
+    a, b = (json.loads(text)["output"] for text in (one, other))
     flags = q.record["flags"]
     free = [] if flags.get("unique_multipliers", True) else ["lam", "wrench"]
     free += [] if flags.get("unique", True) else ["alpha", "beta", "n"]
     if a.keys() != b.keys():
         return True
+    with suppress(TypeError, ValueError, IndexError):  # what is of another shape is another
+        b = aligned(q.layer, q.case, a, b)
     for name in a.keys() - {*free, "farkas"}:
         mine, theirs = dict(leaves(a[name])), dict(leaves(b[name]))
         if mine.keys() != theirs.keys():

@@ -5,7 +5,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from quasistatic_ref.lab.program.candidates import FACING
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.step import shape_pose
 from quasistatic_ref.lab.vectors.tables import ORIGIN
 from quasistatic_ref.lab.vectors.trees import nodes
 
@@ -33,6 +36,7 @@ def features(case: Json, output: Json) -> set[str]:
         found |= {"phi below 0"} if contact.get("phi", 0) < 0 else set()
         sizes = np.sort(np.abs(contact["n"]))
         found |= {"two least entries of n equal"} if sizes[0] == sizes[1] else set()
+    found |= {*_of_boxes(case, output)}
     K_q = np.array(case.get("K_q", []))
     if K_q.size and np.count_nonzero(K_q - np.diag(np.diag(K_q))):
         found.add("springs coupled")
@@ -77,6 +81,25 @@ def _of_shapes(case: Json) -> Iterator[str]:
         pairs.append(tuple(case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta")))
     for alpha, beta in pairs:
         yield f"{alpha['kind']} on {beta['kind']}"
+
+
+def _of_boxes(case: Json, output: Json) -> Iterator[str]:
+    """How n of a step's contacts of two boxes lies to the normals of their faces."""
+    pairs = {pair["name"]: pair for pair in case.get("pairs", [])}
+    for contact in output.get("contacts", []):
+        if contact.get("pair") not in pairs:
+            continue
+        sides = [case["shapes"][pairs[contact["pair"]][side]] for side in ("alpha", "beta")]
+        if all(side["shape"]["kind"] == "box" for side in sides):
+            turns = (rotation(np.array(shape_pose(case, side)["quaternion"])) for side in sides)
+            cosines = (np.abs(np.array(contact["n"]) @ R).max() for R in turns)
+            yield "boxes, n " + " and ".join(sorted(map(_from_a_face, cosines)))
+
+
+def _from_a_face(cosine: float) -> str:
+    if cosine > 1 - 1e-12:
+        return "of a face"
+    return "near a face" if cosine > FACING else "of an edge"
 
 
 def feature_counts(cases: Iterable[tuple[Json, Json]]) -> Counter[str]:
