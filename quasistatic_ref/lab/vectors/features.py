@@ -93,7 +93,7 @@ def _of_boxes(case: Json, output: Json) -> Iterator[str]:
         if all(side["shape"]["kind"] == "box" for side in sides):
             turns = (rotation(np.array(shape_pose(case, side)["quaternion"])) for side in sides)
             cosines = (np.abs(np.array(contact["n"]) @ R).max() for R in turns)
-            yield "boxes, n " + " and ".join(sorted(map(_from_a_face, cosines)))
+            yield "n of two boxes " + " and ".join(sorted(map(_from_a_face, cosines)))
 
 
 def _from_a_face(cosine: float) -> str:
