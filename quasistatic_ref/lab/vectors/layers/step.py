@@ -47,10 +47,12 @@ def expected(case_input: Json) -> Expected:
     errors, distances = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
     solved = qp.expected(qp_case, errors)
     output, wrenches, after = step_output(case_input, contacts, qp_case, solved)
+    reach = max([abs(x) for J in jacobian.output["J"] for row in J for x in row], default=0.0)
+    moved_J = 2 * distances["alpha"].absolute + 3 * reach * distances["d1"].absolute
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
-        "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
-                                "that of the layer jacobian, and of the points"),
+        "contacts.J": tolerance(_plus(jacobian.tolerance["J"], moved_J),
+                                "that of the layer jacobian, of the points, and of n"),
         "H": tolerance(errors.H, f"{ROUNDINGS} units of rounding of the largest term"),
         "g": tolerance(errors.g, f"{ROUNDINGS} units of rounding of the largest term"),
         "A": tolerance(errors.A, "that of the layer rows, and of J and the normals"),
