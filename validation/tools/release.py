@@ -64,6 +64,11 @@ RESULTS = (
         ("quasistatic_ref/lab/vectors/check/fingerprints.json.gz",),
     ),
     Result(
+        "planted_runs",
+        "validation.make.planted_runs",
+        ("quasistatic_ref/lab/oracle/planted.json.gz",),
+    ),
+    Result(
         "port_mutants",
         "validation.make.port_mutants --records {temporary}/port_mutants.jsonl "
         "--out validation/results/port_mutants.md",

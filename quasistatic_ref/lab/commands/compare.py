@@ -55,24 +55,27 @@ def run(options: argparse.Namespace) -> int:
         read = other_run(Path(path), scenario)
         found.append((scenario, comparison_of_run(scenario, read, options.digits)))
     every = [one for _, one in found]
-    parts = [part for one in every for part in one.parts]
-    causes = common_causes(every)
     said = diagnosis_of_runs(every)
     if options.json:
         runs = [record(one, scenario) for scenario, one in found]
         whole = {"runs": runs} if options.more else runs[0]
-        layers = {one.layer for one in causes} if said is None else {said.layer}
+        layers = {one.layer for one in common_causes(every)} if said is None else {said.layer}
         layer = layers.pop() if len(layers) == 1 else None  # mistakes of several layers may fit
-        shared.print_json(whole | {"layer": layer, "common": said and said.sentence})
+        formulas = None if said is None else said.formulas
+        shared.print_json(whole | {"layer": layer, "formulas": formulas})
     else:
         for scene, (scenario, one) in zip(scenes, found, strict=True):
             head = f"{scene}: " if options.more else ""
             for line in sentences(one, scenario):
                 shared.print_wrapped(head + line)
         if said is not None:
-            shared.print_wrapped(f"layer {said.layer}: {said.sentence}")
-        elif not causes and len(parts) > 1 and all(part.fails for part in parts):
-            shared.print_wrapped(f"all {len(parts)} parts are wrong: the layer is open")
+            shared.print_wrapped(
+                f"layer {said.layer}: the most alike planted mistake (likeness "
+                f"{said.likeness:.2f}) is in {' or in '.join(said.formulas)}, {said.place} of the "
+                "plain program"
+            )
+        elif any(one.is_wrong and one.parts for one in every):
+            shared.print_wrapped("no planted mistake is like this: the layer is open")
     return int(any(one.is_wrong or one.failed for one in every))
 
 
@@ -102,7 +105,7 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
         lines.append(f"the numbers of the run are rounded to {found.resolution:.1g}")
     first = found.first
     if not found.steps and not found.failed:
-        lines.append("the run has no step")
+        lines.append("the run has no step: its program ends before the first one")
     elif first is None and found.steps:
         lines.append(
             f"{found.steps} steps, each as the reference takes it, to {found.digits:.1f} digits"
@@ -120,7 +123,7 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
             lines.append(f"contact {found.contact} is off the most")
         for cause in found.causes[:SHOWN]:
             lines.append(f"looks like {cause.name} (layer {cause.layer}): {cause.sentence}")
-        if not found.causes and not found.is_told_by_parts:
+        if not found.causes and not found.parts:
             lines.append("no classic mistake ends its steps as they end")
     if found.failed:
         lines.append(f"the reference takes no further step: {found.failed}")

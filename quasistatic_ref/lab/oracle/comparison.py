@@ -12,8 +12,9 @@ import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.lab.oracle.alike import SAME, Diagnosis, diagnosis, is_known
 from quasistatic_ref.lab.oracle.causes import Cause, Taken, causes
-from quasistatic_ref.lab.oracle.parts import Diagnosis, Moved, Part, diagnosis, ended, parts_of
+from quasistatic_ref.lab.oracle.parts import Part, parts_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.oracle.scene_case import SceneCases
 from quasistatic_ref.lab.vectors.check.patched import program
@@ -27,9 +28,6 @@ DIGITS = 6.0
 """Correct digits of a step that count as right, if not another number is asked for [-]."""
 TRIED = 12
 """Wrong steps, and as many right ones, on which causes are tried."""
-FEW = 4
-"""Parts of a scene in which causes are tried: each takes a step of the plain program, and of more
-parts those that are wrong tell where a mistake is, unless all are."""
 MATCH = 1e-3
 """How far from the other program's state a cause may end, over how far the reference does [-]."""
 EXACT = 1e-9
@@ -69,6 +67,7 @@ class Comparison:
 
     Parameters
     ----------
+    scene : str
     steps : int
         That were compared.
     digits : float
@@ -80,13 +79,14 @@ class Comparison:
     contact : str
         Whose gap or slip is off the most; "" if there is none.
     causes : tuple of Cause
-        None if nothing that is tried explains it, or the scene has many parts.
+        None if nothing that is tried explains it, or the scene is a known one.
     failed : str
         Why the reference takes no step from a state of the run.
     parts : tuple of Part
-        What moves by itself, right or wrong; none if the plain program cannot hold the scene.
+        What moves by itself in the first step of a known scene, right or wrong; else none.
     """
 
+    scene: str
     steps: int
     digits: float
     resolution: float
@@ -101,14 +101,9 @@ class Comparison:
         """Whether a step is wrong, or there is none."""
         return self.first is not None or not self.steps
 
-    @property
-    def is_told_by_parts(self) -> bool:
-        """Whether parts tell where a mistake is: causes are not tried then."""
-        return len(self.parts) > FEW and not all(part.fails for part in self.parts)
-
 
 def common_causes(found: Sequence[Comparison]) -> list[Cause]:
-    """The causes of all wrong runs in which causes are tried; what parts tell counts without them.
+    """The causes of all wrong runs in which causes are tried: those of scenes that are not known.
 
     Parameters
     ----------
@@ -118,12 +113,12 @@ def common_causes(found: Sequence[Comparison]) -> list[Cause]:
     -------
     list of Cause
     """
-    tried = [one.causes for one in found if one.first and not one.is_told_by_parts]
+    tried = [one.causes for one in found if one.first and not one.parts]
     return [cause for cause in tried[0] if all(cause in one for one in tried)] if tried else []
 
 
 def diagnosis_of_runs(found: Sequence[Comparison]) -> Diagnosis | None:
-    """What wrong parts alone have; None where no step is wrong, or mistakes explain what is.
+    """What wrong parts of known scenes are like; None where no step is wrong, or one has causes.
 
     Parameters
     ----------
@@ -131,7 +126,7 @@ def diagnosis_of_runs(found: Sequence[Comparison]) -> Diagnosis | None:
     """
     if common_causes(found) or not any(one.is_wrong for one in found):
         return None
-    return diagnosis([part for one in found for part in one.parts])
+    return diagnosis({one.scene: one.parts for one in found})
 
 
 def comparison_of_run(
@@ -150,45 +145,40 @@ def comparison_of_run(
     """
     unit = run.resolution
     simulator = scenario.simulator()
-    cases = _cases(scenario)
+    known = is_known(scenario) and run.first == 0
+    known = known and bool(np.abs(run.q[0] - scenario.system.q_start).max(initial=0.0) <= SAME)
     wrong: list[StepOff] = []
     right: list[StepOff] = []
+    parts: tuple[Part, ...] = ()
     failed = ""
-    for i, (q, q_next) in enumerate(zip(run.q[:-1], run.q[1:], strict=True)):
+    for i, q in enumerate(run.q[:-1] if len(run.q) > 1 else run.q):
         k = run.first + i
         try:
             result = _reference_step(scenario, simulator, k, q)
         except StepNotSolved as error:
             failed = f"step {k}: {error}"
             break
-        one = _beside(scenario, k, q, result, q_next)
-        near = np.abs(one.off).max(initial=0.0) <= ROUNDED * unit
-        (right if near or one.digits >= digits else wrong).append(one)
-    steps = len(wrong) + len(right)
+        q_next = run.q[i + 1] if len(run.q) > 1 else None
+        if known and i == 0:
+            parts = parts_of(scenario.system, result, q_next, digits, ROUNDED * unit)
+        if q_next is not None:
+            one = _beside(scenario, k, q, result, q_next)
+            near = np.abs(one.off).max(initial=0.0) <= ROUNDED * unit
+            (right if near or one.digits >= digits else wrong).append(one)
     first = wrong[0] if wrong else None
     before = [one.digits for one in right if first is None or one.k < first.k]
     worst = min(before, default=16.0)
-    taken: list[Taken] = []
-    kept: list[Taken] = []
-    parts: tuple[Part, ...] = ()
-    if cases is not None:
-        some = sorted((*spread(wrong), *spread(right)))
-        moved = [Moved(cases.at(one.k, one.q), one.result, one.off) for one in some]
-        parts = parts_of(moved, digits, ROUNDED * unit)
-        taken = [_taken_step(cases, one, run, True) for one in spread(wrong)]
-        kept = [_taken_step(cases, one, run, False) for one in spread(right)]
-    if cases is not None and len(run.q) == 1:
-        q = run.q[0]
-        try:
-            result = _reference_step(scenario, simulator, run.first, q)
-            parts = (ended(cases.at(run.first, q), result),)
-        except StepNotSolved as error:
-            failed = f"step {run.first}: {error}"
-    if first is None:
-        return Comparison(steps, worst, unit, failed=failed, parts=parts)
-    whole = Comparison(steps, worst, unit, first, contact_of(first), (), failed, parts)
-    if whole.is_told_by_parts or not taken or not _is_reproduced(scenario, taken[0], first):
+    whole = Comparison(
+        scenario.path.stem, len(wrong) + len(right), worst, unit, first,
+        contact_of(first) if first else "", (), failed, parts,
+    )  # fmt: skip
+    cases = None if first is None or known else _cases(scenario)
+    if first is None or cases is None:
         return whole
+    taken = [_taken_step(cases, one, run, True) for one in spread(wrong)]
+    if not _is_reproduced(scenario, taken[0], first):
+        return whole
+    kept = [_taken_step(cases, one, run, False) for one in spread(right)]
     return replace(whole, causes=tuple(causes(scenario.system, taken, kept)))
 
 

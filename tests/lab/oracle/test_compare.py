@@ -9,12 +9,7 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.oracle.comparison import (
-    Comparison,
-    comparison_of_run,
-    diagnosis_of_runs,
-)
-from quasistatic_ref.lab.oracle.parts import Part, diagnosis
+from quasistatic_ref.lab.oracle.comparison import comparison_of_run
 from quasistatic_ref.lab.oracle.run_table import OtherRun, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.vectors.check.patched import program
@@ -72,114 +67,12 @@ def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys)
     assert flat(capsys.readouterr().out) == flat(shown)
 
 
-def test_what_wrong_parts_of_two_scenes_have_alone_is_said_with_its_layer(tmp_path, cli):
-    patch = "mechanism.py:\n- own[moving, 0] = pace * along"
-    patch += '\n+ own[moving, 0] = pace * along * (3 if body["joint"] == "prismatic" else 1)'
-    given = []
-    for name in "joints", "pushed":  # the second has no such joint
-        scene = str(SCENES / f"{name}.toml")
-        run = run_with(tmp_path, scene, patch, 1).rename(tmp_path / f"{name}.csv")
-        given += [scene, str(run)]
-    said = flat(cli("compare", *given, "--quiet", status=1).out)
-    assert "pushed.toml: 1 steps, each as the reference takes it" in said
-    assert (
-        "layer jacobian: parts with joint under the contact prismatic are wrong, 3 of 3 wrong "
-        "parts, and 0 of 8 right ones have that"
-    ) in said
-    assert "is a scene without a run" in cli("compare", *given[:3], status=2).err
-
-
-def test_a_program_that_ends_at_once_lacks_what_its_scenes_have_and_others_have_not(tmp_path, cli):
-    given = []
-    for name, steps in (("free", 1), ("joints", 1), ("pushed", 0)):
-        scene = str(SCENES / f"{name}.toml")
-        run = run_with(tmp_path, scene, "", steps).rename(tmp_path / f"{name}.csv")
-        given += [scene, str(run)]
-    found = json.loads(cli("compare", *given, "--json", status=1).out)
-    assert [one["steps"] for one in found["runs"]] == [1, 1, 0]
-    assert found["layer"] == "distance"
-    assert found["common"].startswith("parts with meeting corner on face are wrong, 1 of 1 wrong ")
-    said = cli("compare", *given[4:], "--quiet", status=1).out
-    assert said.strip() == "the run has no step"
-
-
 def test_where_the_reference_takes_no_step_it_says_why(tmp_path, cli):
     q = qr.load_scenario(PUSHED, ["bodies.block.pose.xyz=[0,0,-0.2]"]).system.q_start
     for states in 1, 2:
         run = table(tmp_path / "run.csv", qr.load_scenario(PUSHED), [q] * states)
         said = cli("compare", PUSHED, str(run), "--quiet", status=1).out
         assert flat(said).startswith("the reference takes no further step: step 0: "), states
-
-
-def test_a_mistake_that_is_named_has_no_second_layer(tmp_path, cli):
-    patch = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
-    given = []
-    for name, steps in (("free", 1), ("joints", 1)):  # all parts of the second are wrong
-        scene = str(SCENES / f"{name}.toml")
-        run = run_with(tmp_path, scene, patch, steps).rename(tmp_path / f"{name}.csv")
-        given += [scene, str(run)]
-    found = json.loads(cli("compare", *given, "--json", status=1).out)
-    assert "sign of b" in [cause["name"] for cause in found["runs"][1]["first"]["causes"]]
-    assert (found["layer"], found["common"]) == (None, None)  # mistakes of two layers fit
-
-
-def test_where_all_parts_are_wrong_and_no_mistake_fits_the_layer_is_open(tmp_path, cli):
-    scene = str(SCENES / "joints.toml")
-    scenario = qr.load_scenario(scene, steps=1)
-    q = scenario.run(progress=False).q
-    off = np.full(scenario.system.n_v, 1e-3)
-    run = table(tmp_path / "run.csv", scenario, [q[0], scenario.system.integrate(q[1], off)])
-    said = flat(cli("compare", scene, str(run), "--quiet", status=1).out)
-    assert "no classic mistake ends its steps as they end all 10 parts are wrong: the layer" in said
-
-
-def test_a_part_is_wrong_alone():
-    scenario = qr.load_scenario(SCENES / "free.toml", steps=2)
-    q = scenario.run(progress=False).q.copy()
-    names = [name for joint in scenario.system.joints for name in joint.positions]
-    q[2, names.index("driven/slide [m]")] += 1e-3
-    parts = comparison_of_run(scenario, OtherRun(0, q, 0.0)).parts
-    (wrong,) = [part for part in parts if part.fails]
-    assert wrong.words == {"integrate: joint: prismatic", "step: actuated joint: prismatic"}
-    assert len(parts) > 20
-
-
-def test_a_part_that_moves_little_counts_only_where_a_step_is_wrong():
-    small = Part(True, frozenset({"rows: friction"}))
-    great = Part(False, frozenset({"rows: 6"}))
-    right = Comparison(9, 7.0, 0.0, parts=(small, great))
-    assert diagnosis_of_runs([right]) is None
-    none = Comparison(0, 16.0, 0.0, parts=(Part(True, frozenset({"rows: friction"})),))
-    assert diagnosis_of_runs([right, none]).layer == "rows"
-
-
-PARTS = {
-    # what each part has (wrong ones first, behind a bar right ones): the layer, the words
-    "one word": ("distance: pair: a+rows: cone: x, distance: pair: a | rows: cone: x", "pair a"),
-    "two of a kind": (
-        "distance: pair: a, distance: pair: b, distance: pair: a | distance: pair: c", "pair a or b"
-    ),
-    "the first layer of equals": ("step: friction+rows: friction | rows: cone: x", "friction"),
-    "several things": (
-        "step: joint: a, step: joint: a, integrate: joint: b, integrate: joint: b | rows: k",
-        "joint b",
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("given", "said"), PARTS.values(), ids=PARTS)
-def test_what_wrong_parts_have_alone(given, said):
-    sides = [side.split(", ") for side in given.split(" | ")]
-    parts = [
-        Part(fails, frozenset(words.split("+")))
-        for side, fails in zip(sides, (True, False), strict=True)
-        for words in side
-    ]
-    found = diagnosis(parts)
-    assert found.sentence.startswith(f"parts with {said} are wrong, ")
-    layers = {"pair": "distance", "friction": "rows", "joint": "integrate"}
-    assert found.layer == layers[said.split()[0]]
-    assert diagnosis(parts[: len(sides[0])]) is None  # without a right one
 
 
 def test_numbers_of_few_digits_are_known_as_such_and_rest_is_not():
