@@ -303,7 +303,7 @@ def differs(q: Question, one: str, other: str) -> bool:
         for path, value in mine.items():
             given = theirs[path]
             numbers = isinstance(value, int | float) and isinstance(given, int | float)
-            if abs(value - given) > OTHER * size if numbers else value != given:
+            if not abs(value - given) <= OTHER * size if numbers else value != given:  # nan, too
                 return True
     return False
 

@@ -1,11 +1,13 @@
 """The ports' formulas are changed one place at a time, and names have places in them."""
 
+import json
 import re
 import sys
 
 import pytest
 
 from quasistatic_ref.lab.vectors.check.table import MISTAKES
+from quasistatic_ref.lab.vectors.tables import free_body
 from validation.make.fingerprints import fingerprint, subjects
 from validation.make.port_changes import RULES, changes, switched_line
 from validation.make.port_mutants import causes, differs, kept_apart
@@ -59,6 +61,19 @@ def test_an_answer_without_a_number_is_another_answer():
     assert not differs(asked, one, rounded)
     assert differs(asked, one, none)
     assert differs(asked, none, one)
+
+
+def test_a_quaternion_and_its_opposite_are_one_answer():
+    case = {"mechanism": {"bodies": [free_body()]}}
+    asked = Question("integrate/1", "integrate", case, {"flags": {}})
+    turn = [0.5, 0.5, 0.5, 0.5]
+    answers = ([0.0, 1.0, 2.0, *turn], [0.0, 1.0, 2.0, *(-x for x in turn)],
+               [0.0, 1.0, 2.0, None, *turn[1:]], [-0.5, 1.0, 2.0, *turn])  # fmt: skip
+    one, opposite, none, other = (json.dumps({"output": {"q": q}}) for q in answers)
+    assert not differs(asked, one, opposite)
+    assert differs(asked, one, none)
+    assert differs(asked, none, one)
+    assert differs(asked, one, other)
 
 
 @pytest.mark.parametrize("end", ["sys.exit(1)", "os.kill(os.getpid(), 9)", "print('{', end='')"])

@@ -300,8 +300,25 @@ def _distance(rng: Rng, level: int) -> Json:
         sides, places = _ball_in_box(rng, places[0])
     if level == HARD and rng.integers(4) == 0:
         places = [{**place, "xyz": few_digits(1e4 * np.array(place["xyz"]))} for place in places]
+    if level == HARD and rng.integers(8) == 0:  # the centre of one is that of the other
+        places[1]["xyz"] = places[0]["xyz"]
+    elif level == HARD and rng.integers(8) == 0:
+        sides[0] = _thin(sides[0])
     named = zip(("alpha", "beta"), sides, places, strict=True)
     return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
+
+
+def _thin(shape: Json) -> Json:
+    """A plate or a needle: its first length is a thousandth."""
+    match shape:
+        case {"size": [first, *others]}:
+            return {**shape, "size": [first / 1000, *others]}
+        case {"vertices": vertices}:
+            return {**shape, "vertices": [[x / 1000, y, z] for x, y, z in vertices]}
+        case {"radius": radius}:
+            return {**shape, "radius": radius / 1000}
+        case _:
+            return shape
 
 
 def _ball_in_box(rng: Rng, place: Json) -> tuple[list[Json], list[Json]]:

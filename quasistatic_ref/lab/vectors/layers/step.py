@@ -44,15 +44,11 @@ def expected(case_input: Json) -> Expected:
     H_size, g_size = terms(case_input)
     H_size = max([H_size, *(abs(x) for row in H for x in row)])
     qp_case = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
-    errors, distances = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
+    errors, bounds = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
     solved = qp.expected(qp_case, errors)
     output, wrenches, after = step_output(case_input, contacts, qp_case, solved)
-    reach = max([abs(x) for J in jacobian.output["J"] for row in J for x in row], default=0.0)
-    moved_J = 2 * distances["alpha"].absolute + 3 * reach * distances["d1"].absolute
     base_tolerance = {
-        **{f"contacts.{name}": t for name, t in distances.items()},
-        "contacts.J": tolerance(_plus(jacobian.tolerance["J"], moved_J),
-                                "that of the layer jacobian, of the points, and of n"),
+        **{f"contacts.{name}": t for name, t in bounds.items()},
         "H": tolerance(errors.H, f"{ROUNDINGS} units of rounding of the largest term"),
         "g": tolerance(errors.g, f"{ROUNDINGS} units of rounding of the largest term"),
         "A": tolerance(errors.A, "that of the layer rows, and of J and the normals"),
@@ -209,19 +205,23 @@ def _errors(
         for name in FIELDS
     }
     why = "that of the layer distance, and of the poses"
-    distances = {name: tolerance(worst[name], why) for name in FIELDS}
+    bounds = {name: tolerance(worst[name], why) for name in FIELDS}
     for name in ("d1", "d2"):
-        distances[name] = tolerance(4 * worst["n"], "that of n")
+        bounds[name] = tolerance(4 * worst["n"], "that of n")
     reach = max([abs(x) for J in jacobian.output["J"] for row in J for x in row], default=0.0)
     mu = max([max(pair["mu_v"], pair["mu_omega"]) for pair in case["pairs"]], default=0.0)
     moved_J = jacobian.tolerance["J"].absolute + 2 * max(worst["alpha"], worst["beta"])
-    A = (1 + 2 * mu) * (3 * moved_J + 12 * reach * worst["n"]) + rows.tolerance["A"].absolute
+    turned_J = 12 * reach * worst["n"]
+    bounds["J"] = tolerance(
+        Fraction(moved_J + turned_J), "that of the layer jacobian, of the points, and of n"
+    )
+    A = (1 + 2 * mu) * (3 * moved_J + turned_J) + rows.tolerance["A"].absolute
     return Errors(
         H=Fraction(ROUNDINGS * EPS * sizes[0]),
         g=Fraction(ROUNDINGS * EPS * sizes[1]),
         A=Fraction(A if qp_case["A"] else 0.0),
         b=Fraction(worst["phi"] if qp_case["A"] else 0.0),
-    ), distances
+    ), bounds
 
 
 def _wrench_bound(case: Json, solved: Expected, wrenches: Expected) -> Fraction:
