@@ -122,6 +122,9 @@ SEEN_BY_FEW = {
     "a normal from inside in the frame of the box": ("distance", """distance.py:
 - return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n
 + return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n if phi > 0 else n"""),
+    "no direction on the axis of a cylinder or a cone": ("distance", """curved.py:
+- outward = np.array([p[0] / r, p[1] / r, 0]) if r > 0 else AXES[0]
++ outward = np.array([p[0] / max(r, 1e-300), p[1] / max(r, 1e-300), 0])"""),
 }  # fmt: skip
 
 
@@ -145,8 +148,8 @@ def test_the_package_itself_is_found_right():
 
 
 MUTANTS = 140
-FOUND = 0.9
-NAMED = 0.7
+FOUND = 0.95
+NAMED = 0.8
 WRONG = 0.15
 """Of each half: how many there are at least; what share is found, named right, and wrong."""
 

@@ -20,6 +20,9 @@ PLANTED = {
     "the velocities of bodies": ("jacobian", """mechanism.py:
 - J = np.vstack([J0[:3] - skew(t - t0) @ J0[3:], J0[3:]])
 + J = np.vstack([J0[:3] - skew(t + 2 * t0) @ J0[3:], J0[3:]])"""),
+    "the distance of a point to a solid": ("distance", """curved.py:
+- excess = np.array([r - R, abs(z) - half])
++ excess = np.array([r - R, abs(z) - 0.95 * half])"""),
     "the table t of a cone": ("rows wrench", """rows.py:
 - sides = [[*part_of_turn(mu, k, K), 0] for k in range(K)]
 + sides = [[*part_of_turn(mu, -k, K), 0] for k in range(K)]"""),
