@@ -300,7 +300,7 @@ def _distance(rng: Rng, level: int) -> Json:
         sides, places = _ball_in_box(rng, places[0])
     if level == HARD and rng.integers(4) == 0:
         places = [{**place, "xyz": few_digits(1e4 * np.array(place["xyz"]))} for place in places]
-    if level == HARD and rng.integers(8) == 0:  # the centre of one is that of the other
+    elif level == HARD and rng.integers(8) == 0:  # the centre of one is that of the other
         places[1]["xyz"] = places[0]["xyz"]
     elif level == HARD and rng.integers(8) == 0:
         sides[0] = _thin(sides[0])
