@@ -20,12 +20,12 @@ page of what they hold, ``--cases N`` sends fewer.
 Exit status 1 if a right port is found wrong, or a mutant not at all.
 """
 
+import ast
 import hashlib
 import json
 import re
 import sys
 import tempfile
-import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -44,7 +44,9 @@ from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.freedoms import aligned
 from quasistatic_ref.lab.vectors.check.likeness import likely, wrong_parts
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
+from quasistatic_ref.lab.vectors.check.patched import text_of_file
 from quasistatic_ref.lab.vectors.check.scope import scope_read
+from quasistatic_ref.lab.vectors.check.table import PATCHES
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case
@@ -61,7 +63,6 @@ from validation.tools.port_programs import (
 from validation.tools.ports import PORTS, compiler_errors, texts
 from validation.tools.scripts import RESULTS, script_options, show_page
 
-CAUSES = PORTS / "causes.toml"
 RECORDS = RESULTS / "port_mutants.jsonl"
 CASES = 1000
 """Of a challenge by default."""
@@ -357,26 +358,44 @@ HEAD = """# Mistakes in programs that the checker's rules were not written with
 Made by `python -m validation.make.port_mutants`: each formula of [the ports in Go and
 C++](../ports/README.md) can be changed by a program, one place at a time. Each changed program that
 answers another number is checked with the committed vectors, and challenged with the 1,000 cases
-that a challenge has by default, until something is found. *Right*: of the classic mistakes that are
-named in the first layer that fails, one belongs to the place that was changed
-(`validation/ports/causes.toml`). Where none is named, a check says in which one or two formulas a
-planted mistake spoils nearly the same cases and fields
-(`quasistatic_ref/lab/vectors/check/likeness.py`), and a challenge asks the committed cases for it:
-right, if the place that was changed computes one of them (`validation/ports/subjects.toml`, of 30
-things). *Wrong*: neither. *Silent*: nothing is said. Half of the mutants, by a hash of their names,
-is kept apart: no rule of the checker is written while looking at them, and they are counted only.
-The table of subjects was written before any mutant was tried; two lines of it, and the likeness
-below which nothing is said, were corrected by the open half. A program that ends early or hangs is
-started again for the next case, as in a challenge, until it has done so three times in a layer.
+that a challenge has by default, until something is found. Said is a classic mistake in the first
+layer that fails; where none is recognised, a check says in which one or two formulas a planted
+mistake spoils nearly the same cases and fields (`quasistatic_ref/lab/vectors/check/likeness.py`),
+and a challenge asks the committed cases for it. *Right*: the place that was changed computes one of
+the things that are said, of 30 (`validation/ports/subjects.toml`); a classic mistake says those of
+the lines in which the plain program would make it. *Wrong*: it does not. *Silent*: nothing is said.
+Half of the mutants, by a hash of their names, is kept apart: no rule of the checker is written
+while looking at them, and they are counted only. The table of subjects was written before any
+mutant was tried; two lines of it, and the likeness below which nothing is said, were corrected by
+the open half. A program that ends early or hangs is started again for the next case, as in a
+challenge, until it has done so three times in a layer.
 """
 VERDICTS = ("right", "wrong", "silent")
 WAYS = ("check", "challenge")
 
 
 @cache
-def causes() -> Json:
-    """Of each mistake that has a name, the places in which it is made."""
-    return tomllib.loads(CAUSES.read_text("utf-8"))
+def subjects_of_mistake(name: str) -> set[str]:
+    """What the lines compute in which the plain program would make a classic mistake."""
+    found: set[str] = set()
+    for patch in {one for patches in PATCHES.get(name, {}).values() for one in patches}:
+        functions: dict[str, str] = {}
+        for line in patch.splitlines():
+            sign, _, text = line.partition(" ")
+            if sign == "-" and text in functions:
+                found |= {*subjects("program", functions[text], text)}
+            elif sign.endswith(":"):
+                functions = function_by_line(sign.removesuffix(":"))
+    return found
+
+
+@cache
+def function_by_line(file: str) -> dict[str, str]:
+    """In which function of a file of the plain program each of its lines stands."""
+    text = text_of_file(file)
+    rows = [row.strip() for row in text.splitlines()]
+    functions = [one for one in ast.parse(text).body if isinstance(one, ast.FunctionDef)]
+    return {row: one.name for one in functions for row in rows[one.lineno : one.end_lineno]}
 
 
 def verdict(one: Json, way: str) -> str:
@@ -384,14 +403,12 @@ def verdict(one: Json, way: str) -> str:
     said = one[way]
     if not said["kind"]:
         return "not found"
-    if said["names"]:
-        named = any(re.search(causes()[name], one["where"]) for name in said["names"])
-        return "right" if named else "wrong"
-    if not said["formulas"]:
+    named = {*said["formulas"]}.union(*map(subjects_of_mistake, said["names"]))
+    if not named:
         return "silent"
     port = one["name"].partition(" ")[0]
     function, _, line = one["where"].partition(": ")
-    return "wrong" if set(said["formulas"]).isdisjoint(subjects(port, function, line)) else "right"
+    return "wrong" if named.isdisjoint(subjects(port, function, line)) else "right"
 
 
 def _row(label: str, ones: Sequence[Json]) -> tuple[object, ...]:
