@@ -56,13 +56,17 @@ def run(options: argparse.Namespace) -> int:
         found.append((scenario, comparison_of_run(scenario, read, options.digits)))
     every = [one for _, one in found]
     said = diagnosis_of_runs(every)
+    common = common_causes(every)
     if options.json:
         runs = [record(one, scenario) for scenario, one in found]
         whole = {"runs": runs} if options.more else runs[0]
-        layers = {one.layer for one in common_causes(every)} if said is None else {said.layer}
+        layers = {one.layer for one in common}  # their steps are the run's: first of all they count
+        if said is not None and not layers:
+            layers = {said.layer}
         layer = layers.pop() if len(layers) == 1 else None  # mistakes of several layers may fit
-        formulas = None if said is None else said.formulas
-        shared.print_json(whole | {"layer": layer, "formulas": formulas})
+        fields = {} if said is None else said._asdict()
+        alike = {name: fields.get(name) for name in ("formulas", "place", "likeness")}
+        shared.print_json(whole | {"layer": layer} | alike)
     else:
         for scene, (scenario, one) in zip(scenes, found, strict=True):
             head = f"{scene}: " if options.more else ""
@@ -70,11 +74,11 @@ def run(options: argparse.Namespace) -> int:
                 shared.print_wrapped(head + line)
         if said is not None:
             shared.print_wrapped(
-                f"layer {said.layer}: the most alike planted mistake (likeness "
+                f"layer {said.layer}: the planted mistake that is most alike (likeness "
                 f"{said.likeness:.2f}) is in {' or in '.join(said.formulas)}, {said.place} of the "
                 "plain program"
             )
-        elif any(one.is_wrong and one.parts for one in every):
+        elif not common and any(one.wrong_parts for one in every):
             shared.print_wrapped("no planted mistake is like this: the layer is open")
     return int(any(one.is_wrong or one.failed for one in every))
 
@@ -105,7 +109,7 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
         lines.append(f"the numbers of the run are rounded to {found.resolution:.1g}")
     first = found.first
     if not found.steps and not found.failed:
-        lines.append("the run has no step: its program ends before the first one")
+        lines.append("the run has no step")
     elif first is None and found.steps:
         lines.append(
             f"{found.steps} steps, each as the reference takes it, to {found.digits:.1f} digits"
@@ -123,7 +127,7 @@ def sentences(found: Comparison, scenario: Scenario) -> list[str]:
             lines.append(f"contact {found.contact} is off the most")
         for cause in found.causes[:SHOWN]:
             lines.append(f"looks like {cause.name} (layer {cause.layer}): {cause.sentence}")
-        if not found.causes and not found.parts:
+        if not found.causes and not found.wrong_parts:
             lines.append("no classic mistake ends its steps as they end")
     if found.failed:
         lines.append(f"the reference takes no further step: {found.failed}")

@@ -1,4 +1,4 @@
-"""Which formula the wrong parts of known scenes point to: planted mistakes are known by theirs.
+"""Which formula the wrong parts of known scenes point to: that of planted mistakes like them.
 
 ``planted.json.gz`` has mistakes of one place in the plain program, each with the parts of the
 scenes in ``validation/scenes`` that it moves wrongly in their first step, in which way, and how far
@@ -7,27 +7,31 @@ moves nearly the same ones wrongly, in whatever way it is written.
 """
 
 import gzip
+import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.oracle.parts import ENDED, Part
+from quasistatic_ref.lab.oracle.scene_case import SceneCases
+from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.step.arrays import Array
 
 WAY, WHERE = 0.4, 0.3
-"""What it adds to the likeness of a part that two mistakes move wrongly that they do it in the same
-way, and by the same; that both do counts for the rest [-]."""
-LEAST = 0.1
-"""Likeness below which nothing is said [-]."""
+"""Weights of the same way and of the same offset in the likeness of a part that both move wrongly;
+the rest is for both being wrong [-]."""
 NEARLY = 0.8
-"""A second formula is said if it is that nearly as like as the first [-]."""
-SAME = 1e-6
-"""How far a state may be from the start of a known scene [m, rad, -]."""
+"""What is like by that share of the most alike may as well be it [-]."""
+MOST = 2
+"""Formulas that may be it, if anything is said."""
+DECIMALS = 10
+"""By which a scene is known: the last bits of a number depend on the machine."""
 Wrong = Mapping[str, tuple[str, Array]]
 """By scene and part, the way and the offset of each that is wrong."""
 
@@ -72,8 +76,8 @@ class Diagnosis(NamedTuple):
 
 
 @cache
-def planted() -> tuple[dict[str, list[float]], list[Planted]]:
-    """The known scenes, by name h and where they start; and the mistakes that come along."""
+def planted() -> tuple[dict[str, str], list[Planted]]:
+    """The known scenes, the hash of each by its name; and the mistakes that come along."""
     path = files("quasistatic_ref.lab.oracle") / "planted.json.gz"
     found = json.loads(gzip.decompress(path.read_bytes()))
     mistakes = [
@@ -83,20 +87,38 @@ def planted() -> tuple[dict[str, list[float]], list[Planted]]:
     return found["scenes"], mistakes
 
 
-def is_known(scenario: Scenario) -> bool:
-    """Whether mistakes were planted for a scene."""
-    known = planted()[0].get(scenario.path.stem, [])
-    own = start_of(scenario)
-    return len(known) == len(own) and bool(np.allclose(known, own, rtol=0.0, atol=SAME))
+def known_name(scenario: Scenario) -> str:
+    """The name of the scene for which mistakes were planted; "" if it is none of them."""
+    try:
+        case = SceneCases(scenario).at(0, scenario.system.q_start)
+    except InputError:
+        return ""
+    own = hash_of(case)
+    return next((name for name, known in planted()[0].items() if known == own), "")
 
 
-def start_of(scenario: Scenario) -> list[float]:
-    """What a scene is known by: h, and where it starts."""
-    return [scenario.h, *scenario.system.q_start.tolist()]
+def hash_of(case: Json) -> str:
+    """What a scene is known by: the case of its first step, to DECIMALS."""
+    text = json.dumps(_rounded(case), sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _rounded(value: Any) -> Any:
+    match value:
+        case dict():
+            return {name: _rounded(one) for name, one in value.items()}
+        case list() | tuple() | np.ndarray():
+            return [_rounded(one) for one in value]
+        case bool() | str() | None:
+            return value
+    return round(float(value), DECIMALS) + 0.0  # without the sign of 0
 
 
 def likeness(one: Wrong, other: Wrong) -> float:
-    """How alike two sets of wrong parts are: the share of their union that both have [-]."""
+    """How alike two sets of wrong parts are: of the union, the part both have, weighted [-].
+
+    A part that both move wrongly counts as much as its way and its offset are the same.
+    """
     both = one.keys() & other.keys()
     alike = sum(_of_part(*one[name], *other[name]) for name in both)
     return alike / len(one.keys() | other.keys())
@@ -123,7 +145,7 @@ def diagnosis(parts: Mapping[str, Sequence[Part]]) -> Diagnosis | None:
     Returns
     -------
     Diagnosis or None
-        None if no part is wrong, or all mistakes are too unlike.
+        None if no part is wrong, or more than MOST formulas are nearly as like as the first.
     """
     every = {f"{scene}: {part.name}": part for scene, own in parts.items() for part in own}
     wrong = {name: (part.way, part.off) for name, part in every.items() if part.way}
@@ -135,8 +157,8 @@ def diagnosis(parts: Mapping[str, Sequence[Part]]) -> Diagnosis | None:
             if subject not in best or like > best[subject][0]:
                 best[subject] = like, mistake
     ranked = sorted(best, key=lambda subject: -best[subject][0])
-    if not ranked or best[ranked[0]][0] < LEAST:
+    if not ranked:
         return None
     like, first = best[ranked[0]]
-    further = [subject for subject in ranked[1:2] if best[subject][0] >= NEARLY * like]
-    return Diagnosis(first.layer, (ranked[0], *further), first.place, like)
+    near = tuple(subject for subject in ranked if best[subject][0] >= NEARLY * like)
+    return Diagnosis(first.layer, near, first.place, like) if len(near) <= MOST else None

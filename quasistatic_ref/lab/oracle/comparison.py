@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.lab.oracle.alike import SAME, Diagnosis, diagnosis, is_known
+from quasistatic_ref.lab.oracle.alike import Diagnosis, diagnosis, known_name
 from quasistatic_ref.lab.oracle.causes import Cause, Taken, causes
 from quasistatic_ref.lab.oracle.parts import Part, parts_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun
@@ -32,6 +32,10 @@ MATCH = 1e-3
 """How far from the other program's state a cause may end, over how far the reference does [-]."""
 EXACT = 1e-9
 """How far it may end from a right step, over the displacement [-]."""
+SAME = 1e-6
+"""How far a state may be from the start of a known scene [m, rad, -]."""
+TURNED = 2.0
+"""By how many units of the last digit rounding turns a quaternion at most [-]."""
 ROUNDED = 8
 """How many units of the last digit that a file keeps may come of a step."""
 
@@ -68,6 +72,7 @@ class Comparison:
     Parameters
     ----------
     scene : str
+        The known one of which it is the first step; "" if it is none.
     steps : int
         That were compared.
     digits : float
@@ -79,7 +84,7 @@ class Comparison:
     contact : str
         Whose gap or slip is off the most; "" if there is none.
     causes : tuple of Cause
-        None if nothing that is tried explains it, or the scene is a known one.
+        None if nothing that is tried explains it, or a part is wrong.
     failed : str
         Why the reference takes no step from a state of the run.
     parts : tuple of Part
@@ -97,13 +102,18 @@ class Comparison:
     parts: tuple[Part, ...] = ()
 
     @property
+    def wrong_parts(self) -> list[Part]:
+        """The parts that move wrongly in the first step of a known scene."""
+        return [part for part in self.parts if part.way]
+
+    @property
     def is_wrong(self) -> bool:
         """Whether a step is wrong, or there is none."""
         return self.first is not None or not self.steps
 
 
 def common_causes(found: Sequence[Comparison]) -> list[Cause]:
-    """The causes of all wrong runs in which causes are tried: those of scenes that are not known.
+    """The causes of all wrong runs in which causes are tried: those without wrong parts.
 
     Parameters
     ----------
@@ -113,20 +123,24 @@ def common_causes(found: Sequence[Comparison]) -> list[Cause]:
     -------
     list of Cause
     """
-    tried = [one.causes for one in found if one.first and not one.parts]
+    tried = [one.causes for one in found if one.first and not one.wrong_parts]
     return [cause for cause in tried[0] if all(cause in one for one in tried)] if tried else []
 
 
 def diagnosis_of_runs(found: Sequence[Comparison]) -> Diagnosis | None:
-    """What wrong parts of known scenes are like; None where no step is wrong, or one has causes.
+    """What wrong parts of known scenes are like; of runs of one scene, a part is wrong if in any.
 
     Parameters
     ----------
     found : sequence of Comparison
     """
-    if common_causes(found) or not any(one.is_wrong for one in found):
-        return None
-    return diagnosis({one.scene: one.parts for one in found})
+    parts: dict[str, dict[str, Part]] = {}
+    for one in found:
+        own = parts.setdefault(one.scene, {}) if one.parts else {}
+        for part in one.parts:
+            if part.way or part.name not in own:
+                own[part.name] = part
+    return diagnosis({scene: [*own.values()] for scene, own in parts.items()})
 
 
 def comparison_of_run(
@@ -145,8 +159,7 @@ def comparison_of_run(
     """
     unit = run.resolution
     simulator = scenario.simulator()
-    known = is_known(scenario) and run.first == 0
-    known = known and bool(np.abs(run.q[0] - scenario.system.q_start).max(initial=0.0) <= SAME)
+    scene = known_name(scenario) if run.first == 0 and _starts(scenario, run) else ""
     wrong: list[StepOff] = []
     right: list[StepOff] = []
     parts: tuple[Part, ...] = ()
@@ -159,7 +172,7 @@ def comparison_of_run(
             failed = f"step {k}: {error}"
             break
         q_next = run.q[i + 1] if len(run.q) > 1 else None
-        if known and i == 0:
+        if scene and i == 0:
             parts = parts_of(scenario.system, result, q_next, digits, ROUNDED * unit)
         if q_next is not None:
             one = _beside(scenario, k, q, result, q_next)
@@ -169,10 +182,10 @@ def comparison_of_run(
     before = [one.digits for one in right if first is None or one.k < first.k]
     worst = min(before, default=16.0)
     whole = Comparison(
-        scenario.path.stem, len(wrong) + len(right), worst, unit, first,
+        scene, len(wrong) + len(right), worst, unit, first,
         contact_of(first) if first else "", (), failed, parts,
     )  # fmt: skip
-    cases = None if first is None or known else _cases(scenario)
+    cases = None if first is None or whole.wrong_parts else _cases(scenario)
     if first is None or cases is None:
         return whole
     taken = [_taken_step(cases, one, run, True) for one in spread(wrong)]
@@ -180,6 +193,12 @@ def comparison_of_run(
         return whole
     kept = [_taken_step(cases, one, run, False) for one in spread(right)]
     return replace(whole, causes=tuple(causes(scenario.system, taken, kept)))
+
+
+def _starts(scenario: Scenario, run: OtherRun) -> bool:
+    """Whether a run starts where the scene does, as nearly as its file says it."""
+    off = scenario.system.difference(scenario.system.q_start, run.q[0])
+    return bool(np.abs(off).max(initial=0.0) <= max(SAME, TURNED * run.resolution))
 
 
 def _reference_step(scenario: Scenario, simulator: Simulator, k: int, q: Array) -> StepResult:

@@ -1,4 +1,4 @@
-"""What wrong parts of known scenes are like is said with its layer: planted mistakes know them."""
+"""What wrong parts of known scenes are like is said with its layer: they are like planted ones."""
 
 import ast
 import json
@@ -9,13 +9,15 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.lab.oracle import alike
-from quasistatic_ref.lab.oracle.alike import diagnosis, likeness, planted
+from quasistatic_ref.lab.oracle.alike import diagnosis, hash_of, known_name, likeness, planted
 from quasistatic_ref.lab.oracle.comparison import DIGITS, comparison_of_run, diagnosis_of_runs
 from quasistatic_ref.lab.oracle.parts import ENDED, Part, parts_of, way_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun
+from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program, text_of_file
-from tests.lab.oracle.test_compare import NAMES, SCENES, run_with, table
+from tests.lab.oracle.test_compare import NAMES, SCENES, SIGN_OF_B, run_with, table
 from tests.quoted import flat
+from validation.make.planted_runs import SCENES as KNOWN
 from validation.make.planted_runs import first_step, moved, q_after, scene
 from validation.make.program_changes import changes, changes_of_file
 
@@ -33,10 +35,12 @@ PATCHES = {
     "distance, the distance of a point to a solid": """curved.py:
 - excess = np.array([r - R, abs(z) - half])
 + excess = np.array([r - R, abs(z) - 0.95 * half])""",
-    "step, M in H": """step.py:
+}
+TIED = {
+    "M in H": """step.py:
 - M = M + mass * v.T @ v + w.T @ inertia @ w
 + M = M + mass * v.T @ v + 3 * w.T @ inertia @ w""",
-    "step, loads and springs in g": """step.py:
+    "loads and springs in g": """step.py:
 - weight = weight + mass * v.T @ np.array(case["gravity"])
 + weight = weight + 0.7 * mass * v.T @ np.array(case["gravity"])""",
 }
@@ -59,6 +63,14 @@ def test_a_mistake_that_was_not_planted_is_like_those_in_the_same_formula(said, 
     assert formula in found.formulas
 
 
+@pytest.mark.parametrize("patch", TIED.values(), ids=TIED)
+def test_where_three_formulas_are_as_like_nothing_is_said(patch, monkeypatch):
+    parts = {name: parts_by(patch, name) for name in NAMES}
+    assert diagnosis(parts) is None
+    monkeypatch.setattr(alike, "MOST", 3)
+    assert diagnosis(parts).layer == "step"
+
+
 def said_of(mistake):
     """What is said of a planted mistake by those that are known."""
     parts = {name: [] for name in NAMES}
@@ -74,7 +86,7 @@ def said_of(mistake):
 
 def test_planted_mistakes_are_known_by_those_of_other_lines(monkeypatch):
     scenes, every = planted()
-    counts = {"asked": 0, "layer": 0, "formula": 0}
+    counts = {"asked": 0, "said": 0, "layer": 0, "formula": 0}
     for mistake in every[::4]:
         others = [one for one in every if one.place != mistake.place]
         if not any({*one.subjects} & {*mistake.subjects} for one in others):
@@ -84,11 +96,13 @@ def test_planted_mistakes_are_known_by_those_of_other_lines(monkeypatch):
         monkeypatch.undo()
         counts["asked"] += 1
         if found is not None:
+            counts["said"] += 1
             counts["layer"] += found.layer == mistake.layer
             counts["formula"] += not {*found.formulas}.isdisjoint(mistake.subjects)
     assert counts["asked"] > 80
-    assert counts["layer"] >= 0.5 * counts["asked"]
-    assert counts["formula"] >= 0.33 * counts["asked"]  # of 30: by chance, one in fifteen
+    assert 0.5 * counts["asked"] <= counts["said"] < 0.8 * counts["asked"]
+    assert counts["layer"] >= 0.7 * counts["said"]
+    assert counts["formula"] >= 0.6 * counts["said"]
 
 
 def test_the_file_is_what_the_program_makes():
@@ -96,9 +110,14 @@ def test_the_file_is_what_the_program_makes():
         {name: [way, off.tolist()] for name, (way, off) in one.wrong.items()}
         for one in planted()[1]
     ]
-    found = [moved(one) for one in changes() if one.file == "rows.py"][:4]
-    assert any(found)
-    assert all(one in kept for one in found if one)
+    files = ["rows.py", "step.py", "integration.py"]
+    for change in changes():
+        if change.file in files and (found := moved(change)):
+            assert found in kept
+            files.remove(change.file)
+        if not files:
+            break
+    assert not files
 
 
 def test_it_is_said_with_the_layer_whatever_scenes_were_run(tmp_path, cli):
@@ -109,14 +128,16 @@ def test_it_is_said_with_the_layer_whatever_scenes_were_run(tmp_path, cli):
         given += [path, str(run)]
     said = flat(cli("compare", *given, "--quiet", status=1).out)
     assert "pushed.toml: 1 steps, each as the reference takes it" in said
-    assert "layer jacobian: the most alike planted mistake (likeness 0." in said
+    assert "layer jacobian: the planted mistake that is most alike (likeness 0." in said
     assert "is a scene without a run" in cli("compare", *given[:3], status=2).err
     found = json.loads(cli("compare", *given, "--json", status=1).out)
     assert found["layer"] == "jacobian"
     assert "the velocities of bodies" in found["formulas"]
+    assert "mechanism.py, line " in found["place"]
+    assert 0.5 < found["likeness"] < 1
 
 
-def test_a_program_that_ends_at_once_is_told_in_words_and_by_what_the_scene_has(tmp_path, cli):
+def test_of_a_program_that_ends_at_once_the_layer_is_open(tmp_path, cli):
     given = []
     for name, steps in (("free", 1), ("joints", 1), ("pushed", 0)):
         path = str(SCENES / f"{name}.toml")
@@ -124,19 +145,9 @@ def test_a_program_that_ends_at_once_is_told_in_words_and_by_what_the_scene_has(
         given += [path, str(run)]
     found = json.loads(cli("compare", *given, "--json", status=1).out)
     assert [one["steps"] for one in found["runs"]] == [1, 1, 0]
-    assert found["layer"] in ("distance", "step", "rows")  # not one that the others need
+    assert (found["layer"], found["formulas"]) == (None, None)  # many formulas end it
     said = flat(cli("compare", *given, "--quiet", status=1).out)
-    assert "the run has no step: its program ends before the first one" in said
-
-
-def test_where_no_mistake_is_like_it_the_layer_is_open(tmp_path, cli):
-    path = str(SCENES / "free.toml")
-    scenario = qr.load_scenario(path, steps=2)
-    q = scenario.run(progress=False).q
-    off = np.full(scenario.system.n_v, 1e-3)
-    run = table(tmp_path / "run.csv", scenario, [*q[:2], scenario.system.integrate(q[2], off)])
-    said = flat(cli("compare", path, str(run), "--quiet", status=1).out)
-    assert "no planted mistake is like this: the layer is open" in said
+    assert said.endswith("the run has no step no planted mistake is like this: the layer is open")
 
 
 def test_a_part_is_wrong_alone():
@@ -147,15 +158,102 @@ def test_a_part_is_wrong_alone():
     found = comparison_of_run(scenario, OtherRun(0, q, 0.0))
     assert [part.name for part in found.parts if part.way] == ["driven/slide"]
     assert len(found.parts) > 40
-    assert diagnosis_of_runs([comparison_of_run(scenario, OtherRun(0, q[:1], 0.0))]) is not None
+    right = np.array([scenario.system.q_start, first_step("free")[2].q])
+    both = [found, comparison_of_run(scenario, OtherRun(0, right, 0.0))]
+    alone = diagnosis_of_runs([found])
+    assert alone is not None
+    assert diagnosis_of_runs(both) == diagnosis_of_runs(both[::-1]) == alone
     later = comparison_of_run(scenario, OtherRun(1, q, 0.0))
     assert later.parts == ()  # it does not begin where the scene does
 
 
-def test_a_scene_that_was_changed_is_none_of_the_known_ones():
-    assert alike.is_known(scene("pushed"))
-    assert not alike.is_known(qr.load_scenario(SCENES / "pushed.toml", h=0.02))
-    assert not alike.is_known(qr.load_scenario("sphere_spin"))
+CHANGES = {
+    "h": ([], {"h": 0.01}),
+    "alpha": (['contacts.hinge.alpha="driven/slide"'], {}),
+    "law": ([], {"law": "coulomb"}),
+    "cone": ([], {"cone": "pyramid"}),
+    "gravity": (["gravity=[0.4,-0.3,-9.6]"], {}),
+}
+
+
+@pytest.mark.parametrize(("changes", "settings"), CHANGES.values(), ids=CHANGES)
+def test_a_scene_that_was_changed_is_none_of_the_known_ones(changes, settings):
+    changed = qr.load_scenario(SCENES / "joints.toml", changes, **settings)
+    assert known_name(changed) == ""
+    q = np.array([changed.system.q_start, scene("joints").system.q_start])
+    assert comparison_of_run(changed, OtherRun(0, q, 0.0)).parts == ()
+
+
+def test_a_scene_is_known_by_its_data_and_not_by_its_file(tmp_path):
+    assert [known_name(scene(name)) for name in KNOWN] == [*KNOWN]
+    copy = tmp_path / "mine.toml"
+    copy.write_text((SCENES / "pushed.toml").read_text("utf-8"), "utf-8")
+    for file in SCENES.glob("*.urdf"):
+        (tmp_path / file.name).write_text(file.read_text("utf-8"), "utf-8")
+    assert known_name(qr.load_scenario(copy)) == "pushed"
+    assert known_name(qr.load_scenario("sphere_spin")) == ""
+
+
+def nudged(value, eps):
+    if isinstance(value, dict):
+        return {name: nudged(one, eps) for name, one in value.items()}
+    if isinstance(value, list):
+        return [nudged(one, eps) for one in value]
+    return value * (1 + eps) + 1e-2 * eps if isinstance(value, float) else value
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_last_bits_do_not_make_it_another_scene(name):
+    case = first_step(name)[1]
+    for eps in (-1e-15, 1e-15):
+        assert hash_of(nudged(case, eps)) == planted()[0][name]
+    assert hash_of(nudged(case, 1e-8)) != planted()[0][name]
+
+
+def test_a_first_wrong_step_that_is_later_is_held_against_classic_mistakes(tmp_path, cli):
+    path = str(SCENES / "pushed.toml")
+    scenario = qr.load_scenario(path)
+    made = program(SIGN_OF_B)
+    taken = iter(range(3))
+
+    def answer(case):
+        return (made if next(taken) else program())("step", case)
+
+    run = table(tmp_path / "run.csv", scenario, states_by(scenario, answer, 3))
+    said = flat(cli("compare", path, str(run), "--quiet", status=1).out)
+    assert "step 1 (t = " in said
+    assert "no classic mistake ends its steps as they end" in said  # step 0 has not its sign of b
+    assert "no planted mistake" not in said
+
+
+def test_a_classic_mistake_that_is_named_is_not_denied(tmp_path, cli):
+    given = []
+    for name, path in (("other", "block_push"), ("pushed", str(SCENES / "pushed.toml"))):
+        run = run_with(tmp_path, path, SIGN_OF_B, 2).rename(tmp_path / f"{name}.csv")
+        given += [path, str(run)]
+    said = flat(cli("compare", *given, "--quiet", status=1).out)
+    assert "looks like sign of b (layer rows)" in said
+    assert "the layer is open" not in said
+    assert json.loads(cli("compare", *given, "--json", status=1).out)["layer"] == "rows"
+
+
+@pytest.mark.parametrize("decimals", [5, 6])
+def test_a_rounded_run_is_one_of_a_known_scene(decimals):
+    scenario = scene("keys")
+    q = np.array([scenario.system.q_start, first_step("keys")[2].q]).round(decimals)
+    run = OtherRun(0, np.array([scenario.system.normalised(one) for one in q]), 10.0**-decimals)
+    found = comparison_of_run(scenario, run)
+    assert found.parts
+    assert not found.wrong_parts
+
+
+def test_a_start_with_the_other_sign_of_a_quaternion_is_the_same():
+    scenario = scene("free")
+    q = np.array([scenario.system.q_start, first_step("free")[2].q])
+    names = [name for joint in scenario.system.joints for name in joint.positions]
+    at = names.index("floating.qx [-]")
+    q[0, at : at + 4] *= -1
+    assert comparison_of_run(scenario, OtherRun(0, q, 0.0)).parts
 
 
 def test_a_way_is_told_by_impulse_and_rows():

@@ -17,6 +17,7 @@ from tests.extras import marked_parameters
 from tests.quoted import ROOT, flat, printed_blocks
 
 PUSHED = "block_push"
+SIGN_OF_B = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
 SCENES = ROOT / "validation" / "scenes"
 NAMES = ("free", "joints", "keys", "solids", "gripped", "pushed")
 OF_SCENES = [SCENES / f"{name}.toml" for name in NAMES]
@@ -60,8 +61,7 @@ def test_the_packages_own_run_is_right_from_npz_and_from_a_table(tmp_path, cli):
 
 
 def test_a_classic_mistake_is_named_with_its_layer_and_contact(tmp_path, capsys):
-    patch = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'
-    run = run_with(tmp_path, PUSHED, patch, 40)
+    run = run_with(tmp_path, PUSHED, SIGN_OF_B, 40)
     assert main(["compare", PUSHED, str(run), "--quiet"]) == 1
     (shown,) = printed_blocks((ROOT / "docs" / "guides" / "ask_step_by_step.md").read_text())
     assert flat(capsys.readouterr().out) == flat(shown)
