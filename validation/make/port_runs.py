@@ -138,10 +138,10 @@ from those that are kept apart and that the committed vectors find wrong. Each t
 [the scenes for comparisons](../scenes/README.md) that its port can read, which `quasistatic-ref
 compare` is given together; a step of fewer than {DIGITS:g} digits is wrong. The layer that is said
 is right if it is the first that fails in `vectors check`; the one or two formulas are right as in
-[the table of mutants](port_mutants.md). No rule was written while looking at them. These 25 were
-counted with two rules: the first, which named no formula, had the layer right for 14 of the 18 in
-the table. Since the second, which is counted here, `compare` says nothing where more than two
-formulas are as like; with that they have not been counted.
+[the table of mutants](port_mutants.md). No rule was written while looking at them. Such 25 were
+counted with three rules. The first named no formula, and had the layer right for 14 of 18; the
+second always named some, and had the layer right for 12 and the formulas for 11; this one says
+nothing where more than two formulas are as like.
 """
 
 
