@@ -13,9 +13,9 @@ from quasistatic_ref.lab.oracle.alike import diagnosis, hash_of, known_name, lik
 from quasistatic_ref.lab.oracle.comparison import DIGITS, comparison_of_run, diagnosis_of_runs
 from quasistatic_ref.lab.oracle.parts import ENDED, Part, parts_of, way_of
 from quasistatic_ref.lab.oracle.run_table import OtherRun
-from quasistatic_ref.lab.oracle.scene_case import states_by
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program, text_of_file
-from tests.lab.oracle.test_compare import NAMES, SCENES, SIGN_OF_B, run_with, table
+from quasistatic_ref.lab.vectors.check.table import PATCHES as PATCHES_OF
+from tests.lab.oracle.test_compare import NAMES, SCENES, SIGN_OF_B, run_with
 from tests.quoted import flat
 from validation.make.planted_runs import SCENES as KNOWN
 from validation.make.planted_runs import first_step, moved, q_after, scene
@@ -211,19 +211,13 @@ def test_last_bits_do_not_make_it_another_scene(name):
 
 
 def test_a_first_wrong_step_that_is_later_is_held_against_classic_mistakes(tmp_path, cli):
-    path = str(SCENES / "pushed.toml")
-    scenario = qr.load_scenario(path)
-    made = program(SIGN_OF_B)
-    taken = iter(range(3))
-
-    def answer(case):
-        return (made if next(taken) else program())("step", case)
-
-    run = table(tmp_path / "run.csv", scenario, states_by(scenario, answer, 3))
+    name = "inertia not turned into the world"
+    path = str(SCENES / "keys.toml")  # where it moves nothing before the second step
+    run = run_with(tmp_path, path, PATCHES_OF[name]["step"][0], 2)
     said = flat(cli("compare", path, str(run), "--quiet", status=1).out)
     assert "step 1 (t = " in said
-    assert "no classic mistake ends its steps as they end" in said  # step 0 has not its sign of b
-    assert "no planted mistake" not in said
+    assert f"looks like {name} (layer " in said
+    assert "planted" not in said
 
 
 def test_a_classic_mistake_that_is_named_is_not_denied(tmp_path, cli):
