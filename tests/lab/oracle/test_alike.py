@@ -106,14 +106,12 @@ def test_planted_mistakes_are_known_by_those_of_other_lines(monkeypatch):
 
 
 def test_the_file_is_what_the_program_makes():
-    kept = [
-        {name: [way, off.tolist()] for name, (way, off) in one.wrong.items()}
-        for one in planted()[1]
-    ]
+    """But for the last bits of a machine, by which a part that hardly moves may be right or not."""
     files = ["rows.py", "step.py", "integration.py"]
     for change in changes():
         if change.file in files and (found := moved(change)):
-            assert found in kept
+            wrong = {name: (way, np.array(off)) for name, (way, off) in found.items()}
+            assert max(likeness(wrong, one.wrong) for one in planted()[1]) > 0.9, change.new
             files.remove(change.file)
         if not files:
             break
