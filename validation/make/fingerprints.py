@@ -5,7 +5,8 @@ Run ``python -m validation.make.fingerprints --out FILE`` (a quarter of an hour)
 to look. The first ``--first`` changes of the program (``program_changes``) are made, one at a time.
 What each makes wrong in the layers 1 to 8 is noted by case and field, where the program itself is
 right. ``validation/ports/subjects.toml`` says what each line computes. ``--every N`` makes some
-again, and compares them with the file: exit status 1 if one is another.
+again, and compares them with the file: exit status 1 if one is another. Run it with
+``OPENBLAS_NUM_THREADS=1``: threads that wait spend processor time, of which a case has CASE.
 """
 
 import gzip

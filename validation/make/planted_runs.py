@@ -3,8 +3,8 @@
 Run ``python -m validation.make.planted_runs --out FILE`` (a quarter of an hour); the file is
 ``quasistatic_ref/lab/oracle/planted.json.gz``, by which ``compare`` says where to look. The first
 ``--first`` changes of the plain program (``program_changes``) are made, one at a time; each changed
-program takes the first step of each scene. Whether a change of which a step takes about STEP ends
-it depends on the machine.
+program takes the first step of each scene. Run it with ``OPENBLAS_NUM_THREADS=1``:
+threads that wait spend processor time, after STEP of which a change has no step.
 """
 
 import gzip

@@ -23,9 +23,10 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.step.arrays import Array
 
-WAY, WHERE = 0.4, 0.3
-"""Weights of the same way and of the same offset in the likeness of a part that both move wrongly;
-the rest is for both being wrong [-]."""
+WAY = 0.4
+"""Weight of the same way in the likeness of a part that both move wrongly [-]."""
+WHERE = 0.3
+"""Weight of the same offset in it; the rest is for both being wrong [-]."""
 NEARLY = 0.8
 """What is like by that share of the most alike may as well be it [-]."""
 MOST = 2
@@ -129,7 +130,9 @@ def _of_part(way: str, off: Array, other_way: str, other: Array) -> float:
         return float(way == other_way) or (1 - WAY - WHERE) / 2
     words = zip(way.split(", "), other_way.split(", "), strict=True)
     same = float(np.mean([a == b for a, b in words]))
-    a, b = sorted((float(np.linalg.norm(off)), float(np.linalg.norm(other))))
+    lengths = float(np.linalg.norm(off)), float(np.linalg.norm(other))
+    a = min(lengths)
+    b = max(lengths)
     direction = max(0.0, float(off @ other)) / (a * b)
     return 1 - WAY - WHERE + WAY * same + WHERE * direction * float(np.sqrt(a / b))
 

@@ -70,7 +70,8 @@ def parts_of(
         mine = group.coordinates[group.coordinates < system.n_v]  # without an extension's
         if not len(mine):
             continue
-        H, g = form.H[np.ix_(mine, mine)], form.g[mine]
+        H = form.H[np.ix_(mine, mine)]
+        g = form.g[mine]
         norm = energy_norm(H)
         right = relative_digits(norm.of_displacement(off[mine]), norm.of_impulse(g))
         way = ENDED if q_next is None else ""

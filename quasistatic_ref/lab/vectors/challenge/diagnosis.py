@@ -143,7 +143,7 @@ class Diagnosis:
         wrong: set[str] = set()
         for layer in (name for name in LAYERS if name in self._wanted):
             records = expected_read(vectors_folder(), layer)
-            troubles = 0  # anew: where it always crashes, that says which formula it is
+            troubles = 0  # of these cases alone: a crash in each still tells the formula
             for case in inputs_read(vectors_folder(), layer):
                 record = records[case.id]
                 if self.late or not self._supports(layer) or troubles >= GIVEN_UP:
