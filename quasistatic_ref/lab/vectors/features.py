@@ -14,6 +14,9 @@ from quasistatic_ref.lab.vectors.trees import nodes
 
 FEW = 5
 """Cases of a feature that are few."""
+FLAT = 1e-12
+"""1 less the cosine of n to the normal of a face that it is, at most: rounding makes it 7e-16 in the
+vectors, and the least tilt 4e-8 [-]."""
 
 
 def features(case: Json, output: Json) -> set[str]:
@@ -97,7 +100,7 @@ def _of_boxes(case: Json, output: Json) -> Iterator[str]:
 
 
 def _from_a_face(cosine: float) -> str:
-    if cosine > 1 - 1e-12:
+    if cosine > 1 - FLAT:
         return "of a face"
     return "near a face" if cosine > FACING else "of an edge"
 
