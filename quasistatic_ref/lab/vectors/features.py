@@ -15,8 +15,8 @@ from quasistatic_ref.lab.vectors.trees import nodes
 FEW = 5
 """Cases of a feature that are few."""
 FLAT = 1e-12
-"""1 less the cosine of n to the normal of a face that it is, at most: rounding makes it 7e-16 in the
-vectors, and the least tilt 4e-8 [-]."""
+"""1 less the cosine of n to the normal of a face that it is, at most: rounding makes it 7e-16 in
+the vectors, and the least tilt 4e-8 [-]."""
 
 
 def features(case: Json, output: Json) -> set[str]:
