@@ -107,7 +107,7 @@ def test_planted_mistakes_are_known_by_those_of_other_lines(monkeypatch):
 
 
 def test_the_file_is_like_what_the_program_makes(monkeypatch):
-    """Equal, when it runs alone; after the whole suite one of the three was not, and why is open."""
+    """Equal when it runs alone; in the whole suite one of the three was not, and why is open."""
     monkeypatch.setattr(planted_runs, "STEP", 600.0)  # other threads of BLAS spend it as they wait
     files = ["rows.py", "step.py", "integration.py"]
     for change in changes():
