@@ -5,7 +5,7 @@ Run ``python -m validation.make.fingerprints --out FILE`` (a quarter of an hour)
 to look. The first ``--first`` changes of the program (``program_changes``) are made, one at a time.
 What each makes wrong in the layers 1 to 8 is noted by case and field, where the program itself is
 right. ``validation/ports/subjects.toml`` says what each line computes. ``--every N`` makes some
-again, and compares them with the file: exit status 1 if one is another. Run it with
+again, and compares them with the file: exit status 1 if one is less alike than ALIKE. Run it with
 ``OPENBLAS_NUM_THREADS=1``: threads that wait spend processor time, of which a case has CASE.
 """
 
@@ -40,6 +40,10 @@ FIRST = 1500
 """Changes that are made: some two of each line."""
 CASE, ALL = 0.7, 12.0
 """Processor time after which a case has no answer, and no more are asked [s]."""
+
+ALIKE = 0.5
+"""Least share of what a mistake makes wrong here or in the file that is wrong in both [-]. It was
+0.69 to 1 on another kernel of BLAS: last bits decide where a tolerance or a branch is spoiled."""
 
 
 class Asked(NamedTuple):
@@ -166,14 +170,15 @@ def content(found: Sequence[tuple[Change, set[str]]]) -> bytes:
 
 
 def others(every: int) -> Iterator[str]:
-    """Those of each so many mistakes of the file that are another today."""
+    """Those of each so many mistakes of the file that are less alike than ALIKE today."""
     whole = json.loads(gzip.decompress(FILE.read_bytes()))
     made = {(place, text): change for change in changes()
             for _, place, text in [fingerprint(change)]}  # fmt: skip
     for _, place, text, number in whole["mistakes"][::every]:
         planted = {name for i, name in enumerate(whole["wrong"]) if int(number, 16) >> i & 1}
         change = made.get((place, text))
-        if change is None or spoiled(change) != planted:
+        wrong = set() if change is None else spoiled(change)
+        if len(wrong & planted) < ALIKE * len(wrong | planted):
             yield f"{place}, {text}"
 
 
@@ -183,7 +188,7 @@ def main() -> int:
     warnings.simplefilter("ignore")
     if options.every:
         found = list(others(options.every))
-        print(*(found or ["as in the file"]), sep="\n")
+        print(*(found or ["as in the file, or nearly"]), sep="\n")
         return int(bool(found))
     made = []
     for number, change in zip(range(options.first), changes(), strict=False):
