@@ -127,7 +127,7 @@ HEALTHY = {
     + '<body pos="-.1 0 .03"><joint name="x" type="slide" axis="1 0 0" damping="50"/>'
     '<geom size=".03" mass=".2"/></body>',
 }  # fmt: skip
-"""Chosen before there were findings, as the ten public ones of ``validation/make/guests.py``."""
+"""Chosen before there were findings."""
 PUSH = '<actuator><position name="x" joint="x" kp="100"/></actuator>'
 
 

@@ -13,7 +13,7 @@ from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.simulate.scene import Scene
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import urdf_of_text
-from validation.make.mjcf import CURVED, SAME, WORDS, differences, random_models
+from tests.oracles.mjcf_differences import CURVED, SAME, WORDS, differences, random_models
 
 ARM = """<mujoco>
   <compiler angle="degree" eulerseq="zyx" autolimits="true"/>
@@ -118,7 +118,6 @@ def test_a_mesh_is_where_and_what_the_format_says(tmp_path, mesh, compiler, file
 
 @pytest.mark.usefixtures("in_this_process")
 def test_meshes_are_where_mujoco_has_them_however_they_are_written():
-    """A sample of those of ``validation/results/mjcf.md``."""
     tried = random_models(range(8))
     assert tried.right + len(tried.refused) == 8
     assert not tried.wrong

@@ -1,14 +1,10 @@
-"""MJCF models against MuJoCo: ``python -m validation.make.mjcf [--count N]``.
+"""MJCF models against MuJoCo.
 
-At N random configurations, each body's mass, pose and Jacobian, the mass matrix and signed
-distances of shapes are compared with MuJoCo's, of models of others. pip installs ``PACKAGES`` into
-a temporary folder, without what they need: of them only the models are read. Of N random models
-of meshes, it is also compared how far each mesh reaches, with MuJoCo's compiled vertices and with
-those that the files hold. Exit status 1 if a difference exceeds its tolerance.
+At random configurations, each body's mass, pose and Jacobian, the mass matrix and signed distances
+of shapes are compared with MuJoCo's. Of random models of meshes, it is also compared how far each
+mesh reaches, with MuJoCo's compiled vertices and with those that the files hold.
 """
 
-import subprocess
-import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -20,47 +16,21 @@ import numpy as np
 
 from quasistatic_ref import Body, ContactError, ContactPair, ModelError, System
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.data import Array
 from tests.oracles.random_mjcf import random_model
-from validation.tools.scripts import script_options, show_page
 
-PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
-GYMNASIUM = "gymnasium/envs/mujoco/assets"
-SUITE = "dm_control/suite"
-MODELS = (
-    f"{GYMNASIUM}/ant.xml", f"{GYMNASIUM}/half_cheetah.xml", f"{GYMNASIUM}/hopper.xml",
-    f"{GYMNASIUM}/humanoid.xml", f"{GYMNASIUM}/pusher.xml", f"{SUITE}/cartpole.xml",
-    f"{SUITE}/finger.xml", f"{SUITE}/humanoid.xml", f"{SUITE}/reacher.xml", f"{SUITE}/walker.xml",
-)  # fmt: skip
 mujoco = import_module("mujoco")
 SAME, CURVED = 1e-12, 1e-6
+"""Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
+coal find by iteration [m]."""
 REACH, WORDS = 1e-9, 1e-5
 """Tolerances of how far a mesh reaches [m]: against MuJoCo's vertices, and against those of the
 files, which MuJoCo keeps in single precision."""
-"""Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
-coal find by iteration [m]."""
 EXACT = ("Sphere", "Capsule")
 FARTHEST, PAIRS = 10.0, 12
 """Distances up to which MuJoCo looks [m], and pairs of shapes of a model that are compared."""
-PAGE = """# MJCF models against MuJoCo
-
-Made by `python -m validation.make.mjcf`, at {count} random configurations of each model, with
-MuJoCo {version}. Largest differences: of masses [kg], of poses [m, -], of Jacobians and mass
-matrices over their largest entry, and of signed distances [m] of {pairs} pairs of
-shapes at most: spheres and capsules, and others where they are apart.
-
-{table}
-
-Random models of meshes: {models} of `tests/oracles/random_mjcf.py`, with meshes in files (others of
-the same name next to them), inline and built-in, `refpos`, `refquat`, `scale`, `strippath`, folders
-and attached models. {right} are right, {refused} refused, {wrong} wrong. Largest differences of how
-far a mesh reaches: {reach:.1e} m from MuJoCo's compiled vertices, {words:.1e} m from those of the
-files, which MuJoCo keeps in single precision; of masses, poses, Jacobians and mass matrices:
-{rest:.1e}. How many models have what: {kinds}.
-"""
 
 
 class Differences(NamedTuple):
@@ -256,37 +226,3 @@ def shape_pairs(
         (ContactPair("p(a, b)", a, b, 0.0, 0.0, 4, 1, hull=True), number[id(a)], number[id(b)])
         for a, b in (every[i] for i in chosen)
     ]
-
-
-def main() -> int:
-    """Compare, write the page, and return the exit status."""
-    options = script_options(__doc__, count=100, out=Path)
-    rows = []
-    status = 0
-    with tempfile.TemporaryDirectory() as folder:
-        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", folder]
-        subprocess.run([*pip, *PACKAGES], check=True)
-        for name in MODELS:
-            found = differences(Path(folder) / name, options.count)
-            good = max(found[3:8]) <= SAME and found.curved <= CURVED
-            status = status or int(not good)
-            rows.append((name, *map(str, found[:3]), *(f"{x:.1e}" for x in found[3:])))
-    head = ("model", "n_v", "shapes", "ignored", "masses", "poses", "Jacobians", "mass matrix",
-            "spheres and capsules", "other shapes")  # fmt: skip
-    table = "\n".join(markdown_table(head, rows, 1))
-    version = mujoco.__version__
-    tried = random_models(range(options.count))
-    status = status or int(bool(tried.wrong))
-    page = PAGE.format(
-        count=options.count, version=version, pairs=PAIRS, table=table, models=options.count,
-        right=tried.right, refused=len(tried.refused), wrong=len(tried.wrong), reach=tried.reach,
-        words=tried.words, rest=tried.rest,
-        kinds=", ".join(f"{kind} {number}" for kind, number in sorted(tried.kinds.items())),
-    )  # fmt: skip
-    print("\n".join(tried.refused), file=sys.stderr)
-    show_page(page, options.out)
-    return status
-
-
-if __name__ == "__main__":
-    sys.exit(main())
