@@ -18,11 +18,10 @@ from scipy.sparse import issparse
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.options import Options, takes_sparse
 from quasistatic_ref.lab.study.calling.packages import announced_function, function_at
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.lab.study.calling.study_only import NATIVELY, natively
+from quasistatic_ref.lab.study.calling.study_only import natively
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -90,7 +89,7 @@ def _as_given(solver: Solver, folder: str) -> Call:
     if solver.interface == "qpsolvers":
         return _directly(name)
     if solver.interface == "native":
-        return _guest(name) if name in NATIVELY else Native(name)
+        return _guest(name)
     if solver.interface in ("package", "callable"):
         return _function(function_of(solver))
     return Executable(_command(tuple(solver.target), folder), folder)

@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from quasistatic_ref.lab.study.calling.calls import function_of, takes_start
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.lab.study.calling.study_only import NATIVELY
 from quasistatic_ref.solve.reply import Reply
 
 COLD = "cold"
@@ -17,9 +16,6 @@ UPDATES = "updates"
 MODES = (COLD, UPDATES, "primal", "primal-dual", "active set")
 """Set up again each time; or from what was left: memory and factors alone, the point, the point
 with its multipliers, the active set."""
-NATIVE = {"daqp": "active set", "osqp": "primal-dual"}
-"""What the native adapters keep besides, where they start warm."""
-KEEPS_NOTHING = ("quadprog", *NATIVELY)
 
 
 def modes_of(solver: Solver) -> tuple[str, ...]:
@@ -35,15 +31,11 @@ def modes_of(solver: Solver) -> tuple[str, ...]:
     InputError
         If it cannot be imported.
     """
-    name = str(solver.target)
     if solver.interface in ("package", "callable"):
         return (COLD, "primal-dual") if takes_start(function_of(solver)) else (COLD,)
     if solver.interface == "qpsolvers" and solver.warm:
         return (COLD, "primal")
-    if solver.interface != "native" or name in KEEPS_NOTHING:
-        return (COLD,)
-    own = NATIVE.get(name)
-    return (COLD, UPDATES, own) if own else (COLD, UPDATES)
+    return (COLD,)
 
 
 def kept_reply(mode: str, before: Reply) -> Reply | None:

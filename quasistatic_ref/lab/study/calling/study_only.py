@@ -247,7 +247,7 @@ def known_to(interface: str) -> list[str]:
     backends = {
         "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
         "qpsolvers": list(BACKENDS),
-        "native": [b.name for b in BACKENDS.values() if b.adapter or b.name in NATIVELY],
+        "native": [name for name in NATIVELY if name in BACKENDS],
     }
     guests = [guest.name for guest in GUESTS.values() if interface in guest.interfaces]
     return backends[interface] + guests
@@ -263,7 +263,8 @@ def installed_here(interface: str) -> tuple[str, ...]:
     joining = [name for name in known_to(interface) if name in GUESTS]
     joining += [name for name in NATIVELY if name in BACKENDS and interface == "native"]
     here = (name for name in joining if find_spec(EVERY[name].to_install))
-    return installed(interface) + tuple(here)
+    own = () if interface == "native" else installed(interface)
+    return own + tuple(here)
 
 
 def natively(name: str) -> Native:

@@ -62,7 +62,7 @@ def test_the_exact_method_answers_or_says_that_there_is_no_solution():
     assert claim("native", "exact", none.status) == INFEASIBLE
 
 
-@pytest.mark.parametrize("interface", ["qpsolvers", "cvxpy", "native"])
+@pytest.mark.parametrize("interface", ["qpsolvers", "cvxpy"])
 def test_a_star_is_the_backends_and_the_guests_that_are_installed(only, interface):
     only()
     assert installed_here(interface) == installed(interface)
