@@ -89,49 +89,6 @@ def errors_by_pair(record: Record) -> Figure:
     return figure
 
 
-def ablations(record: Record, names: Sequence[str]) -> Figure:
-    """Mean errors over pairs of some variants, with intervals."""
-    figure, both = panels(6.3, 0.9 + 0.24 * len(names), columns=2)
-    entries = [record["variants"][name]["error"] for name in names]
-    for k, (axes, unit) in enumerate(zip(both, ("position [mm]", "rotation [deg]"), strict=True)):
-        _spans(axes, entries, k, 0.0, marker="o")
-        _name_rows(axes, [""] * len(names) if k else names)
-        axes.set_xlim(left=0)
-        label_axes(axes, f"error of {unit}", key=False)
-    return figure
-
-
-def tripods(record: Record) -> Figure:
-    """Median error of the turn over the median turn, by set of supports and by cone."""
-    figure, (axes,) = panels(6.3, 2.8)
-    variants = {
-        "ellipsoid": ["ellipsoid"],
-        "facets-16": ["facets-16"],
-        "pyramid, three angles": [
-            name for name in record["variants"] if name.startswith("pyramid")
-        ],
-    }
-    sets = list(record["variants"]["ellipsoid"])
-    for (label, own), mark in zip(variants.items(), ("o", "^", "x"), strict=True):
-        for name in own:
-            shares = [100 * record["variants"][name][s]["median error over median turn"]
-                      for s in sets]  # fmt: skip
-            _marks(axes, shares, range(len(sets)), mark, 5, label if name == own[0] else "")
-    _name_rows(
-        axes, [f"{name}{', identification' if k == 0 else ''}" for k, name in enumerate(sets)]
-    )
-    axes.set_xlim(left=0)
-    label_axes(axes, "median error of rotation over median rotation [%]")
-    return figure
-
-
-SHOWN = (
-    "ellipsoid", "facets-16", "facets-8", "pyramid, axes at 0 degrees",
-    "pyramid, axes at 22.5 degrees", "pyramid, axes at 45 degrees", "product",
-    "half of the torsion", "no torsion", "9 points", "25 points", "100 points",
-)  # fmt: skip
-
-
 def result(name: str) -> Any:
     """A committed result."""
     return json.loads((RESULTS / f"{name}.json").read_text("utf-8"))
@@ -141,16 +98,12 @@ def main() -> None:
     """Draw all."""
     options = script_options(__doc__, out=Path("reality_figures"))
     identified = result("reality_identified")
-    variants = result("reality_ablations")
-    shown = [name for name in SHOWN if name in variants["variants"]]
     with figure_style():
         figures = {
             "reality_pushes": figure_of("which_cone_is_real"),
             "reality_identified": identified_ratios(identified),
             "reality_loads": lost_shares(identified),
             "reality_errors": errors_by_pair(result("reality")),
-            "reality_ablations": ablations(variants, shown),
-            "reality_tripods": tripods(result("reality_tripods")),
         }
     for name, figure in figures.items():
         figure_written(figure, options.out, name)

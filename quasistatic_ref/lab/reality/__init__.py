@@ -1,4 +1,4 @@
-"""The model against measurements: friction identified from loads, pushes and tripods predicted.
+"""The model against measurements: friction identified from loads, pushes predicted.
 
 It compares, and changes nothing of the model. No coefficient is fitted to the measurements that
 are then predicted.

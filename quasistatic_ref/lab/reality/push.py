@@ -1,7 +1,7 @@
 """A flat body pushed by a round finger over its support, as steps of Eq. :eq:`eq-13`.
 
 The coordinates are those of the finger, q_a = (x, y), and of the body, q_u = (x, y, z, angle) of
-its centre of mass; where its support is more than one contact, the two tilts follow. The finger is
+its centre of mass. The finger is
 an upright post that is smooth along its length, and touches at the height of the support: pushes
 do not load one side of the body more than the other.
 """
@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.outline import Outline, rotation
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.settings import Settings
@@ -96,20 +95,15 @@ class Pushed:
         J[count, :2, 5], J[count, 3, 5] = turned(arm), 0.0
         phi[count] = distance - self.radius
 
-        axes = np.radians(by.axes)
-        c = np.cos(axes)
-        s = np.sin(axes)
         frames = np.zeros((count + 1, 3, 3))
-        frames[:count] = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
+        frames[:count] = np.eye(3)
         frames[count] = [[-n[1], n[0], 0.0], [0.0, 0.0, 1.0], [n[0], n[1], 0.0]]
         frames[count, 0] *= np.sign(np.linalg.det(frames[count]))
 
         weight = by.m * GRAVITY
         inertia = by.m * by.gyration**2
-        friction = by.mu_v * weight * np.array([1.0, 1.0, by.gyration])
-        extra = friction * by.nudge
         tau = np.zeros(n_u)
-        tau[:4] = extra[0], extra[1], -weight, extra[2]
+        tau[2] = -weight
         lifted = by.m * by.rise
         M = np.array([by.m, by.m, lifted] + [inertia] * (n_u - 3))
         rows = np.array([6] * count + [4])
@@ -135,9 +129,8 @@ def pushed_scene(by: Settings, pair: Pair, ratio: float) -> Pushed:
     if not by.quasi_dynamic_number <= SLOWEST:
         problem = f"makes the quasi-dynamic number more than {SLOWEST:g}; take a longer step"
         raise InputError(problem, field="h", value=by.h)
-    one = by.points == 1
     return Pushed(
         pair.outline, pair.radius, by.friction(pair),
-        (ratio * by.torsion or NO_TORSION) if one else 0.0,
-        PATCH if one else support_points(pair.outline, by.points), by,
+        ratio * by.torsion or NO_TORSION,
+        PATCH, by,
     )  # fmt: skip

@@ -15,24 +15,17 @@ ADVANCE = 1e-3
 
 @dataclass(frozen=True)
 class Settings:
-    """How pushes are predicted; every field is shown not to matter, or is an ablation.
+    """How pushes are predicted; every field has a default.
 
     Parameters
     ----------
     cone : str
     torsion : float
         Times the identified mu_omega / mu_v [-]; with 0 it is ``NO_TORSION``.
-    points : int
-        Contacts of the support: 1, a patch with torsion; more, points without.
-    axes : float
-        Angle of d1 of the support from the world's x [deg].
     finger : str
         Friction of the finger: ``"used"``, ``"fitted"``, or a number.
     advance : float
         Of the finger in a step [m].
-    nudge : tuple of float
-        Force along x and y, and torque over the radius of gyration, of something else on the body
-        over mu_v m g [-].
     m, gyration, mu_v, h, stiffness : float
         Mass [kg] and radius of gyration [m] of the body, friction of the support [-], time step
         [s], of the finger [N/m]. They cancel in the quasi-static limit.
@@ -44,11 +37,8 @@ class Settings:
 
     cone: str = ELLIPSOID
     torsion: float = 1.0
-    points: int = 1
-    axes: float = 0.0
     finger: str = "used"
     advance: float = ADVANCE
-    nudge: tuple[float, float, float] = (0.0, 0.0, 0.0)
     m: float = 1.0
     gyration: float = 0.04
     mu_v: float = 0.3
@@ -64,7 +54,7 @@ class Settings:
 
     def record(self) -> dict[str, Any]:
         """The same as plain data."""
-        return asdict(self) | {"nudge": list(self.nudge)}
+        return asdict(self)
 
     def friction(self, pair: Pair) -> float:
         """Of the finger on the object [-].

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.outline import Outline
 from tests.tolerances import ROUNDING
 
@@ -61,14 +60,3 @@ def test_the_closest_point_of_an_outline_with_a_notch(point, distance, on, norma
 def test_what_encloses_no_area_is_refused(vertices):
     with pytest.raises(InputError, match="outline"):
         Outline(np.array(vertices))
-
-
-def test_points_of_a_support_share_its_area_about_its_centre():
-    outline = Outline(RECTANGLE)
-    points = np.array(support_points(outline, 25))
-    assert points.shape == (25, 2)
-    assert np.abs(points.mean(0)).max() < ROUNDING
-    assert all(outline.closest(p + outline.centre)[0] < 0 for p in points)
-    # Shares of equal area lose what is inside of them: a 25th of the mean square, about.
-    square = (points**2).sum(1).mean() / outline.gyration**2
-    assert 0.9 < square < 1.0
