@@ -1,17 +1,12 @@
 """Files, written whole or not at all, and read with plain errors."""
 
-import glob
 import io
 import json
 import os
-import re
 import stat
-import sys
 import tempfile
 import tomllib
 from collections.abc import Callable
-from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
@@ -25,19 +20,8 @@ LARGEST_TEXT = 64 * 2**20
 """Largest JSON file [bytes]: a step with 300 coordinates and 1000 contacts has 30 MiB."""
 LARGEST_TOML = 2**20
 """Largest TOML file [bytes]."""
-MOST_PARTS = 32
-"""Most parts of a dotted key."""
-# Possessive, and from the start of a word only: its own time is linear.
-_DEEP_KEY = re.compile(
-    rf"""(?<![\w-])((?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}"""
-)
-
 PARTIAL = ".partial"
 """End of the names of files that are being written."""
-NO_WAITING = getattr(os, "O_NONBLOCK", 0)
-"""For a pipe in the place of a file."""
-STREAM = re.compile(r"/(dev|proc/\d+(/task/\d+)?)/fd/\d+")
-"""Names of open streams: of this process (macOS has /dev/fd), and of others."""
 
 
 def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Path:
@@ -46,9 +30,8 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
     Parameters
     ----------
     path : str or Path
-        Missing folders are made. What is no regular file, such as a pipe, a device or an open
-        stream of this process (``/dev/stdout``, ``/dev/fd/3``), is written into at once, behind
-        what it holds, and never replaced; behind a symbolic link, the file that it leads to is.
+        Missing folders are made. A device or a pipe, and whatever stands in ``/dev``, is written
+        into at once; behind a symbolic link, the file that it leads to is replaced.
     write : callable
         Receives the open binary file.
 
@@ -66,7 +49,7 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
         if is_stream(path):
             content = io.BytesIO()
             write(content)
-            with _opened(path) as stream:
+            with path.open("ab") as stream:
                 stream.write(content.getbuffer())
         else:
             _replaced(_resolved(path), write)
@@ -76,42 +59,16 @@ def written_whole(path: str | Path, write: Callable[[IO[bytes]], object]) -> Pat
 
 
 def is_stream(path: Path) -> bool:
-    """Whether what stands there is no regular file and no folder; InputError if it has no name."""
+    """Whether it is no regular file and no folder, or stands in /dev; InputError if no name."""
     target = _resolved(path)
     is_special = target.exists() and not target.is_file() and not target.is_dir()
-    return is_special or _descriptor(path) is not None
-
-
-def _opened(path: Path) -> IO[bytes]:
-    """What is no regular file, open for writing behind what it holds."""
-    descriptor = _descriptor(path)
-    if descriptor is None or descriptor.parts[2] not in ("fd", str(os.getpid())):
-        return path.open("ab")
-    if sys.stdout is not None:
-        sys.stdout.flush()  # what was printed before comes before
-    # A stream that is opened a second time, by its name, has a position of its own.
-    return os.fdopen(os.dup(int(descriptor.name)), "wb")
-
-
-def _descriptor(path: Path) -> Path | None:
-    """Where an open stream has its name, if this path, such as /dev/stdout, leads to one."""
-    if not path.exists():
-        return None
-    while True:
-        path = path.parent.resolve() / path.name
-        if STREAM.fullmatch(str(path)):
-            return path
-        if not path.is_symlink():
-            return None
-        path = path.parent / path.readlink()
+    return is_special or path.is_relative_to("/dev")
 
 
 def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
-    """Write a regular file whole, and remove what killed processes have left of it."""
+    """Write a regular file whole."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    for left in target.parent.glob(f".{glob.escape(target.name)}.*{PARTIAL}"):
-        _remove_left(left)
-    descriptor, temporary = _made(target)
+    descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
             write(file)
@@ -121,38 +78,6 @@ def _replaced(target: Path, write: Callable[[IO[bytes]], object]) -> None:
         os.replace(temporary, target)
     finally:
         Path(temporary).unlink(missing_ok=True)
-
-
-def _made(target: Path) -> tuple[int, str]:
-    """A temporary file that is held while it is open: its descriptor, and its name."""
-    while True:
-        descriptor, temporary = tempfile.mkstemp(PARTIAL, f".{target.name}.", target.parent)
-        if _held(descriptor, otherwise=True) and Path(temporary).exists():
-            return descriptor, temporary
-        os.close(descriptor)  # another process has removed it, before it was held
-
-
-def _remove_left(temporary: Path) -> None:
-    """Remove a temporary file that no process holds."""
-    with suppress(OSError):
-        descriptor = os.open(temporary, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | NO_WAITING)
-        try:
-            if _held(descriptor, otherwise=False):
-                temporary.unlink(missing_ok=True)
-        finally:
-            os.close(descriptor)
-
-
-def _held(descriptor: int, otherwise: bool) -> bool:
-    """Hold an open file until it is closed; whether this process does, or `otherwise`."""
-    try:
-        fcntl: Any = import_module("fcntl")
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    except (ImportError, OSError):  # Windows, and file systems without locks
-        return otherwise
-    return True
 
 
 def _resolved(path: Path) -> Path:
@@ -282,26 +207,12 @@ def toml_read(
     """
     with about_file(path):
         try:
-            return toml_tables(text_of(bytes_read(path, error, LARGEST_TOML), path, error), error)
+            return tomllib.loads(text_of(bytes_read(path, error, LARGEST_TOML), path, error))
         except tomllib.TOMLDecodeError as failure:
             wanted = "TOML" if Path(path).suffix == ".toml" else what
             raise error(f"is not {wanted}: {failure}") from None
         except (RecursionError, ValueError):
             raise error("is nested too deeply, or holds an unusable number") from None
-
-
-def toml_tables(text: str, error: type[InputError] = InputError) -> dict[str, Any]:
-    """The tables of a TOML text.
-
-    Raises
-    ------
-    InputError
-        If a key has too many parts: tomllib's time is quadratic in their number.
-    """
-    if deep := _DEEP_KEY.search(text):
-        line = text[: deep.start()].count("\n") + 1
-        raise error(f"holds a key of more than {MOST_PARTS} parts", field=f"line {line}")
-    return tomllib.loads(text)
 
 
 def unique_fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -6,8 +6,6 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from quasistatic_ref.errors import ModelError
-
 SECONDS = 8.0
 """What they may take of an ordinary processor [s]; each reader says what its files take."""
 
@@ -44,26 +42,6 @@ def together() -> Iterator[None]:
         yield
     finally:
         _READ.reset(token)
-
-
-def spend(seconds: float) -> None:
-    """Count a file that is about to be read.
-
-    Parameters
-    ----------
-    seconds : float
-        What that takes [s].
-
-    Raises
-    ------
-    ModelError
-        If it and those that are read together with it take too long.
-    """
-    read = _READ.get() or Together()
-    read.seconds += seconds
-    if read.seconds > SECONDS:
-        took = f"{read.seconds:.3g} s of reading, more than the {SECONDS:g} s of one scenario"
-        raise ModelError(f"brings what is named to {took}; thin out clouds and meshes")
 
 
 def once(key: Hashable, made: Callable[[], T]) -> T:

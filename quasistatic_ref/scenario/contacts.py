@@ -16,7 +16,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, about_field
 from quasistatic_ref.formats.quoting import known_names, suggestion
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
-from quasistatic_ref.formats.together import once, spend
+from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
@@ -25,8 +25,7 @@ from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh
-from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Ellipsoid, PlacedShape
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 Shapes = dict[str, list[PlacedShape]]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
@@ -34,14 +33,6 @@ WORLD = 0
 """Number of the world among the links."""
 MOST_PAIRS = 50_000
 """Most pairs of a scenario."""
-SECONDS = 5.0
-"""What so many take [s]."""
-COUNTED = 0.002
-CURVED = 0.05
-"""What it takes to count how many points of two solids are near, and of two of which one is curved
-[s]."""
-OF_TWO = 3e-7
-"""The same of a point and a face, or of two points [s]; 8 s of it take 1.5 GiB."""
 
 
 def placed_shapes(
@@ -142,29 +133,17 @@ def contact_pairs(
         if count > MOST_PAIRS:
             problem = f"brings the pairs of this scenario to more than {MOST_PAIRS}"
             raise ScenarioError(problem, field=table.where, value=count)
-        with about_field(table.where):
-            spend(SECONDS * (count - len(pairs)) / MOST_PAIRS)
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"
                 with about_field(table.where):
                     pair = ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull)
                     if within is not None:
-                        spend(_seconds(pair))
                         number = number_within(pair, start.R, start.t, within)
                         pair = replace(pair, k=number)
                     pairs.append(pair)
     tables.close()
     return tuple(pairs)
-
-
-def _seconds(pair: ContactPair) -> float:
-    """What :func:`~quasistatic_ref.contact.distance.number_within` takes of a pair [s]."""
-    shapes = [pair.alpha.shape, pair.beta.shape]
-    curved = any(isinstance(shape, Cylinder | Cone | Ellipsoid) for shape in shapes)
-    faces = [len(shape.triangles) for shape in shapes if isinstance(shape, ConvexMesh)]
-    other = max([4, *faces]) if pair.has_cloud else pair.candidates
-    return (CURVED if curved else COUNTED) + OF_TWO * pair.candidates * other
 
 
 def _within(k_given: Any, where: str) -> float | None:

@@ -1,11 +1,12 @@
 """Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
 
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.files import MOST_PARTS, plain, toml_tables
+from quasistatic_ref.formats.files import plain
 from quasistatic_ref.scenario.paths import OwnWord
 
 Changes = Sequence[str] | Mapping[str, Any]
@@ -65,9 +66,6 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
     if not all(parts):
         problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
         raise ScenarioError(problem, field=field, value=given)
-    if len(parts) > MOST_PARTS:
-        problem = f"names a key of more than {MOST_PARTS} parts"
-        raise ScenarioError(problem, field=field, value=given)
     table: Any = tables
     for part in parts[:-1]:
         table = table.setdefault(part, {}) if isinstance(table, dict) else None
@@ -79,7 +77,7 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
 def parsed(text: str) -> Any:
     """The value of a setting that is given as text: TOML, or else a plain word."""
     try:
-        tables = toml_tables(f"value = {text}", ScenarioError)
+        tables = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):
         tables = {}
     # Anything but one value, such as a second line, is taken as a word.

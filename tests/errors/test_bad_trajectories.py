@@ -9,9 +9,17 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from tests.errors.scene import scene_written
-from tests.oracles.spoilt_files import zip_bytes
 
 NOT_ONE = "is not a trajectory written by this program"
+
+
+def zip_bytes(members, pack=zipfile.ZIP_STORED):
+    """Members as a ZIP file whose checksums are right."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", pack) as archive:
+        for name, content in members:
+            archive.writestr(name, content, pack)
+    return file.getvalue()
 
 
 @pytest.fixture(scope="module")

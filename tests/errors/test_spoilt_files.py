@@ -1,75 +1,148 @@
-"""Every reader given spoilt files: each is accepted, or refused in one sentence.
+"""A spoilt file of each format is accepted, or refused in one sentence."""
 
-Files are spoilt by a seed that Hypothesis draws. ``--hypothesis-profile=long`` gives every reader
-thousands of them.
-"""
+import re
 
-import random
-import shutil
-import subprocess
-import sys
-import time
-
+import numpy as np
 import pytest
-from hypothesis import given, note, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from quasistatic_ref import QuasistaticError
-from tests.errors.readers import FAMILIES
-from validation.make.hostile_files import STRACE, opened_elsewhere
+from quasistatic_ref import (
+    Body,
+    QuasistaticError,
+    System,
+    load_scenario,
+    solve_step,
+    step_read,
+    trajectory_read,
+)
+from quasistatic_ref.cli.solution_files import solution_read, solution_text
+from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.formats.files import toml_read
+from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.vectors.check.answers import answers_read
+from quasistatic_ref.lab.vectors.files import answers_written
+from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.step.files import step_text
+from tests.errors.scene import SCENE, scene_written
+from tests.model.readers.test_clouds import PCD_BODY, pcd
+from tests.model.readers.test_mesh_files import COLLADA, TETRAHEDRON
+from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.oracles.records import toml_text
 
-SECONDS = 10.0
-"""Of the processor that a file may take [s]."""
 LONGEST = 2000
 """Most characters of a sentence."""
-SHARE = 5
-"""One in so many of the profile's examples: there are many readers."""
+TOKEN = re.compile(rb"[-+]?\d[\w.+-]*|[A-Za-z_][\w:.-]*|\"[^\"\n]*\"|[^\w\s]")
+OTHERS = (
+    *(b"", b"nan", b"inf", b"-1", b"0", b"1e308", b"1e-323", b"9223372036854775808", b'"x"', b"["),
+    *(b"{}", b"null", b"..", b"\x00", b"\xff", b"\n", "\u00e9".encode(), b"x" * 1000),
+)
+"""What stands in the place of a token or of some bytes."""
+POINTS = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
+PLY = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+STUDY = (
+    'format = "quasistatic-ref/study"\nversion = 1\nkind = "solvers"\n'
+    '[problems]\nseed = 3\nscenarios = ["sphere_spin"]\nfamilies = { scenarios = 2 }\n'
+    '[[runs]]\nsolvers = ["cvxpy:osqp"]\n'
+)
 
 
-@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
-def test_a_spoilt_file_is_accepted_or_refused_in_a_sentence(tmp_path, family):
-    for name, reader in family(tmp_path).items():
-        path = tmp_path / reader.file
-        for good in reader.good:
-            path.write_bytes(good)
-            reader.read(path)
-        spoilt_files_read(name, reader, path)
-        path.write_bytes(reader.good[0])
+def scene_read(path):
+    """A scenario whose files are good."""
+    load_scenario(path).simulator()
 
 
-@pytest.mark.skipif(shutil.which("strace") is None, reason="strace says what is opened")
-def test_what_a_process_opens_outside_of_its_folder_is_seen(tmp_path):
-    """``validation.make.hostile_files`` reads what strace writes of Python, C and children."""
-    outside = tmp_path / "outside" / "c.xyz"
-    outside.parent.mkdir()
-    outside.write_text("0 0 0")
-    log = tmp_path / "log"
-    mark = "try: open('/proc/self/file {}')\nexcept OSError: pass\n"
-    by_child = f"import subprocess as s; s.run(['cat', '{outside}'], stdout=s.DEVNULL)\n"
-    for opens in (f"open('{outside}').close()\n", by_child):
-        script = mark.format(1) + opens + mark.format(2) + f"open('{log}').close()"
-        subprocess.run([*STRACE, "-o", str(log), sys.executable, "-S", "-c", script], check=True)
-        assert opened_elsewhere(log) == {1: str(outside)}
+def robot_read(path):
+    """A URDF."""
+    System([Body("r", path)])
 
 
-def spoilt_files_read(name, reader, path):
-    """Read spoilt files, as many as the profile of Hypothesis says."""
+def mesh_read(path):
+    """A mesh, named by a URDF next to it."""
+    mesh = collision(f'<mesh filename="{path.name}"/>')
+    System([Body("r", urdf_of_text(path.parent, robot(link("r", mesh)), "mesh.urdf"), "floating")])
 
-    @settings(max_examples=max(settings().max_examples // SHARE, 1))
-    @given(seed=st.integers(0, 2**32))
-    def read(seed):
-        rng = random.Random(seed)
-        path.write_bytes(reader.form(rng, rng.choice(reader.good)))
-        note(f"{name}, {path}")
-        begun = time.process_time()
-        try:
-            reader.read(path)
-        except QuasistaticError as refusal:
-            sentence = str(refusal)
-            assert sentence
-            assert "\n" not in sentence
-            assert "bad_alloc" not in sentence
-            assert len(sentence) <= LONGEST
-        assert time.process_time() - begun < SECONDS
 
-    read()
+def step_solved(path):
+    """A step."""
+    solve_step(step_read(path), "none")
+
+
+def good_files(folder):
+    """Name -> content and reader, for each format."""
+    scene_written(folder)
+    step = load_scenario("sphere_spin", ["steps=1"]).run(progress=False).step_data(0)
+    for name, save in (("c.npy", np.save), ("c.npz", np.savez)):
+        save(folder / name, POINTS)
+    run = load_scenario("sphere_spin", ["steps=1"]).run(progress=False).save(folder / "run.npz")
+    ply = f"{PLY}property float z\nend_header\n0 0 0\n1 0 0\n"
+    answers = answers_written(folder, "rows", "mine", {"one": {"A": [[1.0]], "b": [1.0]}})
+    return {
+        "scene.toml": (toml_text(SCENE), scene_read),
+        "r.urdf": ((models_folder() / "door" / "door.urdf").read_bytes(), robot_read),
+        "m.obj": (TETRAHEDRON.encode(), mesh_read),
+        "m.dae": (COLLADA.encode(), mesh_read),
+        "c.xyz": (b"0 0 0\n1 0 0\n", point_cloud),
+        "c.csv": (b"x,y,z,red\n0,0,0,255\n1,0,0,255\n", point_cloud),
+        "c.ply": (ply.encode(), point_cloud),
+        "c.pcd": (pcd("ascii", PCD_BODY), point_cloud),
+        "c.npy": ((folder / "c.npy").read_bytes(), point_cloud),
+        "c.npz": ((folder / "c.npz").read_bytes(), point_cloud),
+        "step.json": (step_text(step).encode(), step_solved),
+        "solution.json": (
+            solution_text(solve_step(step, "none")).encode(),
+            lambda path: refutation(step, solution_read(path, step)),
+        ),
+        "run.npz": (run.read_bytes(), lambda path: trajectory_read(path).step_data(0)),
+        "rows.json": (
+            answers.read_bytes(),
+            lambda path: answers_read(path.parent, "rows"),
+        ),
+        "study.toml": (STUDY.encode(), lambda path: solver_study(path, toml_read(path))),
+    }
+
+
+FORMATS = (
+    *("scene.toml", "r.urdf", "m.obj", "m.dae", "c.xyz", "c.csv", "c.ply", "c.pcd", "c.npy"),
+    *("c.npz", "step.json", "solution.json", "run.npz", "rows.json", "study.toml"),
+)
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory):
+    """A folder, and the good files in it."""
+    folder = tmp_path_factory.mktemp("good")
+    return folder, good_files(folder)
+
+
+def spoilt(content, places, others):
+    """A file with a token, or some bytes, replaced at each place, a share of its length."""
+    for place, other in zip(places, others, strict=True):
+        at = int(place * len(content))
+        token = TOKEN.search(content, at)
+        begin, end = token.span() if token and place < 0.9 else (at, at + 3)
+        content = content[:begin] + other + content[end:]
+    return content
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(places=st.lists(st.floats(0, 1), min_size=1, max_size=3), data=st.data())
+def test_a_spoilt_file_is_accepted_or_refused_in_a_sentence(good, name, places, data):
+    folder, files = good
+    assert tuple(files) == FORMATS
+    content, read = files[name]
+    path = folder / name
+    path.write_bytes(content)
+    read(path)
+    others = [data.draw(st.sampled_from(OTHERS)) for _ in places]
+    path.write_bytes(spoilt(content, places, others))
+    try:
+        read(path)
+    except QuasistaticError as refusal:
+        sentence = str(refusal)
+        assert 0 < len(sentence) <= LONGEST
+        assert "\n" not in sentence
+    finally:
+        path.write_bytes(content)

@@ -4,8 +4,6 @@ import json
 import math
 import os
 import stat
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -27,41 +25,6 @@ def test_a_file_is_replaced_whole(tmp_path):
     text_written(path, "short")
     assert path.read_text() == "short"
     assert os.listdir(tmp_path) == ["t.txt"]
-
-
-def kill(process):
-    process.kill()
-    process.stdout.close()
-    process.wait()
-
-
-def test_what_killed_processes_left_of_a_file_is_removed_and_nothing_else(tmp_path):
-    """A process is killed while it writes, another one still writes: the next removes the first."""
-    path = tmp_path / "[t].txt"
-    script = (
-        "import sys, time\nfrom quasistatic_ref.formats.files import written_whole\n"
-        "written_whole(sys.argv[1], lambda file: (print(flush=True), time.sleep(99)))"
-    )
-    writing = [
-        subprocess.Popen([sys.executable, "-c", script, str(path)], stdout=subprocess.PIPE)
-        for _ in "ab"
-    ]
-    for process in writing:
-        process.stdout.readline()
-    begun = [name for name in os.listdir(tmp_path) if name.endswith(".partial")]
-    assert len(begun) == 2
-    kill(writing[0])
-    others = (".[t].txt.bak", ".other.txt.12345678.partial", ".t.txt.12345678.partial")
-    for name in others:
-        (tmp_path / name).touch()
-    os.mkfifo(tmp_path / ".[t].txt.a_pipe.partial")
-    text_written(path, "whole")
-    left = {*os.listdir(tmp_path)} - {*others, ".[t].txt.a_pipe.partial"}
-    assert left - {*begun} == {"[t].txt"}
-    assert len(left & {*begun}) == 1
-    kill(writing[1])
-    text_written(path, "whole")
-    assert not {*begun} & {*os.listdir(tmp_path)}
 
 
 def test_a_file_has_the_permissions_of_any_other(tmp_path):
@@ -104,20 +67,6 @@ def test_a_folder_that_cannot_be_made_is_a_plain_error(tmp_path):
         text_written(tmp_path / "file" / "t.txt", "x")
     assert caught.value.file == tmp_path / "file" / "t.txt"
     assert os.listdir(tmp_path) == ["file"]
-
-
-def test_an_open_stream_is_written_into_behind_what_it_holds(tmp_path):
-    """As by the shell's ``-o /dev/stdout >> log``: the name leads to a regular file."""
-    log = tmp_path / "log"
-    link = tmp_path / "link"
-    log.write_text("before\n")
-    with log.open("a") as stream:
-        link.symlink_to(f"/dev/fd/{stream.fileno()}")
-        for name in (f"/dev/fd/{stream.fileno()}", f"/proc/self/fd/{stream.fileno()}", link):
-            text_written(name, "text\n")
-        stream.write("after\n")
-    assert log.read_text() == "before\n" + 3 * "text\n" + "after\n"
-    assert link.is_symlink()
 
 
 def test_a_pipe_and_a_fifo_are_written_into(tmp_path):

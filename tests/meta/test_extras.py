@@ -1,4 +1,4 @@
-"""What needs an extra is marked with it; else one test is skipped, where there is no strace."""
+"""What needs an extra is marked with it."""
 
 import re
 import subprocess
@@ -39,7 +39,7 @@ def test_that_has_what_it_needs():
 def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_program():
     sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != Path(__file__).name]
     found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
-    without_a_program = {"test_spoilt_files.py", "test_serve.py"}  # strace, Go: no extra's
+    without_a_program = {"test_serve.py"}  # Go: no extra's
     assert found == {"conftest.py", *without_a_program}, "it skips by the marker"
 
 

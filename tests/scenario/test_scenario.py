@@ -10,14 +10,12 @@ from quasistatic_ref import (
     Cylinder,
     HalfSpace,
     InputError,
-    ModelError,
     PointCloud,
     ScenarioError,
     Sphere,
     load_scenario,
 )
 from quasistatic_ref.formats.resources import models_folder, scenario_names, scenario_path
-from quasistatic_ref.scenario import contacts
 from tests.closeness import assert_close, assert_relative, assert_within
 from tests.model.urdf.urdf_texts import collision, joint, link, mimic, robot, urdf_of_text
 from tests.scenes import PUSH
@@ -144,14 +142,6 @@ def test_k_may_be_how_near_points_are_at_the_start(within, reach):
     )
     height = np.loadtxt(bunny.path.parent / "bunny_992.csv", delimiter=",", skiprows=1)[:, 2]
     assert bunny.pairs[0].k == np.count_nonzero(height <= height.min() + reach) > 5
-
-
-@pytest.mark.parametrize(("takes", "seconds"), [("OF_TWO", 0.1), ("COUNTED", 8.1)])
-def test_a_pair_whose_near_points_take_too_long_to_count_is_refused(monkeypatch, takes, seconds):
-    """A box on the floor has nine candidates: its corners, and the closest pair."""
-    monkeypatch.setattr(contacts, takes, seconds)
-    with pytest.raises(ModelError, match=r"contacts\.floor: brings .* more than the 8 s of one"):
-        load_scenario("block_push", {"contacts.floor.k": {"within": "5 mm"}})
 
 
 def test_without_wrenches_there_is_no_force(load):

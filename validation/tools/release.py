@@ -124,8 +124,6 @@ RESULTS = (
     ),
     to_file("prover_mutants"),
     to_file("designed_steps"),
-    to_file("hostile_files"),
-    to_file("kills"),
     to_file("mistakes"),
     to_file("guests"),
     to_file("mujoco_runs"),

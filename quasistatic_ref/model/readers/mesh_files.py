@@ -8,7 +8,6 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.together import spend
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
@@ -18,8 +17,6 @@ PACKAGE = "package://"
 CHECK_DAE: Slot[Callable[[Path], None]] = Slot("readers.dae")
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
-SECONDS = 7.0
-"""What it takes, with 1.6 GiB [s]."""
 
 
 def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -> Path:
@@ -73,7 +70,6 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     if size > LARGEST_MESH:
         problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
         raise ModelError(problem, value=uri)
-    spend(SECONDS * size / LARGEST_MESH)
     if path.suffix.lower() == ".dae":
         CHECK_DAE.needed("a .dae mesh")(path)
     return path

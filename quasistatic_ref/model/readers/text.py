@@ -5,12 +5,9 @@ import re
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import LARGEST_TEXT
-from quasistatic_ref.formats.together import spend
 
 MOST_POINTS = 1_000_000
 """Most points of a cloud, and most lines of a text of points."""
-SECONDS = 5.0
-"""What so many take [s]."""
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
@@ -45,7 +42,6 @@ def point_lines(text: str) -> list[str]:
 
 
 def check_points(count: int, what: str) -> None:
-    """ModelError if these are more points, or lines, than one cloud, or all of them, may have."""
+    """ModelError if these are more points, or lines, than a cloud may have."""
     if count > MOST_POINTS:
         raise ModelError(f"holds more than {MOST_POINTS} {what}; thin it out", value=count)
-    spend(SECONDS * count / MOST_POINTS)

@@ -9,7 +9,6 @@ import numpy as np
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.together import spend
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
@@ -29,10 +28,6 @@ MOST_COORDINATES = 250
 1 GiB for these; a humanoid has 60."""
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
-SECONDS = 2.0
-"""What reading takes of a file of these sizes, as to its bytes, links and shapes [s]."""
-OF_JOINTS = 4.0
-"""What it takes as to its coordinates: so that no two files with so many and more are read."""
 _ROBOT = ("name", "version")
 _VERSIONS = ("1.0", "1.1", "1.2")
 _INLINE = ("vertex", "face")
@@ -170,7 +165,6 @@ def _content(path: Path, text: str) -> UrdfFile:
     ignored = Tag(robot, "robot").ignored("link", "joint", "ignored", attributes=_ROBOT)
     ignored += [Tag(each, "robot.ignored").text("name") for each in robot.findall("ignored")]
     links: dict[str, FileLink] = {}
-    spend(SECONDS * len(text) / LARGEST_FILE)
     counts = {
         "links": (len(robot.findall("link")), MOST_LINKS),
         "collisions": (len(robot.findall("link/collision")), MOST_SHAPES),
@@ -178,7 +172,6 @@ def _content(path: Path, text: str) -> UrdfFile:
     for what, (count, most) in counts.items():
         if count > most:
             raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
-        spend(SECONDS / len(counts) * count / most)
     for element in robot.findall("link"):
         link = _link(element, ignored)
         if link.name in links:
@@ -190,7 +183,6 @@ def _content(path: Path, text: str) -> UrdfFile:
     if coordinates > MOST_COORDINATES:
         problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
-    spend(OF_JOINTS * (coordinates / MOST_COORDINATES) ** 3)
     root, ordered = checked_tree(links, joints)
     return UrdfFile(path, text, root, links, ordered, tuple(ignored))
 

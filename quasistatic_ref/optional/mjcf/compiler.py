@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.formats.together import spend
 from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS, MOST_SHAPES
 from quasistatic_ref.optional.mjcf.fence import Fence
 from quasistatic_ref.optional.mjcf.geoms import touching
@@ -81,7 +80,6 @@ def compiled(fence: Fence, simulated: bool = False) -> tuple[MjModel, list[str]]
         raise fence.refusal(said["refused"])
     if "makes" in said:
         raise fence.too_much(f"makes {said['makes']}")
-    spend(said["seconds"])
     return mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary}), said["ignored"]
 
 

@@ -304,13 +304,10 @@ def test_coordinates_and_columns_may_reach_their_limits(tmp_path, monkeypatch):
             point_cloud(path)
 
 
-def test_a_text_of_points_has_at_most_so_many_letters_and_lines_and_takes_its_share(monkeypatch):
-    spent = []
-    for name, value in (("spend", spent.append), ("LARGEST_TEXT", 8), ("MOST_POINTS", 4)):
+def test_a_text_of_points_has_at_most_so_many_letters_and_lines(monkeypatch):
+    for name, value in (("LARGEST_TEXT", 8), ("MOST_POINTS", 4)):
         monkeypatch.setattr(text, name, value)
     assert text.point_lines("1\n2\n3\n4\n") == ["1", "2", "3", "4"]
-    text.check_points(1, "points")
-    assert spent == [text.SECONDS, text.SECONDS / 4]
     with pytest.raises(ModelError, match="is a text of more than"):
         text.point_lines("1\n2\n3\n4 \n")
     with pytest.raises(ModelError, match="holds more than 4 lines"):

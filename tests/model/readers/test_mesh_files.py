@@ -87,17 +87,13 @@ def test_a_mesh_that_is_not_where_it_may_be_is_refused(tmp_path, address, words)
         mesh_path(address.format(root=tmp_path), home, ())
 
 
-@pytest.mark.parametrize(
-    ("count", "size", "words"),
-    [(1, 17 * 2**20, "is larger than 16 MiB"), (2, 10 * 2**20, "more than the 8 s of one")],
-)
-def test_meshes_that_are_too_large_in_all_are_refused(tmp_path, count, size, words):
+def test_a_mesh_that_is_too_large_is_refused(tmp_path):
     (tmp_path / "a.stl").touch()
-    os.truncate(tmp_path / "a.stl", size)
-    meshes = collision('<mesh filename="a.stl"/>') * count
-    with pytest.raises(ModelError, match=words) as caught:
+    os.truncate(tmp_path / "a.stl", 17 * 2**20)
+    meshes = collision('<mesh filename="a.stl"/>')
+    with pytest.raises(ModelError, match="is larger than 16 MiB") as caught:
         loaded_urdf(urdf_of_text(tmp_path, robot(link("a", meshes))))
-    assert caught.value.field == f"link[a].collision[{count - 1}].mesh.filename"
+    assert caught.value.field == "link[a].collision[0].mesh.filename"
 
 
 COLLADA = """<?xml version="1.0"?>

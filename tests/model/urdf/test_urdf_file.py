@@ -13,7 +13,7 @@ from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
 from quasistatic_ref.model.urdf.urdf_shapes import same_pose
 from quasistatic_ref.model.urdf.urdf_xml import DEEPEST, Tag, xml_root
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE, LOADED
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
+from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 
 
 def test_elements_are_nested_up_to_the_deepest():
@@ -44,23 +44,6 @@ def test_a_file_has_as_many_coordinates_as_are_allowed(monkeypatch):
 def test_a_namespace_is_no_attribute_that_is_ignored():
     declared = '<robot xmlns:xacro="http://ros.org/wiki/xacro"'
     assert urdf_file(robot(link("a")).replace("<robot", declared)).ignored == ()
-
-
-def test_a_file_takes_time_with_its_text_its_parts_and_the_cube_of_its_coordinates(monkeypatch):
-    """Each in proportion to the most that is allowed; links and shapes share one time."""
-    spent = []
-    monkeypatch.setattr(urdf_file_module, "spend", spent.append)
-    monkeypatch.setattr(urdf_file_module, "LARGEST_FILE", 2**14)
-    monkeypatch.setattr(urdf_file_module, "MOST_LINKS", 12)
-    monkeypatch.setattr(urdf_file_module, "MOST_SHAPES", 8)
-    monkeypatch.setattr(urdf_file_module, "MOST_COORDINATES", 8)
-    shapes = collision('<sphere radius="0.5"/>') * 2
-    arms = joint("j", "a", "b", "ball"), joint("k", "b", "c")  # 3 coordinates and 1
-    text = robot(link("a", shapes), link("b"), link("c"), *arms)
-    urdf_file(text)
-    seconds, of_joints = urdf_file_module.SECONDS, urdf_file_module.OF_JOINTS
-    parts = [3 / 12 / 2, 2 / 8 / 2]
-    assert spent == [seconds * part for part in (len(text) / 2**14, *parts)] + [of_joints / 2**3]
 
 
 def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
