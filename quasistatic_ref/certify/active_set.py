@@ -20,12 +20,17 @@ before they are branched on.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.minimiser import PRECISION, Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.step_minimiser import StepMinimiser, ball_solution
+
+AnyMinimiser = TypeVar("AnyMinimiser", Minimiser, StepMinimiser)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +113,73 @@ def dual_active_set(
     Optimum or Farkas
 
     """
-    minimiser = _start(form, warm)  # From here on all multipliers on W are >= 0.
+    end = _walked(_start(form, warm), entering_row)
+    if isinstance(end, Farkas):
+        return end
+    minimiser, walks = end
+    return Optimum(_without_zeros(minimiser), minimiser.exact_slack_signs, walks)
+
+
+def step_minimiser(form: StepForm, warm: Sequence[int]) -> tuple[StepMinimiser, int] | Farkas:
+    """The optimum of a step, or of a group, on a working set with positive multipliers.
+
+    Parameters
+    ----------
+    form : StepForm
+    warm : sequence of int
+        As of :func:`dual_active_set`.
+
+    Returns
+    -------
+    (StepMinimiser, int) or Farkas
+        With the number of rows that were added: none if the warm start was right.
+    """
+    end = _walked(_step_start(form, list(dict.fromkeys(warm))), most_violated_in_step)
+    if isinstance(end, Farkas):
+        return end
+    minimiser, walks = end
+    return (_without_zeros(minimiser) if walks else minimiser), walks
+
+
+def most_violated_in_step(minimiser: StepMinimiser) -> int | None:
+    """Return the most violated row, of equal ones that of least index; None if none is violated.
+
+    Of rows that balls show to be violated, if they show any; otherwise the exact signs decide.
+    """
+    shown = {i: ball for i, ball in minimiser.ball_slacks.items() if ball < 0}
+    if not shown:
+        return min((i for i, sign in minimiser.slack_signs.items() if sign < 0), default=None)
+    lowest = min(shown.values(), key=lambda ball: ball.mid())
+    first, *others = (i for i, ball in shown.items() if not ball > lowest)
+    for i in others:
+        if minimiser.below(i, first):
+            first = i
+    return first
+
+
+def _step_start(form: StepForm, warm: Sequence[int]) -> StepMinimiser:
+    """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
+    try:
+        minimiser = StepMinimiser(form, tuple(warm), ball_solution(form, warm))
+    except ZeroDivisionError:
+        minimiser = StepMinimiser(form, independent_rows(form, warm))
+    while True:
+        pairs = zip(minimiser.working, minimiser.balls.lam, strict=True)
+        positive = tuple(i for i, ball in pairs if ball > 0)
+        if positive == minimiser.working:
+            return minimiser
+        minimiser = minimiser.on(positive)
+
+
+def _walked(
+    minimiser: AnyMinimiser, entering_row: Callable[[AnyMinimiser], int | None]
+) -> tuple[AnyMinimiser, int] | Farkas:
+    """Return where the walks from a minimiser with multipliers >= 0 end, and their number."""
     walks = 0
     while True:
         p = entering_row(minimiser)
         if p is None:  # All slacks are >= 0, too: the optimum.
-            return Optimum(_without_zeros(minimiser), minimiser.exact_slack_signs, walks)
+            return minimiser, walks
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after
@@ -130,10 +196,10 @@ def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
     return minimiser
 
 
-def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
+def _walk(minimiser: AnyMinimiser, p: int) -> AnyMinimiser | Farkas:
     """Return the minimiser that the violated row p leads to, or a proof that there is none."""
     while True:
-        working = minimiser.working
+        working: tuple[int, ...] = minimiser.working
         c = combination(minimiser.form, working, p)
         if c is None:
             after = minimiser.on((*working, p))
@@ -149,7 +215,7 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
         minimiser = minimiser.on(rest)  # start of the next line; the walk is already inside of it
 
 
-def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
+def _first_to_vanish(minimiser: AnyMinimiser, after: AnyMinimiser) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
 
     l are the multipliers on W, u those on W and p. The index is that of the least l_j / (l_j - u_j)
@@ -169,7 +235,7 @@ def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
     return first
 
 
-def _vanishes_before(minimiser: Minimiser, after: Minimiser, j: int, k: int) -> bool:
+def _vanishes_before(minimiser: AnyMinimiser, after: AnyMinimiser, j: int, k: int) -> bool:
     """Return whether l_j / (l_j - u_j) < l_k / (l_k - u_k), both u being negative."""
     if minimiser.balls is not None and after.balls is not None:
         l_ball = minimiser.balls.lam
@@ -183,7 +249,7 @@ def _vanishes_before(minimiser: Minimiser, after: Minimiser, j: int, k: int) -> 
     return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
 
-def _first_to_vanish_on_combination(minimiser: Minimiser, c: Sequence[fmpq]) -> int | None:
+def _first_to_vanish_on_combination(minimiser: AnyMinimiser, c: Sequence[fmpq]) -> int | None:
     """Ratio test: index in W of the l_j - t c_j that vanishes first as t grows, or None.
 
     That is the least l_j / c_j over c_j > 0; of a tie the first of W.
@@ -195,7 +261,7 @@ def _first_to_vanish_on_combination(minimiser: Minimiser, c: Sequence[fmpq]) -> 
     return first
 
 
-def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool:
+def _ratio_less(minimiser: AnyMinimiser, c: Sequence[fmpq], j: int, k: int) -> bool:
     """Return whether l_j / c_j < l_k / c_k, both c being positive."""
     if minimiser.balls is not None:
         with ctx.workprec(PRECISION):
@@ -206,7 +272,7 @@ def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool
     return bool(l_exact[j] * c[k] < l_exact[k] * c[j])
 
 
-def _without_zeros(minimiser: Minimiser) -> Minimiser:
+def _without_zeros(minimiser: AnyMinimiser) -> AnyMinimiser:
     """Return the same minimiser on the rows whose multipliers are positive."""
     positive = minimiser.positive()
     return minimiser if positive == minimiser.working else minimiser.on(positive)

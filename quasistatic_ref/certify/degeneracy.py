@@ -20,17 +20,21 @@ from collections.abc import Sequence
 from flint import fmpq, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.rational import ExactForm
 
 
 def multipliers_unique(
-    form: ExactForm, working: Sequence[int], spanned: Sequence[int], unspanned: Sequence[int]
+    form: ExactForm | StepForm,
+    working: Sequence[int],
+    spanned: Sequence[int],
+    unspanned: Sequence[int],
 ) -> bool:
     """Whether lam is unique.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactForm or StepForm
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
     spanned, unspanned : sequence of int
@@ -45,7 +49,9 @@ def multipliers_unique(
     return feasible(form, working, form.rows(unspanned), [1] * len(unspanned))
 
 
-def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
+def differentiable(
+    form: ExactForm | StepForm, working: Sequence[int], unspanned: Sequence[int]
+) -> bool:
     """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
@@ -57,13 +63,13 @@ def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[
 
 
 def feasible(
-    form: ExactForm, working: Sequence[int], bounded: list[list[fmpz]], least: list[int]
+    form: ExactForm | StepForm, working: Sequence[int], bounded: list[list[fmpz]], least: list[int]
 ) -> bool:
     """Whether some v has A_W v = 0 and B v >= least, by the active-set method.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactForm or StepForm
     working : sequence of int
         W.
     bounded : list of list of fmpz

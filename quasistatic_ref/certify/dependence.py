@@ -10,6 +10,7 @@ from typing import Final
 
 from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.rational import ExactForm
 
 PRIME: Final = (1 << 61) - 1
@@ -23,12 +24,12 @@ Within a contact of the pyramid they are -1, 0 and 1."""
 Row = list[fmpz] | list[int]
 
 
-def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
+def independent_rows(form: ExactForm | StepForm, candidates: Sequence[int]) -> tuple[int, ...]:
     """An independent subset of some rows of A, maximal but for an unlucky prime.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactForm or StepForm
     candidates : sequence of int
         Rows in order of preference: each is kept unless those before it span it.
 
@@ -85,12 +86,12 @@ def _guesses(held: Sequence[Row], rows: Sequence[Row]) -> Iterator[list[bool]]:
             yield [not any(column[k : len(pivots)]) for column in echelon[k:]]
 
 
-def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+def combination(form: ExactForm | StepForm, working: Sequence[int], p: int) -> list[fmpq] | None:
     """How a row of A is combined from the rows of a working set, decided exactly.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactForm or StepForm
     working : sequence of int
         Independent rows.
     p : int

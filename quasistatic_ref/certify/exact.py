@@ -20,18 +20,26 @@ from quasistatic_ref.certify.active_set import (
     Optimum,
     dual_active_set,
     most_violated,
+    step_minimiser,
 )
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.farkas import farkas_vector
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_numbers
+from quasistatic_ref.certify.slacks import JoinedSlacks, KnownSlacks, Slacks, StepSlacks
+from quasistatic_ref.certify.step_minimiser import StepMinimiser, small_combinations
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
+
+MIDDLE = 1e-100, 1e100
+"""Numbers whose products of three are in the range of float64."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,8 +54,8 @@ class ExactOptimum:
         Basic multipliers [N s]: positive on the working set, zero elsewhere.
     net : ndarray, shape (n_v,)
         A'lam [N s, N m s].
-    slack : ndarray, shape (m,)
-        A delta_q - b [m].
+    slacks : Slacks
+        What forms `slack`, A delta_q - b [m], shape (m,), when it is read.
     working_set : tuple of int
         Rows in increasing order, independent, with positive multipliers.
     multipliers_unique : bool
@@ -65,13 +73,18 @@ class ExactOptimum:
     delta_q: Array
     lam: Array
     net: Array
-    slack: Array
+    slacks: Slacks
     working_set: tuple[int, ...]
     multipliers_unique: bool
     differentiable: bool
     smallest_inactive_slack: float | None
     smallest_active_multiplier: float | None
     walks: int
+
+    @property
+    def slack(self) -> Array:
+        """A delta_q - b, shape (m,) [m]."""
+        return self.slacks.values
 
 
 def form_optimum(
@@ -123,7 +136,7 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
         ),
         lam=lam,
         net=nearest_numbers(minimiser, "net", form.net_unit, coordinates),
-        slack=slack,
+        slacks=KnownSlacks(slack),
         working_set=tuple(sorted(working)),
         multipliers_unique=unique,
         differentiable=smooth,
@@ -179,11 +192,45 @@ def group_optimum(
     StepInfeasible
         If no displacement satisfies the rows of the group, with the proof in the step's rows.
     """
-    form = exact_form(group_step)
-    optimum = form_optimum(form, warm)
-    if isinstance(optimum, Farkas):
-        raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
-    return optimum
+    check_arithmetic()
+    whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
+    form = StepForm(step, None if whole else group)
+    end = step_minimiser(form, warm)
+    if isinstance(end, Farkas):
+        proof = farkas_vector(step, exact_form(group_step), end, group.rows)
+        raise StepInfeasible(step, proof)
+    return _of_minimiser(*end)
+
+
+def _of_minimiser(minimiser: StepMinimiser, walks: int) -> ExactOptimum:
+    """The optimum at which the method ended: what is unique at it, and its numbers, rounded."""
+    form = minimiser.form
+    working = minimiser.working
+    spanned = minimiser.spanned
+    unspanned = [i for i, sign in minimiser.slack_signs.items() if sign == 0]
+    total = np.ones((1, len(unspanned)))
+    if len(unspanned) > 1 and small_combinations(form, working, unspanned, total)[0]:
+        # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
+        unique, smooth = False, True
+    else:
+        smooth = differentiable(form, working, unspanned)
+        unique = multipliers_unique(form, working, spanned, unspanned)
+    slacks = StepSlacks(minimiser)
+    lam = np.zeros(form.m)
+    lam_w = minimiser.rounded(lambda found: [form.h * v for v in found.lam])
+    lam[list(working)] = lam_w
+    return ExactOptimum(
+        delta_q=minimiser.rounded(lambda found: found.z.entries()[:-1]),
+        lam=lam,
+        net=minimiser.rounded(lambda found: [form.h * v for v in found.net]),
+        slacks=slacks,
+        working_set=tuple(sorted(working)),
+        multipliers_unique=unique,
+        differentiable=smooth,
+        smallest_inactive_slack=slacks.smallest if smooth else 0.0,
+        smallest_active_multiplier=float(lam_w.min()) if working else None,
+        walks=walks,
+    )
 
 
 def joined_optimum(
@@ -195,22 +242,21 @@ def joined_optimum(
     delta_q = np.zeros(step.n_v)
     net = np.zeros(step.n_v)
     lam = np.zeros(step.m)
-    slack = np.zeros(step.m)
     working: list[int] = []
     for group, optimum in zip(groups, optima, strict=True):
         delta_q[group.coordinates] = optimum.delta_q
         net[group.coordinates] = optimum.net
         lam[group.rows] = optimum.lam
-        slack[group.rows] = optimum.slack
         working += group.rows[list(optimum.working_set)].tolist()
     # A row is strictly active, or spanned by others, within its group.
+    parts = [(group.rows, optimum.slacks) for group, optimum in zip(groups, optima, strict=True)]
     slacks = [optimum.smallest_inactive_slack for optimum in optima]
     multipliers = [optimum.smallest_active_multiplier for optimum in optima]
     return ExactOptimum(
         delta_q=delta_q,
         lam=lam,
         net=net,
-        slack=slack,
+        slacks=JoinedSlacks(step.m, parts),
         working_set=tuple(sorted(working)),
         multipliers_unique=all(optimum.multipliers_unique for optimum in optima),
         differentiable=all(optimum.differentiable for optimum in optima),
@@ -234,12 +280,39 @@ def check_length(step: StepData, delta_q: Array, divided: Sequence[tuple[Group, 
     ------
     StepIllPosed
     """
+    if all(surely_short(part, delta_q[group.coordinates]) for group, part in divided):
+        return
     lengths = [
         relative_length(group_step, delta_q[group.coordinates]) for group, group_step in divided
     ]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
+
+
+def surely_short(step: StepData, delta_q: Array) -> bool:
+    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED``.
+
+    With s_i = H_ii^1/2 the triangle inequality says ||v||_H <= sum_i |v_i| s_i, and Cauchy's, of
+    e_i and H^-1 p, ||p||_H^-1 >= |p_i| / s_i. A tenth is for rounding. Numbers whose products might
+    leave the range of float64 show nothing.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+    """
+    s = np.sqrt(np.diag(step.H))
+    n_a = step.n_a
+    loads = np.zeros((3, step.n_v))
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        loads[0, :n_a] = step.K_q @ step.delta_q_bar_a
+        loads[1, :n_a] = step.tau_a
+        loads[2, n_a:] = step.tau_u
+        least = (step.h * np.abs(loads) / s).max(initial=0.0)
+        length = np.abs(delta_q) @ s
+    usual = MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]
+    return bool(usual and MIDDLE[0] < least and length <= 0.1 * ILL_POSED * least < MIDDLE[1])
 
 
 def relative_length(step: StepData, delta_q: Array) -> float:

@@ -7,6 +7,7 @@ that touch each other.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -55,22 +56,44 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     list of Group
         At least one.
     """
-    n_c = step.contacts.n_c
-    n_extra = len(step.extra.names)
-    extra_row, of_extra = np.nonzero(step.extra.A)
-    near = np.ones(n_c, dtype=bool) if near is None else near
+    near = np.ones(step.contacts.n_c, dtype=bool) if near is None else near
     contact, of_contact, _ = step.contacts.entries()
-    contact, of_contact = contact[near[contact]], of_contact[near[contact]]
-    first, second = step.coupled()
+    extra_row, of_extra = np.nonzero(step.extra.A)
+    pairs = (contact, of_contact, extra_row, of_extra, *step.coupled(), step.counts)
+    pattern = [np.asarray(entries, np.int64).tobytes() for entries in pairs]
+    return [*_groups(step.n_v, len(step.extra.names), near.tobytes(), *pattern)]
+
+
+@lru_cache(maxsize=64)
+def _groups(n_v: int, n_extra: int, near_contacts: bytes, *pattern: bytes) -> tuple[Group, ...]:
+    """The groups of all steps whose numbers differ from zero in the same places.
+
+    Parameters
+    ----------
+    n_v, n_extra : int
+        Numbers of coordinates and of the user's own rows.
+    near_contacts : bytes
+        Of the mask `near` of :func:`groups`.
+    *pattern : bytes
+        Of pairs: contact and coordinate, own row and coordinate, both coordinates of an entry of H;
+        and of the number of rows of each contact.
+    """
+    near = np.frombuffer(near_contacts, np.bool_)
+    n_c = len(near)
+    contact, of_contact, extra_row, of_extra, first, second, counts = (
+        np.frombuffer(entries, np.int64) for entries in pattern
+    )
+    is_near = near[contact]
+    contact, of_contact = contact[is_near], of_contact[is_near]
     of_hessian = np.arange(len(first)) + n_c + n_extra
     coupling = np.concatenate([contact, n_c + extra_row, of_hessian, of_hessian])
     coordinate = np.concatenate([of_contact, of_extra, first, second])
     count = n_c + n_extra + len(first)
-    label, of_coupling = labels(step.n_v, count, coupling, coordinate)
-    firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
+    label, of_coupling = labels(n_v, count, coupling, coordinate)
+    firsts = np.unique(label) if n_v else np.zeros(1, np.int64)
     of_contacts = np.where(near, of_coupling[:n_c], -1)
     of_extra_rows = of_coupling[n_c : n_c + n_extra]
-    of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
+    of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
     members = []
     for entries in (
         label,
@@ -79,8 +102,9 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
         of_rows,
     ):  # which entries have each of the labels `firsts`, ascending
         order = np.argsort(entries, kind="stable")
+        order.setflags(write=False)
         members.append(np.split(order, np.searchsorted(entries[order], firsts))[1:])
-    return [Group(*parts) for parts in zip(*members, strict=True)]
+    return tuple(Group(*parts) for parts in zip(*members, strict=True))
 
 
 def labels(

@@ -50,7 +50,7 @@ def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_s
     for name in ("delta_q", "net", "slack"):
         assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()
     fewer = pushed_point()
-    assert fewer.m in cold.working_set
+    assert fewer.m < max(cold.working_set)  # a row that the next step does not have
     onward = solver.prover.optimum(solver.in_both_units(fewer), None)
     assert onward.delta_q.tobytes() == solve_step(fewer, "none").delta_q.tobytes()
 

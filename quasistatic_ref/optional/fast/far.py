@@ -17,6 +17,7 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.minimiser import PRECISION, equality_solution, form_in_balls
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rounding import nearest_in
+from quasistatic_ref.certify.slacks import KnownSlacks
 from quasistatic_ref.step.cones import cone_function
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 
@@ -95,7 +96,7 @@ def with_far(step: StepData, optimum: ExactOptimum, near: Mask, slacks: Array) -
     slack = optimum.slack.copy()
     slack[: step.offsets[-1]][np.repeat(~near, step.counts)] = slacks
     least = [s for s in (optimum.smallest_inactive_slack, slacks.min()) if s is not None]
-    return replace(optimum, slack=slack, smallest_inactive_slack=float(min(least)))
+    return replace(optimum, slacks=KnownSlacks(slack), smallest_inactive_slack=float(min(least)))
 
 
 def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.rational import dyadic
+from quasistatic_ref.certify.slacks import KnownSlacks
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.posed import Constants
@@ -273,7 +274,7 @@ def _optimum(s: Structure, working: Sequence[int]) -> ExactOptimum:
         delta_q=s["delta_q"].copy(),
         lam=s["lam"].copy(),
         net=s["net"].copy(),
-        slack=s["slack"].copy(),
+        slacks=KnownSlacks(s["slack"].copy()),
         working_set=tuple(working),
         multipliers_unique=unique,
         differentiable=smooth,

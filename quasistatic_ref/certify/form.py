@@ -1,0 +1,318 @@
+r"""The program of a step in exact numbers: H, g and rows, formed where they are needed.
+
+A ball without radius is an exact number. A float64 is one, and sums and products of such numbers
+are, at a precision (``EXACT``) that no number of a step exhausts; conversions to integers refuse
+any other ball. A step's numbers are taken as they stand: rounding what is built from them would
+split the ties between the rows of a sticking contact.
+
+.. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad a_i^T x + c_i \ge 0, \quad c = -b.
+
+H is block diagonal. With the forces f = lam / h of a working set W (Eq. :eq:`eq-13`, divided by h):
+
+- of the springs, :math:`K_q x_a = \tau_k + \tau_a + A_a^T f`;
+- of what moves freely, :math:`M_u x_u = h^2 (\tau_u + A_u^T f)`.
+
+So no block needs a quotient. Rows, of Eqs. :eq:`eq-4`-:eq:`eq-8`, are formed one by one: a solution
+needs those of W, and a slack that float64 shows to be positive needs none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final, TypeAlias
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpz
+
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.groups import Group, split
+
+EXACT: Final = 1 << 30
+"""Bits at which no sum or product is rounded. What is short costs no more than at few bits."""
+
+PRECISION: Final = 320
+"""Bits of a ball's midpoint. The data have 53 to 250; 256 is enough on grasps, and what is
+left undecided is decided in rational numbers, so this is a matter of speed alone."""
+
+UNIT: Final = 2.0**-53
+"""Largest relative error of one operation in float64."""
+TINY: Final = 1e-290
+"""So large that its product with UNIT is far above all that underflow takes from a sum."""
+
+Row: TypeAlias = "list[arb]"
+"""a and c of a x + c >= 0: n + 1 exact numbers."""
+
+
+def exact_matrix(array: Array) -> arb_mat:
+    """Finite float64 numbers, without rounding.
+
+    Parameters
+    ----------
+    array : ndarray, shape (rows, columns)
+        Of any unit [-].
+    """
+    rows, columns = array.shape
+    return arb_mat(rows, columns, array.ravel().tolist())
+
+
+def whole_numbers(row: Sequence[arb], least: int | None = None) -> list[fmpz]:
+    """Exact numbers times 2^-least, by default the power of two that leaves the shortest integers.
+
+    Raises
+    ------
+    ValueError
+        If a number is a ball with a radius.
+    """
+    parts = [number.man_exp() for number in row]
+    if least is None:
+        least = min((int(e) for m, e in parts if m), default=0)
+    return [m << int(e) - least if m else m for m, e in parts]
+
+
+def columns(rows: Sequence[Row], of: slice) -> arb_mat:
+    """Some columns of rows, as a matrix."""
+    return arb_mat(len(rows), of.stop - of.start, [v for row in rows for v in row[of]])
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """A diagonal block of the program: K x = w (load + A'f).
+
+    Parameters
+    ----------
+    of : slice
+        Its coordinates, k of them.
+    K : arb_mat
+        Exact, positive definite, shape (k, k).
+    inverse : arb_mat
+        K^-1 in balls.
+    weight : arb
+        The exact number w > 0.
+    load : arb_mat
+        Exact, shape (k, 1).
+    """
+
+    of: slice
+    K: arb_mat
+    inverse: arb_mat
+    weight: arb
+    load: arb_mat
+
+
+class StepForm:
+    """The program of a step, or of a group of one.
+
+    Parameters
+    ----------
+    step : StepData
+    group : Group, optional
+        By default the whole step.
+    """
+
+    def __init__(self, step: StepData, group: Group | None = None) -> None:
+        contacts = step.contacts
+        at = slice(None) if group is None else group.contacts
+        J = contacts.J if group is None else contacts.columns(group.contacts, group.coordinates)
+        own = np.column_stack([step.extra.A, -step.extra.b])
+        a: Indices = np.arange(step.n_a)
+        u: Indices = np.arange(step.n_u)
+        if group is not None:
+            a, u = split(step, group)
+            own = own[np.ix_(group.extra_rows, np.append(group.coordinates, step.n_v))]
+        friction_cone = cone(step.cone)
+        self._J = J
+        self._phi = contacts.phi[at]
+        self._mu = friction_cone.row_coefficients(contacts.mu)[at]
+        self._mask = step.mask[at]
+        self._cone = friction_cone.matrix
+        self._frame = np.zeros((len(J), 4, 4))
+        self._frame[:, :3, :3] = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)[at]
+        self._frame[:, 3, 3] = 1.0
+        self._own = own
+        self._places = np.argwhere(self._mask).tolist()
+        self._motions: dict[int, arb_mat] = {}
+        self._exact_rows: dict[int, Row] = {}
+        n = len(a) + len(u)
+        self.n = n
+        self.m = len(self._places) + len(own)
+        self.h = arb(step.h)
+        self.blocks = _blocks(step, a, u)
+
+    def motion(self, c: int) -> arb_mat:
+        """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
+        if c not in self._motions:
+            n, d1, d2, _ = self._frame[c, :, :3].tolist()
+            mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
+            J = np.zeros((5, self.n + 1))
+            J[:4, :-1] = self._J[c]
+            J[4, -1] = self._phi[c]
+            with ctx.workprec(EXACT):
+                d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
+                turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
+                self._motions[c] = arb_mat(4, 5, turn) * exact_matrix(J)
+        return self._motions[c]
+
+    def exact_rows(self, some: Iterable[int]) -> list[Row]:
+        """Some rows [a, c], exact: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
+        return [self._exact_row(i) for i in some]
+
+    def _exact_row(self, i: int) -> Row:
+        if i not in self._exact_rows:
+            if i < len(self._places):
+                c, kind = self._places[i]
+                with ctx.workprec(EXACT):
+                    row = arb_mat(1, 4, self._cone[kind].tolist()) * self.motion(c)
+                self._exact_rows[i] = row.entries()
+            else:
+                own = self._own[i - len(self._places)].tolist()
+                self._exact_rows[i] = [arb(v) for v in own]
+        return self._exact_rows[i]
+
+    @cached_property
+    def least(self) -> int:
+        """An exponent that no entry of a row goes below: the sum of those of its factors."""
+        floats = (self._J, self._frame, self._mu, self._cone, self._own)
+        return sum(int(np.frexp(v[v != 0])[1].min(initial=0)) - 53 for v in floats)
+
+    def row(self, i: int) -> list[fmpz]:
+        """The a of a row as integers, times a power of two that all rows have in common."""
+        return whole_numbers(self._exact_row(i)[:-1], self.least)
+
+    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """The same of some rows."""
+        return [self.row(i) for i in some]
+
+    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Rows [a, c], each times a power of two of its own."""
+        return [whole_numbers(self._exact_row(i)) for i in some]
+
+    @cached_property
+    def free(self) -> list[arb_mat]:
+        """The minimiser without rows, block by block, in balls: K^-1 w load."""
+        with ctx.workprec(PRECISION):
+            return [block.inverse * block.load * block.weight for block in self.blocks]
+
+    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
+        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
+        matrix = exact_matrix(self._cone)
+        of_contact: dict[int, list[arb]] = {}
+        slacks = []
+        for i in some:
+            if i < len(self._places):
+                c, kind = self._places[i]
+                if c not in of_contact:
+                    of_contact[c] = (matrix * (self.motion(c) * z)).entries()
+                slacks.append(of_contact[c][kind])
+            else:
+                slacks += (arb_mat(self.exact_rows([i])) * z).entries()
+        return slacks
+
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """The a of some rows in float64, shape (rows, n): a guess."""
+        rows = np.empty((len(some), self.n))
+        for k, i in enumerate(some):
+            if i < len(self._places):
+                c, kind = self._places[i]
+                weights = self._cone[kind] * [1.0, *self._mu[c]]
+                rows[k] = weights @ self._frame[c] @ self._J[c]
+            else:
+                rows[k] = self._own[i - len(self._places), :-1]
+        return rows
+
+    def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
+        """All slacks in float64, and bounds of their errors, each shape (m,).
+
+        A slack s with bound e is proved to be positive by s > e, which is false where a number is
+        infinite or not a number.
+
+        Parameters
+        ----------
+        x : ndarray, shape (n,)
+            Each entry is off by at most UNIT times that of `most` from the point that is meant.
+        most : ndarray, shape (n,)
+            At least `|x|` [m, rad].
+
+        Notes
+        -----
+        Let u = UNIT, p = J x the motion of a contact, F the sum of `|frame|` with friction, R the
+        largest entry of `|J|` `most`, and s = `|phi|` + F R. Sums and products of k numbers in any
+        order, fused or not, have an error of at most k u (1 + O(u)) of the sum of their sizes:
+
+        - p is off by (n + 1) u R, of which u R is what x is off by;
+        - gap, slips and spin are off by (n + 1) u F R from that, 4 u F R of four products summed,
+          u F R of the friction in the frame, and u s of adding phi;
+        - a row combines them with coefficients of at most one, hence 4 u s more.
+
+        In all (n + 11) u s. The bound is (2 n + 64) u s: what is left, more than twice that, is for
+        the rounding of s itself. Each underflow takes 2^-1074 at most, times F or R if it is in a
+        factor of theirs; TINY, added to both and to the bound, is more.
+        """
+        frame = self._frame.copy()
+        frame[:, 1:] *= self._mu[:, :, None]
+        motion = (frame @ (self._J @ x)[:, :, None])[:, :, 0]
+        motion[:, 0] += self._phi
+        R = (np.abs(self._J) @ most).max(axis=1, initial=0.0) + TINY
+        F = np.abs(frame).sum(axis=(1, 2)) + TINY
+        size = np.abs(self._phi) + F * R
+        slack = (motion @ self._cone.T)[self._mask]
+        error = (2 * self.n + 64) * UNIT * np.repeat(size, self._mask.sum(axis=1)) + TINY
+        if not len(self._own):
+            return slack, error
+        own_slack, own_error = row_slacks(self._own, x, most)
+        return np.concatenate([slack, own_slack]), np.concatenate([error, own_error])
+
+
+def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
+    """What :meth:`StepForm.float_slacks` returns, from rows [a, c] in float64, shape (m, n + 1).
+
+    Each entry of the rows may be off by 2 u of itself, and x by u `most`. With the size s of
+    `|a|` `most` + `|c|`, the sum of n + 1 products has an error of at most (n + 1) u s, and both
+    add 3 u s. TINY, added to the rows and to the bound, is more than what underflow takes.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (m, n + 1)
+        [m] per unit of x, and c [m].
+    x, most : ndarray, shape (n,)
+        [m, rad].
+    """
+    size = (np.abs(rows) + TINY) @ [*most, 1.0]
+    return rows @ [*x, 1.0], (2 * len(x) + 64) * UNIT * size + TINY
+
+
+def _blocks(step: StepData, a: Indices, u: Indices) -> list[Block]:
+    """The blocks of some actuated and un-actuated coordinates, each counted from its first."""
+    blocks = []
+    with ctx.workprec(EXACT):
+        if len(a):
+            K = _spring_block(np.ascontiguousarray(step.K_q[np.ix_(a, a)]).tobytes(), len(a))
+            target = exact_matrix(step.delta_q_bar_a[a, None])
+            load = K[0] * target + exact_matrix(step.tau_a[a, None])  # Eq. (1)
+            blocks.append(Block(slice(0, len(a)), *K, arb(1), load))
+        if len(u):
+            M = _spring_block(np.ascontiguousarray(step.inertia(u)).tobytes(), len(u))
+            load = exact_matrix(step.tau_u[u, None])
+            h2 = arb(step.h) * step.h
+            blocks.append(Block(slice(len(a), len(a) + len(u)), *M, h2, load))
+    return blocks
+
+
+@lru_cache(maxsize=16)
+def _spring_block(entries: bytes, n: int) -> tuple[arb_mat, arb_mat]:
+    """A positive definite matrix of float64 numbers, (n, n), and its inverse."""
+    K = exact_matrix(np.frombuffer(entries).reshape(n, n))
+    return K, inverse(K)
+
+
+def inverse(K: arb_mat) -> arb_mat:
+    """The inverse, in balls, of an exact matrix that is positive definite."""
+    precision = PRECISION
+    while True:  # ends: K is regular, so some precision resolves it
+        with ctx.workprec(precision):
+            try:
+                return K.inv()
+            except ZeroDivisionError:
+                precision *= 2

@@ -1,0 +1,159 @@
+"""The proof of a right guess: what float64 claims is true, and every sign and rounding is exact."""
+
+import itertools
+
+import numpy as np
+import pytest
+from flint import arb_mat, ctx
+
+from quasistatic_ref import Extra, StepInfeasible
+from quasistatic_ref.certify.active_set import Farkas, step_minimiser
+from quasistatic_ref.certify.exact import form_optimum, step_optimum
+from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.step_minimiser import StepMinimiser, small_combinations
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
+from tests.oracles.random_steps import any_step, mixed_step
+
+FACTS = (
+    "delta_q", "net", "slack", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+)  # fmt: skip
+LEAST = 5e-324
+
+
+def exact_slacks(form, x):
+    """All slacks at a float64 x, without rounding."""
+    with ctx.workprec(EXACT):
+        z = exact_matrix(np.append(x, 1.0)[:, None])
+        return (arb_mat(form.exact_rows(range(form.m))) * z).entries()
+
+
+def scaled(step, rng, power):
+    """The step with entries of J, phi, mu and own rows times random powers of ten."""
+    c = step.contacts
+
+    def spread(v):
+        with np.errstate(over="ignore", under="ignore"):
+            wide = v * 10.0 ** rng.integers(-power, min(power, 307) + 1, v.shape)
+        return np.clip(wide, -1e308, 1e308)
+
+    changed = type(c)(
+        c.name, spread(c.phi), c.n, c.d1, c.d2, spread(c.J), np.abs(spread(c.mu_v)),
+        np.abs(spread(c.mu_omega)), c.rows,
+    )  # fmt: skip
+    own = Extra(("a", "b"), spread(rng.standard_normal((2, step.n_v))), spread(np.ones(2)))
+    return step.replace(contacts=changed, extra=own)
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-6", "frictionless"])
+@pytest.mark.parametrize("power", [0, 12, 150, 307, 323])
+def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
+    """With entries from subnormal ones to the largest; where products overflow nothing is said."""
+    rng = np.random.default_rng(power)
+    claims = 0
+    for size in (0.0, LEAST, 1e-300, 1e-9, 1.0, 1e150, 1e300):
+        step = scaled(any_step(rng, 3, 6, 5, 1e3).replace(cone=cone), rng, power)
+        form = StepForm(step)
+        x = size * rng.standard_normal(form.n)
+        with np.errstate(all="ignore"):
+            slack, error = form.float_slacks(x, np.abs(x) + 1e-290)
+        for s, e, exact in zip(slack, error, exact_slacks(form, x), strict=True):
+            if np.isfinite(s) and np.isfinite(e):
+                with ctx.workprec(EXACT):
+                    assert abs(exact - float(s)) <= float(e)
+            if s > e:
+                claims += 1
+                assert exact > 0
+    assert claims
+
+
+def test_bounds_cover_what_x_itself_is_off_by():
+    """Also where x underflows, and J is so large that it matters."""
+    rng = np.random.default_rng(0)
+    J = np.zeros((1, 4, 2))
+    J[0, 2] = [1e308, -1e308]
+    step = free_step(np.eye(2), [0.0, 0.0], contacts_of(0.0, [np.eye(3)], J, 0.5), 0.5)
+    form = StepForm(step)
+    for x in (np.zeros(2), np.array([LEAST, 0.0]), rng.standard_normal(2) * 1e-5):
+        most = np.abs(x) + 1e-290
+        _, error = form.float_slacks(x, most)
+        # half of the least float64, and half of a last place
+        off = np.maximum(2.0**-53 * np.abs(x), LEAST)
+        with ctx.workprec(EXACT):
+            moved = exact_matrix(np.abs(J[0, 2])[None] / 2**60) * exact_matrix(off[:, None])
+            assert 2**59 * moved[0, 0] <= float(error.min())
+
+
+def test_contact_without_numbers_shows_nothing():
+    form = StepForm(grasp_step(np.random.default_rng(0)))
+    with np.errstate(all="ignore"):
+        slack, error = form.float_slacks(np.full(form.n, np.nan), np.full(form.n, np.inf))
+    assert not (slack > error).any()
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_optimum_is_that_of_the_program_in_integers(seed):
+    step = mixed_step(seed) if seed % 2 else grasp_step(np.random.default_rng(seed))
+    right = form_optimum(exact_form(step))
+    if isinstance(right, Farkas):
+        with pytest.raises(StepInfeasible):
+            step_optimum(step)
+        return
+    found = step_optimum(step)
+    for name in FACTS:
+        assert np.array_equal(getattr(found, name), getattr(right, name))
+    again = step_optimum(step, found.working_set)
+    assert again.slack.tobytes() == found.slack.tobytes()
+    assert again.walks == 0
+
+
+def pressed(mass_ratio=1.0):
+    """A block that sticks: rows of rank three among many, at three contacts of one frame."""
+    each = (3, 1, 1)
+    at = contacts_of(0.0, np.tile(np.eye(3), each), np.tile(np.eye(4), each), 0.5, 0.25, rows=6)
+    return free_step(np.diag([1.0, 1.0, mass_ratio, 1.0]), [0.1, 0.2, -3.0, 0.0], at, 0.5)
+
+
+def test_small_combinations_are_proved_and_others_are_not_claimed():
+    form = StepForm(pressed())
+    # +d1 and -d1 of a contact sum to those of +d2 and -d2; +d1 alone does not follow from them.
+    assert small_combinations(form, [0, 2, 1], [3], np.eye(1)) == [True]
+    assert small_combinations(form, [1, 3], [0], np.eye(1)) == [False]
+    assert small_combinations(form, [1, 3], [0, 2], np.ones((1, 2))) == [True]
+    assert small_combinations(form, [], [0], np.eye(1)) == [False]
+
+
+def test_row_that_differs_in_the_last_bit_is_no_combination():
+    step = pressed()
+    J = step.contacts.J.copy()
+    J[1, 2, 0] = 2.0**-60
+    form = StepForm(step.replace(contacts=type(step.contacts)(
+        step.contacts.name, step.contacts.phi, step.contacts.n, step.contacts.d1,
+        step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
+    )))  # fmt: skip
+    assert small_combinations(form, [0], [6], np.eye(1)) == [False]
+    assert small_combinations(form, [0], [12], np.eye(1)) == [True]
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
+def test_of_rows_violated_by_the_same_amount_the_least_index_enters(order):
+    """Three equal contacts, of which the order of names does not matter: the first row enters."""
+    step = pressed()
+    contacts = step.contacts.some(np.array(order), np.arange(4))
+    form = StepForm(step.replace(contacts=contacts))
+    minimiser = StepMinimiser(form, ())
+    values = exact_slacks(form, [float(v) for v in minimiser.balls.z.entries()[:-1]])
+    assert not minimiser.below(6, 0)
+    assert not minimiser.below(0, 6)
+    assert [str(values[i]) for i in (0, 6, 12)] == [str(values[0])] * 3
+    end, _ = step_minimiser(form, ())
+    assert min(end.working) < 6
+
+
+def test_slacks_and_the_smallest_are_those_that_are_read_later():
+    for seed in range(10):
+        optimum = step_optimum(grasp_step(np.random.default_rng(seed)))
+        positive = optimum.slack[optimum.slack > 0]
+        assert optimum.smallest_inactive_slack == (positive.min() if positive.size else None)
