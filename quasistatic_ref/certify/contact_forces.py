@@ -1,12 +1,11 @@
 """Forces of single contacts, as ``optional/forces`` finds them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +41,6 @@ class ContactForces:
             read_only(array)
 
 
-ForcesOfGroups = tuple[Array, Array, Sequence[Group]]
-"""Forces (n_c, 4) [N, N m] and compliances (n_c,) [m/N] of contacts, and the groups of the step."""
 CONTACT_FORCES: Slot[Callable[[StepData, tuple[Array, Array] | None], ContactForces]] = Slot(
     "forces.forces"
 )

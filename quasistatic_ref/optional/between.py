@@ -11,7 +11,6 @@ if TYPE_CHECKING:
 
     from scipy.sparse import csc_matrix
 
-    from quasistatic_ref.certify.rational import Integers
     from quasistatic_ref.contact.distance import ClosestPoints
     from quasistatic_ref.contact.pairs import ContactLayout
     from quasistatic_ref.contact.shape_in_world import ShapeInWorld
@@ -35,11 +34,6 @@ OTHER_WAYS_OUT: Slot[Callable[[ShapeInWorld, ShapeInWorld, float], list[Array]]]
     "curved.by_coal"
 )
 """Normals of two curved solids whose gap the search found to be as wide, but for so much [m]."""
-SIDES: Slot[Callable[[StepData], list[Indices]]] = Slot("forces.of_group")
-FACE: Slot[Callable[[str, int, tuple[int, ...]], tuple[Integers, int] | None]] = Slot(
-    "forces.faces"
-)
-"""A face of a contact's forces: whole numbers and their denominator; None of dependent rows."""
 
 
 class Said(NamedTuple):

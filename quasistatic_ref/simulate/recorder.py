@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate, takewhile, zip_longest
+from itertools import takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -211,30 +211,14 @@ class Recorder(Shown):
         }
         if self.record == "full":
             arrays |= programs([result.step for result in results])
-        known = self.record == "forces"
-        if self.record == "full" and self.parts:
-            known = "forces" in self.parts[0]
-        elif self.record == "full":
-            known = self.simulator.records_forces(first.solution)
-        if known:
-            arrays["forces"] = self._forces(arrays["wrench"])
         if self.record == "forces":
+            arrays["forces"] = _of_all(results, "forces")
             arrays["imbalance"] = _of_all(results, "imbalance")
             arrays["motion"] = every["motion"]
         more = ITERATED if self.simulator.law == COULOMB else ()
         if first.step.extra.names:
             more = (*more, "lam_extra")
         return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
-
-    def _forces(self, wrench: Array) -> Array:
-        """The forces of the last steps, from those without compliance: (steps, n_c, 4) [N, N m]."""
-        ends = [*accumulate(map(len, self._latest))]
-        return np.concatenate(
-            [
-                part.forces(own) if isinstance(part, Steps) else _of_all(part, "forces")
-                for part, own in zip(self._latest, np.split(wrench, ends[:-1]), strict=True)
-            ]
-        )
 
     def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
         """Add steps that were taken before, as :meth:`packed` gave them.

@@ -138,7 +138,3 @@ class Steps(Sequence[StepResult]):
     @abstractmethod
     def arrays(self) -> StepArrays:
         """What a recorder reads of them, as of its ``arrays_of``."""
-
-    @abstractmethod
-    def forces(self, wrench: Array) -> Array:
-        """The forces of their contacts, from those without compliance, (steps, n_c, 4) [N, N m]."""

@@ -99,8 +99,8 @@ def rollout(
         External generalised force [N, N m], as a function of the same or constant;
         :meth:`~quasistatic_ref.model.system.System.load` makes it.
     record : str
-        ``"full"``, with `fast` also the forces of single contacts; ``"light"`` to leave out the
-        quadratic programs; ``"forces"`` to have those forces in their place.
+        ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
+        of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
         there that `fast` would save ten seconds or more, and, at the end of a run, its findings

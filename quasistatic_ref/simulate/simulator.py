@@ -11,7 +11,6 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.certify.contact_forces import ForcesOfGroups
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
@@ -349,27 +348,6 @@ class Simulator(Settings, Shown):
             If a pair has no trustworthy normal, or a pose is not finite.
         """
         return closest_points(self.pairs, kinematics)
-
-    def records_forces(self, solution: StepSolution) -> bool:
-        """Whether forces of contacts cost so little that a full record holds them.
-
-        Parameters
-        ----------
-        solution : StepSolution
-            Of the first step of the run.
-        """
-        return False
-
-    def forces_in_c(self, step: StepData, near: Array) -> ForcesOfGroups | None:
-        """Forces of single contacts of a step; None if C leaves one open.
-
-        Parameters
-        ----------
-        step : StepData
-        near : ndarray, shape (n_c, 4)
-            The wrenches of its solution [N, N m].
-        """
-        return None
 
     def step_data(
         self,

@@ -185,9 +185,9 @@ class Trajectory(Plain, Shown):
     def forces(self) -> Array:
         """Forces of single contacts in each step, shape (steps, n_c, 4) [N, N m].
 
-        They are those of :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`; a full
-        record has them where it was taken with `fast`, otherwise they are formed when they are
-        first read, some milliseconds a step.
+        They are those of :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`. A record of
+        forces holds them. Of a full record they are formed when they are first read, in some
+        milliseconds a step.
 
         Raises
         ------

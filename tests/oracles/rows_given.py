@@ -37,21 +37,6 @@ def half_way(k, count=1):
     return step_of(A, [3.0, 3.0 * k * 2.0**-53, *[-1.0] * count], [0.0, -6.0], 0.5)
 
 
-SQUARES = (23167, 23161, 22669, 23674)
-"""Their squares sum to 2^31 - 1."""
-
-
-def half_way_forces(load, gap=0.0):
-    """Four contacts press one coordinate, with a compliance of 2^-30 and forces load SQUARES 2^-16.
-
-    With J = SQUARES 2^-15 they give way by x (1 + 2^30 sum J^2) = x 2^31 = -load, and a force is
-    -2^30 J x. From 2^39 on, three forces of an odd load are half-way between two float64 numbers. A
-    gap [m] of the first contact moves them away from there.
-    """
-    J = np.array(SQUARES)[:, None] * 2.0**-15
-    return step_of(J, [-gap, 0.0, 0.0, 0.0], [-load])
-
-
 def compliances():
     """One whose exponent is half-way between two whole numbers, and one that another side knows.
 
@@ -61,36 +46,6 @@ def compliances():
     yield step_of([[float(np.sqrt(2.0**-29.5 / COMPLIANCE))]], [0.0], [-1.0])
     small = HARDLY_MOVES**0.5
     yield step_of([[1.0, small], [small / 2, 0.0]], [0.0, 0.0], [-1.0, -0.5])
-
-
-def forces_float64_misses():
-    """Forces that hang on what float64 does not show.
-
-    In this order: x_2 - 5 x_1 is -2^-130, and positive in float64, while x_3 - x_4 is zero; with
-    the compliance K_23 is 2^-107, and zero in float64, by which x_1 - x_3 is -2^-138 in place of
-    zero; and the bound of |I - R K| is too large, as K is a sum of eight contacts' terms.
-    """
-    A = [[0, 0, 1, -1], [-5, 1, 0, 0], [1, 0, 1, 0]]
-    yield step_of(A, [0, 2.0**-130, -9], [1, 5, 1, 1], M=3 * np.eye(4))
-    one = 1 + 2.0**-52
-    small = one * 2.0**-33
-    near = -(2.0**29) * one * small
-    A = [[1, 0, -1], [0, one, small], [small, 0, 0]]
-    yield step_of(A, [0, 0, 0], [-1, -1, -1], M=[[1, 0, 0], [0, 1, near], [0, near, 1]])
-    side = 2.0**-40
-    A = [[1, 0, 0], [0, 2.0**-14, 2.0**-14], *[[1, 0, 0]] * 6]
-    M = [[1, side, 0], [side, 2, 2], [0, 2, 2 + 0.6 * 2.0**-40]]
-    yield step_of(A, [0, 0, *[-9] * 6], [-1, -1, -1], M=M)
-
-
-def at_rest():
-    """A contact whose lengths are all zero.
-
-    After ``known_steps.stale`` the face of its force is one of which ten numbers are open here.
-    """
-    J = np.diag([-0.5625, -0.45, -1.25, -0.375])
-    contacts = contacts_of([0.0], np.eye(3)[None], J[None], 1.0, 1.0, 6)
-    return free_step(np.eye(4), np.zeros(4), contacts, 1.0)
 
 
 def sevenths():

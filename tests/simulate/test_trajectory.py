@@ -13,13 +13,13 @@ SHAPES = {
     "q": (6, 10), "t": (5,), "delta_q": (5, 8), "q_bar_a": (5, 3), "phi": (5, 2),
     "alpha": (5, 2, 3), "beta": (5, 2, 3), "n": (5, 2, 3), "d1": (5, 2, 3), "d2": (5, 2, 3),
     "point": (5, 2), "lam": (5, 10), "wrench": (5, 2, 4), "worst_residual": (5,),
-    "certificate": (5,), "digits": (5,), "forces": (5, 2, 4),
+    "certificate": (5,), "digits": (5,),
     "H": (5, 8, 8), "g": (5, 8), "A": (5, 10, 8), "b": (5, 10), "J": (5, 2, 4, 8),
     "K_q": (5, 2, 2), "M_u": (5, 6, 6), "tau_a": (5, 2), "tau_u": (5, 6),
     "delta_q_bar_a": (5, 2), "mu_v": (2,), "mu_omega": (2,), "rows": (2,),
 }  # fmt: skip
 """Of the arrays of the run."""
-PROGRAMS = {"forces", "H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"}
+PROGRAMS = {"H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"}
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -71,6 +72,16 @@ def test_a_record_of_forces_has_those_of_the_steps(scenario, run, tmp_path):
     np.testing.assert_array_equal(read.step_forces(3), run.forces[3])
     for name, force in run.pair_forces().items():
         np.testing.assert_array_equal(read.pair_forces()[name], force)
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_full_record_holds_no_forces_and_files_that_do_are_read(scenario, run, tmp_path, fast):
+    full = load_scenario(scenario.path, steps=40, fast=fast).run(progress=False)
+    assert "forces" not in full.arrays
+    np.testing.assert_array_equal(full.forces, run.forces)
+    stored = replace(full, arrays={**full.arrays, "forces": full.forces + 1.0})
+    read = trajectory_read(stored.save(tmp_path / "stored.npz"))
+    np.testing.assert_array_equal(read.forces, full.forces + 1.0)
 
 
 def test_a_light_record_holds_no_forces(scenario):

@@ -33,7 +33,7 @@ from validation.tools.scripts import ROOT, script_options, show_page
 
 FILES = (
     "fixed_point.h", "rounding.c", "span.c", "kkt.c", "certificate.c", "groups.c", "contraction.c",
-    "zeros.c", "walk.c", "forces.h", "face_guess.c", "forces.c",
+    "zeros.c", "walk.c",
 )  # fmt: skip
 """Those that prove."""
 REASONS = ROOT / "validation" / "make" / "prover_mutants.toml"

@@ -117,11 +117,6 @@ RESULTS = (
         ("validation/results/second_order.jsonl", "validation/results/second_order.md"),
     ),
     to_file("mjcf"),
-    Result(
-        "known_steps",
-        "validation.make.known_steps",
-        ("quasistatic_ref/optional/fast/compiled/known_steps.jsonl.gz",),
-    ),
     to_file("prover_mutants"),
     to_file("designed_steps"),
     to_file("mistakes"),

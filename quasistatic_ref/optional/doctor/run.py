@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.contact_forces import (
     CONTACT_FORCES,
     ContactForces,
-    ForcesOfGroups,
     forces_near,
 )
 from quasistatic_ref.certify.exact import step_optimum
@@ -43,7 +42,6 @@ class Run(Start):
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
         self._found: dict[int, ContactForces] = {}
-        self._in_c: dict[int, ForcesOfGroups | None] = {}
         self._contacts: dict[int, Contacts] = {}
         self._steps: dict[int, StepData] = {}
 
@@ -102,8 +100,7 @@ class Run(Start):
             return np.asarray(self["wrench"][k])
         if "forces" in self.arrays:
             return np.asarray(self["forces"][k])
-        found = self.in_c(k)
-        return self._compliant(k).wrench if found is None else found[0]
+        return self._compliant(k).wrench
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
@@ -111,17 +108,9 @@ class Run(Start):
 
     def _compliant(self, k: int) -> ContactForces:
         if k not in self._found:
-            found = self.in_c(k)
-            near = self["wrench"][k] if found is None else found[0]
-            self._found[k] = forces_near(self.step_data(k), (self["delta_q"][k], near))
+            near = self["delta_q"][k], self["wrench"][k]
+            self._found[k] = forces_near(self.step_data(k), near)
         return self._found[k]
-
-    def in_c(self, k: int) -> ForcesOfGroups | None:
-        """As of :meth:`~quasistatic_ref.simulate.simulator.Simulator.forces_in_c`."""
-        if k not in self._in_c:
-            wrench = self["wrench"][k]
-            self._in_c[k] = self.simulator.forces_in_c(self.step_data(k), wrench)
-        return self._in_c[k]
 
 
 def wrenches(step: StepData) -> Array | None:

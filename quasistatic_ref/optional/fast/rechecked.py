@@ -6,18 +6,14 @@ say.
 """
 
 from collections import Counter
-from collections.abc import Callable
-
-import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import library
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 
 EVERY = 1000
 LARGEST = 64
@@ -28,7 +24,6 @@ DETERMINED = ("delta_q", "net", "slack", "multipliers_unique", "differentiable")
 
 WHOLE = "all groups of a step at once"
 GROUP = "a group of a step"
-FORCES = "the forces of a step"
 _proofs: Counter[str] = Counter()
 """Of this process, by their kind."""
 
@@ -82,26 +77,3 @@ def check(step: StepData, found: ExactOptimum) -> None:
     for name in names:
         if bits(getattr(found, name)) != bits(getattr(right, name)):
             raise WrongProof(step, name)
-
-
-def check_forces(made: Callable[[], StepData], n_v: int, wrench: Array) -> None:
-    """Check what compiled code has proved of the forces of a step, if they are due.
-
-    Parameters
-    ----------
-    made : callable
-        Gives the step.
-    n_v : int
-        Number of its coordinates.
-    wrench : ndarray, shape (n_c, 4)
-        [N, N m].
-
-    Raises
-    ------
-    WrongProof
-    """
-    if is_due(FORCES, n_v):
-        step = made()
-        near = np.zeros(n_v), np.zeros_like(wrench)
-        if bits(forces_near(step, near).wrench) != bits(wrench):
-            raise WrongProof(step, "a force")

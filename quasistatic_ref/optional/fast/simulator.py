@@ -7,7 +7,6 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import ForcesOfGroups
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
@@ -23,8 +22,7 @@ from quasistatic_ref.optional.fast.backends import (
     fast_backend,
     sparse_from,
 )
-from quasistatic_ref.optional.fast.compiled.certificate import LARGEST, Prover
-from quasistatic_ref.optional.fast.compiled.forces import ForcesOfSteps, knows, with_forces
+from quasistatic_ref.optional.fast.compiled.certificate import Prover
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
 from quasistatic_ref.optional.fast.compiled.onward import (
@@ -153,7 +151,6 @@ class FastSimulator(Simulator):
         self.fitted: Solver | None = None
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
-        self.in_c = ForcesOfSteps() if ordinary and system.n_v <= LARGEST else None
         self.surely_within = SURELY * self.limits.reach**2
         self.onward: Onward | None = None
         self.pressed: Array | None = None
@@ -233,8 +230,6 @@ class FastSimulator(Simulator):
         step = solution.step
         lap("solve")
         lap.separate("proof", solution.statistics.proof_time, "solve")
-        if self.in_c is not None:
-            solution = with_forces(solution, self.in_c)
         q_next = self.screws.integrate(solution.delta_q[: self.system.n_v])
         self.poses.move(q_next)
         if not self.squared_distances(self.numbers.address) <= self.surely_within:
@@ -322,20 +317,6 @@ class FastSimulator(Simulator):
         recalls = self.by_c and self.follows and self.certify != OFF
         self.pressed = lam if recalls else None
         return recalls
-
-    def records_forces(self, solution: StepSolution) -> bool:
-        """As in the base: where steps are proved, and C decides the forces of the first.
-
-        The configurations of other steps have errors of rounding, as small as 1e-30, for whose
-        products the digits of fixed point are too few.
-        """
-        if self.in_c is None or self.certify != "full" or not knows(self.cone):
-            return False
-        return self.forces_in_c(solution.step, solution.wrench) is not None
-
-    def forces_in_c(self, step: StepData, near: Array) -> ForcesOfGroups | None:
-        """As in the base, from `near`, shape (n_c, 4) [N, N m]."""
-        return None if self.in_c is None or not self.by_c else self.in_c.decided(step, near)
 
     def posed_step(
         self, q_bar_a: Array, force: Array | float

@@ -52,7 +52,7 @@ class Pieces(NamedTuple):
 
 
 def guessed_faces(step: StepData, compliance: float, wrench: Array) -> list[Rows]:
-    """The face of each contact, in a polyhedral cone. In C: face_guess.c.
+    """The face of each contact, in a polyhedral cone.
 
     Where float64 does not suffice, the guess is that no contact bears a load.
 

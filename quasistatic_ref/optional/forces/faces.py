@@ -12,7 +12,6 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.rational import Dyadic, Integers, dyadic, fraction, in_integers
-from quasistatic_ref.optional.between import FACE
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -113,6 +112,3 @@ def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Integers, int] | No
         return None  # older NumPys know no rank of no rows
     found = face(name, count, rows)
     return found.integers, found.denominator
-
-
-FACE.fill(face_of_rows)

@@ -63,7 +63,7 @@ def contact_forces(
     compliance: float | Array | None = None,
     near: tuple[Array, Array] | None = None,
 ) -> ContactForces:
-    """The forces of a step's contacts, each number rounded correctly. In C: forces.c.
+    """The forces of a step's contacts, each number rounded correctly.
 
     In the ellipsoid, whose forces are in general not rational, they are rounded from an enclosure.
 

@@ -20,7 +20,6 @@ makes c smaller. :func:`counted` passes from the one to the other without a jump
 import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.optional.between import SIDES
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Indices, StepData
@@ -109,6 +108,3 @@ def sides(step: StepData) -> list[Indices]:
     label[: step.n_a] = 0
     label[label < step.n_a] = 0
     return [np.flatnonzero(label == own) for own in np.unique(label)]
-
-
-SIDES.fill(sides)

@@ -109,16 +109,6 @@ def wrong_span(library: ctypes.CDLL) -> str | None:
     return None
 
 
-def wrong_size(library: ctypes.CDLL) -> str | None:
-    """Whether forces are sought with more contacts than sums have digits for, in words."""
-    group = Structure("proof.h", "Proof")
-    group.put({"n_v": 4, "n_c": (PRODUCTS - 4) // 4})
-    forces = Structure("forces.h", "Forces")
-    forces.put({"group": group.address})
-    begun = library.forces(ctypes.c_void_p(forces.address)) != LOST
-    return "forces of too many contacts are sought" if begun else None
-
-
 def _vectors(cone: Indices, contact: Indices, row: Indices, spins: Array, mu: Array) -> Indices:
     """The integer vector of each row, shape (m, 4 n_c)."""
     n_c = len(spins)

@@ -22,7 +22,6 @@ from quasistatic_ref.optional.fast.compiled.certificate import (
     GroupProof,
     Prover,
 )
-from quasistatic_ref.optional.fast.compiled.forces import Forces, knows
 from quasistatic_ref.optional.fast.compiled.known_functions import MarkedArray
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.solve.units import DenseStepInBothUnits
@@ -86,18 +85,12 @@ class Known(NamedTuple):
         for neither.
     digits : list of int
         How many digits modulo p each of these proofs found, which the bound of zeros.c tells.
-    left : list of int or None
-        The groups whose forces that library left open; None of a cone that C does not know.
-    forces : list of list of float, or None
-        (f_d1, f_d2, f_n, tau_n) of each contact [N, N m]; None where some were left open.
     """
 
     step: StepData
     optimum: Stored | None
     outcomes: str
     digits: list[int]
-    left: list[int] | None
-    forces: list[list[float]] | None
 
 
 @cache
@@ -108,7 +101,7 @@ def known_steps() -> list[Known]:
     return [
         Known(
             step_from_record(one["step"]),
-            **{name: one.get(name) for name in ("optimum", "outcomes", "digits", "left", "forces")},
+            **{name: one.get(name) for name in ("optimum", "outcomes", "digits")},
         )
         for one in records
     ]
@@ -270,27 +263,7 @@ def wrong(known: Known) -> str | None:
         unlike = different(one, optimum)
         if unlike:
             return f"{unlike} of an optimum is wrong"
-    return wrong_forces(known, Forces(known.step)) if knows_forces(known) else None
-
-
-def knows_forces(known: Known) -> bool:
-    """Whether C decides forces of a step: without optional/forces none."""
-    return known.left is not None and knows(known.step.cone)
-
-
-def wrong_forces(known: Known, forces: Forces) -> str | None:
-    """What the forces of a step are that is wrong, in words."""
-    arrays = []
-    for part in forces.parts:
-        if part.group and part.proof:
-            arrays += marks_behind(part.s, OF_FORCES)
-            end_what_is_read(part.proof.s)
-    wrench, left = forces.in_c(known.step)
-    if not all(array.kept for array in arrays):
-        return "something is written behind the forces"
-    if left != known.left:
-        return "forces are decided otherwise"
-    return None if left or wrench.tolist() == known.forces else "a force is wrong"
+    return None
 
 
 def different(one: Tried, optimum: Stored) -> str | None:
@@ -401,8 +374,4 @@ def stale(known: Known) -> str | None:
         as_new = two is None or (one is not None and numbers(one) == numbers(two))
         if not as_new or found is None or not same(found, optimum, unique):
             return f"{words} of another step is taken for its own"
-    if not knows_forces(known):
-        return None
-    forces = Forces(step)
-    forces.in_c(others["a number"])
-    return wrong_forces(known, forces)
+    return None

@@ -70,7 +70,6 @@ FUNCTIONS = {
     "proof": ctypes.c_int,
     "proof_nearby": ctypes.c_int,
     "groups_proved": ctypes.c_int,
-    "groups_forces": None,
     "step_posed": ctypes.c_int,
     "step_answered": ctypes.c_int,
     "step_proved": ctypes.c_int,

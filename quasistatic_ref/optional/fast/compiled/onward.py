@@ -12,11 +12,10 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.certificate import Prover, claims_of
-from quasistatic_ref.optional.fast.compiled.forces import FastSolution
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram
 from quasistatic_ref.optional.fast.compiled.structure import Structure, address_of
@@ -308,13 +307,6 @@ class Taken(Steps):
             **{SECONDS + name: records["seconds"][:, i] for i, name in enumerate(LAPS)},
         }
 
-    def forces(self, wrench: Array) -> Array:
-        """As of any such steps, (steps, n_c, 4) [N, N m]; few of the steps are made."""
-        in_c = self._simulator.in_c
-        if in_c is None:
-            return np.array([result.forces for result in self])
-        return in_c.of_block(self, self._records, wrench)
-
     def _result(self, k: int) -> StepResult:
         record = self._records[k, ...]  # an array, whose fields are read in less time
         own = {
@@ -369,7 +361,7 @@ class FollowingResult(StepResult):
         return dict(zip(LAPS, self.record["seconds"].tolist(), strict=True))
 
     @cached_property
-    def solution(self) -> FastSolution:
+    def solution(self) -> StepSolution:
         """What C has found."""
         solver = self.solver
         record = self.record
@@ -386,11 +378,11 @@ class FollowingResult(StepResult):
         )
         own = {
             "delta_q": record["delta_q"], "lam": record["lam"], "step": self.step,
-            "backend": solver.name, "statistics": statistics, "in_c": self.simulator.in_c,
+            "backend": solver.name, "statistics": statistics,
             "net_impulse": record["net"] if proved else None,
             "certificate": self._certificate() if proved else NOTHING_CLAIMED,
         }  # fmt: skip
-        return posed(FastSolution, NO_ROWS, own)
+        return posed(StepSolution, NO_ROWS, own)
 
     def _certificate(self) -> Certificate:
         """As of :func:`~quasistatic_ref.certify.certificate.exact_certificate`."""

@@ -23,7 +23,6 @@ from quasistatic_ref.optional.fast.compiled import library as compiled
 from quasistatic_ref.optional.fast.compiled.cache import CompileError
 from quasistatic_ref.optional.fast.compiled.known_functions import (
     wrong_bound,
-    wrong_size,
     wrong_span,
 )
 from quasistatic_ref.optional.fast.compiled.known_pairs import wrong_points
@@ -272,7 +271,6 @@ def wrong_parts(file: str) -> str | None:
         or wrong_digits(library)
         or wrong_span(library)
         or wrong_bound(library)
-        or wrong_size(library)
         or wrong_points()
     )
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "forces.h"
+#include "proof.h"
 
 enum { GUESSES = 16 }; /* that follow one that is wrong; boxes in a row at rest take four to ten */
 
@@ -19,10 +19,6 @@ typedef struct {
     int64_t *code;
     double *delta_q, *lam, *net, *slack, *rest, *bound, *least;
     int64_t *claims;
-    /* What forms the forces of each group; of all contacts those without compliance, and with it. */
-    Forces *const *forces;
-    const double *near;
-    double *wrench;
 } Step;
 
 /* Some numbers, -1 standing for a zero: whether one has changed. */
@@ -167,21 +163,4 @@ int groups_proved(Step *s)
         }
     }
     return all;
-}
-
-/* The forces of all groups, as far as they are DECIDED; of one of which nothing has changed, as before. */
-void groups_forces(Step *s)
-{
-    for (int64_t i = 0; i < s->groups; i++) {
-        Proof *p = s->group[i];
-        s->code[i] = NOT_POSED;
-        if (!p)
-            continue;
-        rows_taken(s->forces[i]->near, s->near, p->contacts, p->n_c, 4);
-        if (posed(s, p) || p->code != DECIDED)
-            p->code = forces(s->forces[i]);
-        s->code[i] = p->code;
-        for (int64_t c = 0; c < p->n_c; c++)
-            memcpy(s->wrench + 4 * p->contacts[c], s->forces[i]->wrench + 4 * c, 4 * sizeof(double));
-    }
 }
