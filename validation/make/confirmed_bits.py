@@ -80,7 +80,7 @@ def ascending(guess: list[int]) -> Indices:
 
 def differing_fields(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
     """Names of the fields in which two optima differ in any bit."""
-    names = [f.name for f in fields(one)]
+    names = ["slack" if f.name == "slacks" else f.name for f in fields(one)]
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
 
 

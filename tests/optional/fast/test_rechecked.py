@@ -16,6 +16,7 @@ from quasistatic_ref import (
     solve_step,
 )
 from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.slacks import KnownSlacks
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs, rechecked
@@ -47,8 +48,10 @@ def test_a_right_proof_passes_and_each_wrong_number_is_found(seed):
     for name in ("delta_q", "net", "slack"):
         wrong = getattr(right, name).copy()
         wrong[0] = np.nextafter(wrong[0], np.inf)
+        field = {"slacks": KnownSlacks(wrong)} if name == "slack" else {name: wrong}
+        spoilt = replace(right, **field)
         with pytest.raises(WrongProof, match=f"compiled code has proved a step wrongly: {name} "):
-            check(step, replace(right, **{name: wrong}))
+            check(step, spoilt)
 
 
 def test_a_solution_of_a_step_without_one_is_found():
