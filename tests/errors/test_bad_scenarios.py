@@ -3,12 +3,10 @@
 import pytest
 
 from quasistatic_ref import QuasistaticError, load_scenario
-from quasistatic_ref.model.readers import mesh_files, text
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario import contacts
 from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
-from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
 from tests.oracles.records import toml_text
 
 BALL = "bodies/ball/"
@@ -206,41 +204,6 @@ def test_a_time_step_that_overflows_is_named(tmp_path, refused):
 
 
 CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-AGAIN = {
-    "mesh.filename": ("bodies", {"urdf": "mesh.urdf"}),
-    "shapes.again.mesh.file": ("shapes", {"mesh": {"file": "corners.obj"}}),
-}
-
-
-@pytest.mark.parametrize("field", AGAIN)
-def test_meshes_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch, field):
-    """It may name one large file a thousand times."""
-    monkeypatch.setattr(mesh_files, "LARGEST_MESH", 1.5 * len(CORNERS))
-    urdf_of_text(tmp_path, CORNERS, "corners.obj")
-    urdf_of_text(
-        tmp_path, robot(link("a", collision('<mesh filename="corners.obj"/>'))), "mesh.urdf"
-    )
-    table, of_one = AGAIN[field]
-    scene = changed(SCENE, (f"{table}/one", of_one))
-    load_scenario(scene_written(tmp_path, scene))
-    with pytest.raises(QuasistaticError, match="more than") as caught:
-        load_scenario(scene_written(tmp_path, changed(scene, (f"{table}/again", of_one))))
-    assert str(caught.value.field).endswith(field)
-
-
-def test_clouds_of_a_scenario_are_limited_in_all(tmp_path, monkeypatch):
-    """Each may have as many points as one cloud may."""
-    monkeypatch.setattr(text, "SECONDS", 5.0 * text.MOST_POINTS / 3)  # 5 s for three points
-    scene = SCENE
-    for name in "ab":
-        (tmp_path / f"{name}.xyz").write_text("0 0 1\n0 1 0\n1 0 0\n")
-        table = {"urdf": "ball.urdf", "cloud": f"{name}.xyz"}
-        scene = changed(scene, (f"bodies/{name}", table))
-        path = scene_written(tmp_path, scene)
-        if name == "a":
-            load_scenario(path)
-    with pytest.raises(QuasistaticError, match=r"b\.xyz: brings what is named to 10 s of reading"):
-        load_scenario(path)
 
 
 def test_a_cloud_that_many_bodies_have_is_read_once(tmp_path, monkeypatch):

@@ -73,7 +73,6 @@ REFUSED = {
         "contacts.flor: is not a table of this file; did you mean",
     ),
     "no key": ({"": 3}, {}, "settings: must be table.field=value, such as contacts.floor.mu_v=0.5"),
-    "too deep": ({".".join("a" * 33): 3}, {}, "settings: names a key of more than 32 parts"),
     "unknown keyword": ((), {"step": 3}, "step: is unknown; did you mean 'steps'"),
     "a function": ({"h": abs}, {}, "h: must be a number"),
 }
