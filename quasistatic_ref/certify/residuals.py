@@ -51,8 +51,6 @@ def optimality_residuals(
 ) -> Residuals:
     """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
-    In C: onward.c.
-
     Parameters
     ----------
     form : StandardForm

@@ -22,18 +22,10 @@ class Observer:
         Names of what :meth:`after` returns.
     every_step : bool
         Whether :meth:`after` is called after each step, and not once for several, in less time.
-    seldom : bool
-        Whether :meth:`before` may be called once for several steps that follow, in less time.
     """
 
     notes: tuple[str, ...] = ()
     every_step: bool = False
-    seldom: bool = False
-
-    def alone(self) -> bool:
-        """Whether a run stops at each step for it."""
-        before = getattr(self.before, "__func__", None)
-        return self.every_step or not (self.seldom or before is Observer.before)
 
     def before(self, recorder: "Recorder") -> None:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""

@@ -16,7 +16,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
-from quasistatic_ref.simulate.result import StepArrays, StepResult, Steps
+from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.arrays import read_only, without_warnings
@@ -107,7 +107,7 @@ class Recorder(Shown):
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.parts: list[StepArrays] = []
-        self._latest: list[Steps | list[StepResult]] = []
+        self._latest: list[StepResult] = []
         self._targets: list[Array] = []
 
     @property
@@ -130,33 +130,13 @@ class Recorder(Shown):
             If the record holds forces and they are not known, or an extension's rows are not those
             of the step before.
         """
-        self.add_all([q_bar_a], [result])
-
-    def add_all(self, q_bar_a: Sequence[Array], results: Sequence[StepResult]) -> None:
-        """Record steps that follow one another, one or more; errors as of :meth:`add`.
-
-        Parameters
-        ----------
-        q_bar_a : sequence of ndarray, each of shape (n_q_a,)
-            Their targets.
-        results : sequence of StepResult
-        """
-        size = 4 * len(self.layout.rows) * self.system.n_v
-        if isinstance(results, Steps):
-            self.q = read_only(results.arrays["q"][-1])
-        else:
-            for result in results:
-                self._check(result)
-            size = results[-1].step.contacts.kept_J.size
-            self.q = read_only(results[-1].q)  # a function of (t, q) cannot change where it starts
-        if isinstance(results, Steps) or not (self._latest and isinstance(self._latest[-1], list)):
-            self._latest.append(results if isinstance(results, Steps) else list(results))
-        else:
-            self._latest[-1] += results
-        self._targets += q_bar_a
-        self.steps += len(results)
-        most = min(PACKED, 1 + LARGEST // max(1, size))
-        if len(self._targets) >= most or any(each.every_step for each in self.observers):
+        self._check(result)
+        self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
+        self._latest.append(result)
+        self._targets.append(q_bar_a)
+        self.steps += 1
+        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.kept_J.size))
+        if len(self._latest) >= most or any(each.every_step for each in self.observers):
             self.packed()
 
     def _check(self, result: StepResult) -> None:
@@ -175,10 +155,9 @@ class Recorder(Shown):
     def packed(self) -> list[StepArrays]:
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._latest:
-            results = self._latest[0] if len(self._latest) == 1 else _Joined(self._latest)
+            results = self._latest
             try:
-                read = [arrays_of(part, self.system.n_v) for part in self._latest]
-                every = {name: np.concatenate([each[name] for each in read]) for name in read[0]}
+                every = arrays_of(results, self.system.n_v)
                 arrays = self._arrays(results, every)
             except BaseException:  # what is not known of these steps cannot be recorded
                 self.steps -= len(results)
@@ -303,22 +282,6 @@ class Recorder(Shown):
         return trajectory
 
 
-class _Joined(Sequence[StepResult]):
-    """Results of several parts, one after the other."""
-
-    def __init__(self, parts: Sequence[Sequence[StepResult]]) -> None:
-        self._places = [(part, i) for part in parts for i in range(len(part))]
-
-    def __len__(self) -> int:
-        return len(self._places)
-
-    def __getitem__(self, k: Any) -> Any:
-        if isinstance(k, slice):
-            return [part[i] for part, i in self._places[k]]
-        part, i = self._places[k]
-        return part[i]
-
-
 def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
     """What a recorder reads of steps that follow one another; with `motion`, J delta_q.
 
@@ -327,8 +290,6 @@ def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:
     dict of str to ndarray, shape as in the notation, behind a first axis, the step [-]
         By the notation's names [in its units].
     """
-    if isinstance(results, Steps):
-        return results.arrays
     solutions = [result.solution for result in results]
     steps = [result.step for result in results]
     certificates = [solution.certificate for solution in solutions]

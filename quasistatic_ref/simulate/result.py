@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -129,12 +127,3 @@ class StepResult(Plain, Shown):
         """The contacts whose normal was one of several, and how it was chosen, by their names."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
-
-
-class Steps(Sequence[StepResult]):
-    """Results of steps that follow one another, of which arrays are known before each is made."""
-
-    @property
-    @abstractmethod
-    def arrays(self) -> StepArrays:
-        """What a recorder reads of them, as of its ``arrays_of``."""

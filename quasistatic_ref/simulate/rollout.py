@@ -15,8 +15,7 @@ from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.simulate.recorder import PACKED, Recorder
-from quasistatic_ref.simulate.target import OF_WAYPOINTS
+from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import (
     Checked,
@@ -158,25 +157,20 @@ def rollout(
     # Of a run that takes long, it prints that `fast` would shorten it.
     if progress and (pace := PACE.found()) is not None:
         recorder.observers.append(pace(simulator.fast, steps - recorder.steps))
-    # A function of the user's may take steps itself, or ask for the last one.
-    asks_user = any(callable(of) and type(of) not in OF_WAYPOINTS for of in (target, force))
     bar = progress_bar(unit="step", total=steps, done=recorder.steps, shown=progress)
     last: StepResult | None = None
     with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt, bar:
-        asked = _Asked(recorder, q_bar_a_at, force_at, interrupt)
-        while (k := recorder.steps) < steps:
+        for k in range(recorder.steps, steps):
             if k % COLD_EVERY == 0:
                 simulator.start_cold()
-            one = asks_user or any(observer.alone() for observer in recorder.observers)
-            most = 1 if one else min(PACKED, COLD_EVERY - k % COLD_EVERY, steps - k)
             try:
                 interrupt.check()
                 for observer in recorder.observers:
                     observer.before(recorder)
                 q = recorder.q
-                asked.begin(q, last)
-                taken = simulator.steps(q, asked, most) or [simulator.step(q, *asked.known[0])]
-                recorder.add_all([q_bar_a for q_bar_a, _ in asked.known[: len(taken)]], taken)
+                q_bar_a = q_bar_a_at(recorder.t, q, last)
+                last = simulator.step(q, q_bar_a, force_at(recorder.t, q, last))
+                recorder.add(q_bar_a, last)
                 if recorder.steps == steps:
                     recorder.packed()
             except (QuasistaticError, KeyboardInterrupt) as failure:
@@ -189,57 +183,5 @@ def rollout(
                 trajectory = recorder.trajectory(reason, interrupted)
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
-            if asks_user:
-                last = taken[-1]
-            bar.update(len(taken))
+            bar.update()
         return recorder.trajectory()
-
-
-class _Asked:
-    """Targets and forces of the steps that come next, each asked for once, when its turn comes.
-
-    Attributes
-    ----------
-    known : list of (ndarray, ndarray)
-        Those from the step on that `begin` was called before.
-    """
-
-    def __init__(
-        self, recorder: Recorder, target: Checked, force: Checked, interrupt: Interrupt
-    ) -> None:
-        self.known: list[tuple[Array, Array]] = []
-        self._recorder = recorder
-        self._target = target
-        self._force = force
-        self._interrupt = interrupt
-        self._first = recorder.steps
-        self._last: StepResult | None = None
-        self._failure: BaseException | None = None
-
-    def begin(self, q: Array, last: StepResult | None) -> None:
-        """Go on from where the recorder is, at q (n_q,), after the result of the step before."""
-        steps = self._recorder.steps
-        self.known = self.known[steps - self._first :]
-        self._first = steps
-        self._last = last
-        if self._failure is not None:
-            raise self._failure
-        if not self.known:
-            self._ask(0, q)
-
-    def __call__(self, k: int, q: Array) -> tuple[Array, Array] | None:
-        """Target and force of the k-th step from there, from q; None: first look at the run."""
-        if k < len(self.known):
-            return self.known[k]
-        if self._interrupt.noted:
-            return None
-        try:
-            self._ask(k, q)
-        except BaseException as failure:
-            self._failure = failure  # the steps before are recorded first
-            return None
-        return self.known[k]
-
-    def _ask(self, k: int, q: Array) -> None:
-        t = (self._first + k + 1) * self._recorder.h
-        self.known.append((self._target(t, q, self._last), self._force(t, q, self._last)))

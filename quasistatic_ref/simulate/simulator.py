@@ -57,8 +57,6 @@ EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
 P = ParamSpec("P")
 R = TypeVar("R")
 S = TypeVar("S", bound="Simulator")
-Given = Callable[[int, Array], tuple[Array, Array] | None]
-"""Checked target and force of the k-th of some steps, which starts at q; None to end before it."""
 
 
 def by_one_thread(step: Callable[Concatenate[S, P], R]) -> Callable[Concatenate[S, P], R]:
@@ -311,33 +309,10 @@ class Simulator(Settings, Shown):
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def steps(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
-        """Steps that follow on each other from q, taken in less time than by :meth:`step`.
-
-        They are fewer where one of them would not be: :meth:`step` takes that.
-
-        Parameters
-        ----------
-        q : ndarray, shape (n_q,)
-            Checked.
-        given : callable
-            Of the k-th of them, counted from 0, and of where it starts: the target and the force.
-        most : int
-            How many at most.
-        """
-        return ()
-
     def start_cold(self) -> None:
         """Forget what the solver keeps of earlier steps, if answers depend on it."""
         if self.solver is not None and self.solver.remembers:
             self.solver = None
-
-    def recalls(self, step: StepData, lam: Array) -> bool:
-        """Whether the next step is taken as after this one, which had the multipliers lam, (m,).
-
-        Otherwise what a solver keeps of it is known only where the solver is asked again.
-        """
-        return False
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
         """The contacts of all pairs, in order, each pair's in ascending distance.

@@ -177,10 +177,6 @@ class Loads:
         return total(wrench.force(self.system, t, q) for wrench in self.wrenches)
 
 
-OF_WAYPOINTS = (Targets, Loads)
-"""Functions that look at no step, so that a run may ask for several steps in a row."""
-
-
 def _interval(times: Array, t: float | Array) -> tuple[Indices, Array]:
     """Index of the waypoint before each t, and how far t is towards the next, in [0, 1)."""
     last = len(times) - 1

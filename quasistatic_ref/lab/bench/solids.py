@@ -112,7 +112,6 @@ def first_steps(scene: Scene) -> Array:
     for _ in range(FIRSTS):
         simulator: Any = scene.simulator(PROVED, True)
         simulator.compares = False
-        simulator.follows_alike = True
         jobs.append({FIRST: partial(simulator.step, scene.q, scene.goals[0], scene.force)})
     return in_turn(jobs, clock=time.process_time)[FIRST]
 

@@ -97,13 +97,7 @@ class NativeSolver(BackendSolver):
         np.multiply(form.A, S / ell, out=program.A)
         np.multiply(form.b, 1 / (rho * ell), out=program.b)
 
-    def forget(self) -> None:
-        """Let the backend start cold once more."""
-        for held in [one.kept for options in self._option_sets.values() for one in options]:
-            if isinstance(held, _SetUpAdapter):
-                held.warm = False
-
-    def reply(self, option_set: OptionSet, both: StepInBothUnits | None) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
         if isinstance(program, Program) and not program.b.size:

@@ -32,8 +32,6 @@ class Pace(Observer):
         How many are to be taken.
     """
 
-    seldom = True
-
     def __init__(self, fast: bool, steps: int) -> None:
         self.fast = fast
         self.every_step = not fast  # until enough steps are measured

@@ -255,13 +255,6 @@ class Proofs:
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
-    def prover_of(self, both: StepInBothUnits) -> Prover | None:
-        """What proves all groups of a step in C where all contacts count; None if nothing does."""
-        step = both.si_step
-        self.divided(step, None, coupled_by(step))
-        prover = self._prover(both)
-        return None if prover is None or None in prover.proofs else prover
-
     def _prover(self, both: StepInBothUnits) -> Prover | None:
         """What proves all groups of a step in C; None where nothing does."""
         if why_not() is None and self.prover is None:

@@ -53,11 +53,6 @@ def is_due(kind: str, n: int) -> bool:
     return _proofs[kind] % EVERY == 1 and n <= LARGEST
 
 
-def is_next(kind: str) -> bool:
-    """Whether the turn of the next proof of a kind comes."""
-    return _proofs[kind] % EVERY == 0
-
-
 def check(step: StepData, found: ExactOptimum) -> None:
     """Check what compiled code has proved of a step that is one group.
 

@@ -47,7 +47,7 @@ class ConeSolver(NativeSolver):
             contacts[:] = contacts[:, :1]
         return out_of_reach
 
-    def reply(self, option_set: OptionSet, both: StepInBothUnits | None) -> Reply:
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """One attempt, its multipliers those of the unscaled rows: impulses (n, d1, d2, spin)."""
         reply = super().reply(option_set, both)
         if reply.lam is not None:

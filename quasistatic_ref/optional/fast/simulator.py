@@ -1,7 +1,5 @@
 """The simulator of `fast`: the same steps, with their data from compiled code."""
 
-from collections.abc import Sequence
-from contextlib import suppress
 from operator import itemgetter
 
 import numpy as np
@@ -10,7 +8,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
-from quasistatic_ref.errors import QuasistaticError, StepNotSolved
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.coordinates import with_shape
@@ -22,24 +20,13 @@ from quasistatic_ref.optional.fast.backends import (
     fast_backend,
     sparse_from,
 )
-from quasistatic_ref.optional.fast.compiled.certificate import Prover
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
-from quasistatic_ref.optional.fast.compiled.onward import (
-    DONE,
-    REGROUPED,
-    Onward,
-    Taken,
-    proved_bits,
-)
 from quasistatic_ref.optional.fast.compiled.pairs import Pairs
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.scene import Columns, Scene, every_column
 from quasistatic_ref.optional.fast.compiled.screws import Screws
-from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.posed import Constants, constants, posed
-from quasistatic_ref.optional.fast.proofs import SMALL
-from quasistatic_ref.optional.fast.rechecked import WHOLE, is_next
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.simulate.law import CONVEX
@@ -47,14 +34,12 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.settings import FAST_BACKEND
 from quasistatic_ref.simulate.simulator import (
     FAST_SIMULATOR,
-    Given,
     Simulator,
     Stopwatch,
     by_one_thread,
 )
 from quasistatic_ref.simulate.user_functions import checked_force
-from quasistatic_ref.solve.backends import CERTIFY
-from quasistatic_ref.solve.solve import FACTOR_LIMIT, solved
+from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import (
     DenseStepInBothUnits,
@@ -71,12 +56,8 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 TAKEN = itemgetter(*ClosestPoints._fields, "d1", "d2", "J", "tau")
 """The fields of a step among those that C has written."""
 
-OFF = "off"
 TRIED = 2.0**-10
 """By which sums are tried [m, rad]."""
-
-LARGEST_RECORDS = 1 << 23
-"""Bytes that are kept of steps that follow on each other, beyond those of one step."""
 
 SURELY = 1 - 2.0**-40
 """Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
@@ -89,7 +70,7 @@ class FastSimulator(Simulator):
     scene; contacts of pairs and sums of joints that it does not know are those of the plain path.
     The numbers are right by construction, and not checked one by one. Those of the first step (of
     a sparse one only q+) are compared with those of the plain path, which takes all steps if they
-    differ; and the first proved step that is taken in few calls, with one that is not. If the
+    differ. If the
     default backend, named or not, fails at a step that is not proved, Clarabel solves the step.
 
     Parameters
@@ -99,17 +80,10 @@ class FastSimulator(Simulator):
 
     Attributes
     ----------
-    pressed : ndarray, shape (m,), or None
-        Multipliers of the last proved step of a run [N s]: the next is sought on their rows.
     compares : bool
         Whether the next step is the first, which is compared.
     by_c : bool
         Whether compiled code takes the steps.
-    follows : bool
-        Whether steps that follow on another may be taken in few calls. Of those that are proved, a
-        step is sought on the rows that the step before has pressed, the first on none; the backend,
-        cold, is asked only if that fails: lam depends on no other step but through its lam. What
-        they have in common is formed when the simulator is made.
     """
 
     def prepare(self) -> None:
@@ -152,33 +126,6 @@ class FastSimulator(Simulator):
         self.hessian: HessianInBothUnits | None = None
         self.program: NaturalProgram | None = None
         self.surely_within = SURELY * self.limits.reach**2
-        self.onward: Onward | None = None
-        self.pressed: Array | None = None
-        self.never = False  # H cannot be written in fixed point, or the backend needs a guard
-        self.follows_alike = False  # as far as a step that was compared
-        self.left_open: bytes | None = None  # where a step starts that is left to Python
-        proved = self.certify == CERTIFY[0] and self.backend == self.default_backend
-        self.follows = (
-            ordinary
-            and (self.blocks is None or proved)
-            and self.screws.known
-            and system.varying_mass is None
-            and self.h > 1 / FACTOR_LIMIT
-            and bool(np.vdot(mu, mu) < FACTOR_LIMIT / 2)  # C looks at the multipliers
-            and (entries.coordinates <= SMALL if proved else self.certify == OFF)
-        )
-        if self.follows and proved:
-            with suppress(QuasistaticError):  # the step from the start may have no data
-                self.poses.move(system.q_start)
-                self.onward_from(system.q_start[: system.n_q_a], np.zeros(system.n_v))
-
-    def start_cold(self) -> None:
-        """As in the base; what proved steps have in common is kept."""
-        self.pressed = None
-        if not self.follows or self.certify == OFF:
-            super().start_cold()
-        elif self.onward is not None:
-            self.onward.forget()
 
     @arguments_checked
     @by_one_thread
@@ -200,26 +147,11 @@ class FastSimulator(Simulator):
         if np.shape(force) != self.given.shape:
             force = checked_force(self.system, force) + np.zeros(self.system.n_v)
         tau = np.asarray(force)
-        taken = self.followed(q, lambda k, q: (q_bar_a, tau), 1)
-        return taken[0] if taken else self.step_in_python(q, q_bar_a, tau)
+        return self.posed_result(q, q_bar_a, tau)
 
-    @by_one_thread
-    def steps(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
-        """As in the base: those that C decides, or one."""
-        of = given(0, q)
-        if self.compares or not self.by_c or of is None:
-            return ()
-        if not self.poses.are_at(q):
-            self.poses.move(q)
-        left_open = q.tobytes() == self.left_open
-        taken = () if left_open else self.followed(q, given, most)
-        return taken or [self.step_in_python(q, *of)]
-
-    def step_in_python(self, q: Array, q_bar_a: Array, force: Array) -> StepResult:
-        """One step from the checked q, of which C leaves something to be decided."""
+    def posed_result(self, q: Array, q_bar_a: Array, force: Array) -> StepResult:
+        """One step from the checked q, whose poses are there."""
         lap = Stopwatch()
-        if not self.poses.are_at(q):  # a step that was given up has led on
-            self.poses.move(q)
         self.contacts.find(self.poses)
         lap("distances")
         step, form, points = self.posed_step(q_bar_a, force)
@@ -236,87 +168,6 @@ class FastSimulator(Simulator):
             self.limits.check_reach(step, self.system.links, self.poses.kinematics().t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
-
-    def followed(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
-        """The same, from a checked q whose poses are there; the first proved one is compared."""
-        if self.follows_alike or self.certify == OFF:
-            return self.taken(q, given, most)
-        taken = self.taken(q, given, 1)
-        of = given(0, q)
-        if not taken or of is None:
-            return taken
-        first = taken[0]
-        plain = self.step_in_python(q, *of)
-        self.follows_alike = proved_bits(first) == proved_bits(plain)
-        if not self.follows_alike:
-            self.follows = False
-            return [plain]
-        self.pressed = first.solution.lam
-        return taken
-
-    def taken(self, q: Array, given: Given, most: int) -> Sequence[StepResult]:
-        """The same, none of them compared."""
-        if not self.follows or self.extension is not None:
-            return ()
-        of = given(0, q)
-        onward = self.onward
-        old = onward is None or not onward.fits(self.solver)
-        if of is not None and old and not self.never:
-            onward = self.onward_from(*of)
-        if of is None or onward is None:
-            return ()
-        most = min(most, 1 + LARGEST_RECORDS // onward.record.itemsize)
-        records = np.empty(most, onward.record)
-        pressed = self.pressed
-        onward.begin(records, pressed)
-        each_q = records["q"]
-        count = 0
-        start = q
-        while of is not None:
-            code = onward.take(*of)
-            if code == REGROUPED:
-                onward = self.onward_from(*of) or onward
-                onward.begin(records[count:], pressed)
-                code = onward.take(*of)
-            if code != DONE:
-                self.left_open = start.tobytes()
-                break
-            start = each_q[count]
-            if self.certify != OFF:
-                pressed = records["lam"][count]
-            count += 1
-            if count == most or (self.certify != OFF and is_next(WHOLE)):  # an error may follow
-                break
-            of = given(count, read_only(start.copy()))
-        self.pressed = pressed
-        return Taken(onward, self, q, records[:count])
-
-    def onward_from(self, q_bar_a: Array, force: Array) -> Onward | None:
-        """What takes steps like that from the poses that are there, if anything does."""
-        self.contacts.find(self.poses)
-        step, form, _ = self.posed_step(q_bar_a, force)
-        solver = self.fitting_solver(step)
-        self.onward = None
-        by: Prover | NaturalProgram | None = None
-        if isinstance(solver, FastSolver | SparseSolver):
-            both = self.in_both_units(step, form, solver)
-            if self.certify != OFF:
-                by = solver.prover.proofs.prover_of(both)
-            elif isinstance(solver, FastSolver) and not (solver.adapter.NEAR or solver.unsafe):
-                if solver.hessian is not self.hessian:
-                    solver.write_program(both)
-                self.units(solver, step)
-                by = self.program
-            if by is not None:
-                self.onward = Onward(self, solver, step, by)
-        self.never = by is None
-        return self.onward
-
-    def recalls(self, step: StepData, lam: Array) -> bool:
-        """As in the base."""
-        recalls = self.by_c and self.follows and self.certify != OFF
-        self.pressed = lam if recalls else None
-        return recalls
 
     def posed_step(
         self, q_bar_a: Array, force: Array | float
@@ -445,12 +296,7 @@ class FastSimulator(Simulator):
         if solver is None or solver is not self.fitted:  # what fits one step fits all of them
             self.fitted = solver = self.fitting_solver(step)
         both = self.in_both_units(step, form, solver)
-        if not (self.follows and self.certify != OFF and isinstance(solver, NativeSolver)):
-            return without_warnings(solved, both, solver, self.accuracy, self.certify)
-        solver.forget()
-        solution = without_warnings(solved, both, solver, self.accuracy, self.certify)
-        self.pressed = solution.lam
-        return solution
+        return without_warnings(solved, both, solver, self.accuracy, self.certify)
 
     def in_both_units(self, step: StepData, form: StandardForm, solver: Solver) -> StepInBothUnits:
         """The step whose matrices are there, in both units, with what H gives of them kept."""

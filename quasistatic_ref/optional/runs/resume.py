@@ -112,7 +112,7 @@ def _posed_again(
             step, linear = _step(simulator, q, goal, pushed)
             _check("scene", k, part["phi"][i], step.contacts.phi)
             recorder.alone &= linear
-            if k >= cold and not simulator.recalls(step, part["lam"][i]):
+            if k >= cold:
                 _ask(simulator, step, linear)
             if "s" in part:
                 step = step.replace(contacts=step.contacts.raised(part["s"][i]))

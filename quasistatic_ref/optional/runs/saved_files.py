@@ -126,7 +126,6 @@ class SavedSteps(Observer):
         self.path = Path(path)
         self.settings = dict(settings)
         self.every = every
-        self.seldom = every > 0
         self.kept = kept
         self.folder = saved_folder(path)
         self.lock = Lock(self.folder)

@@ -359,12 +359,6 @@ class Prover:
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist())
 
-    def forget(self) -> None:
-        """Begin the next proof with its answer alone, not with the rows of the last optimum."""
-        for proof in self.proofs:
-            if proof is not None:
-                proof.s.put({"code": NOT_POSED})
-
     def displacement(self) -> tuple[Array, Array, Array]:
         """delta_q, shape (n_v,), that C has proved; its rest, and a bound of more [m, rad]."""
         return self.s["delta_q"], self.s["rest"], self.s["bound"]

@@ -70,11 +70,6 @@ FUNCTIONS = {
     "proof": ctypes.c_int,
     "proof_nearby": ctypes.c_int,
     "groups_proved": ctypes.c_int,
-    "step_posed": ctypes.c_int,
-    "step_answered": ctypes.c_int,
-    "step_proved": ctypes.c_int,
-    "step_led": ctypes.c_int,
-    "step_within": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""
 

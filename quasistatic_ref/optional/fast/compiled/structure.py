@@ -3,7 +3,7 @@
 import ctypes
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import cast
 
@@ -60,25 +60,6 @@ class Structure:
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
         array[...] = value
-
-    def point(self, name: str, array: NDArray[np.void]) -> None:
-        """Point to an array that is not kept, of any shape [of its fields]."""
-        setattr(self._fields, name, array.ctypes.data)  # sooner than address_of, for records
-
-    def along(self, arrays: Mapping[str, NDArray[np.generic]]) -> Iterator[None]:
-        """Point to the first entries of some arrays, then to the next.
-
-        Parameters
-        ----------
-        arrays : mapping of str to ndarray
-            Of equal length and any shape; each entry is contiguous [any unit].
-        """
-        first = [(name, one.ctypes.data, one.strides[0]) for name, one in arrays.items()]
-        (steps,) = {len(one) for one in arrays.values()}
-        for k in range(steps):
-            for name, address, size in first:
-                setattr(self._fields, name, address + k * size)
-            yield
 
     def zeros(self, shapes: Mapping[str, tuple[int, ...]], kind: type = np.float64) -> None:
         """Give some fields arrays of zeros, of 8 bytes a number, in one block of memory."""

@@ -29,7 +29,6 @@ from quasistatic_ref import (
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
-from quasistatic_ref.optional.fast.compiled.onward import FollowingResult
 from tests.helpers import always_in_blocks, error, residuals_of
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 from tests.optional.fast.compiled.test_fast_pairs import SHAPES
@@ -179,24 +178,24 @@ def some(make, own):
 OFF = {"certify": "off"}
 OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
 KINDS = {
-    **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}, True) for cone in CONES},
-    "no contacts": (bodies, (), {}, True),
-    "one body": (some(bodies, slice(1)), KNOWN, {}, True),
-    "40 boxes": (boxes, KNOWN[:1], {}, True),
-    "40 boxes of which nothing is claimed": (boxes, KNOWN[:1], OFF, False),
-    "nothing claimed": (bodies, KNOWN, OFF, True),
-    "residuals": (bodies, KNOWN, {"certify": "residual"}, False),
-    "the ellipsoid": (bodies, KNOWN, {"cone": "ellipsoid"}, False),
-    "Coulomb's law": (bodies, KNOWN, {"law": "coulomb"}, False),
-    "own rows": (bodies, KNOWN, OWN, False),
-    "another backend": (bodies, KNOWN, {"backend": "clarabel"}, False),
-    "no backend": (bodies, KNOWN, {"backend": "none"}, False),
-    "in blocks": (some(bodies, slice(1, 4)), KNOWN, {"backend": "piqp"}, False),
-    "a joint that C does not know": (with_a_ball, KNOWN, {}, False),
-    "a mass that varies": (some(chain_scene, slice(2)), KNOWN, {}, False),
-    "shapes that C does not know": (bodies, ("cone", "box", "ellipsoid"), {}, False),
+    **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}) for cone in CONES},
+    "no contacts": (bodies, (), {}),
+    "one body": (some(bodies, slice(1)), KNOWN, {}),
+    "40 boxes": (boxes, KNOWN[:1], {}),
+    "40 boxes of which nothing is claimed": (boxes, KNOWN[:1], OFF),
+    "nothing claimed": (bodies, KNOWN, OFF),
+    "residuals": (bodies, KNOWN, {"certify": "residual"}),
+    "the ellipsoid": (bodies, KNOWN, {"cone": "ellipsoid"}),
+    "Coulomb's law": (bodies, KNOWN, {"law": "coulomb"}),
+    "own rows": (bodies, KNOWN, OWN),
+    "another backend": (bodies, KNOWN, {"backend": "clarabel"}),
+    "no backend": (bodies, KNOWN, {"backend": "none"}),
+    "in blocks": (some(bodies, slice(1, 4)), KNOWN, {"backend": "piqp"}),
+    "a joint that C does not know": (with_a_ball, KNOWN, {}),
+    "a mass that varies": (some(chain_scene, slice(2)), KNOWN, {}),
+    "shapes that C does not know": (bodies, ("cone", "box", "ellipsoid"), {}),
 }
-"""Bodies, shapes and settings; whether C takes all of a step."""
+"""Bodies, shapes and settings."""
 
 
 def all_of(result):
@@ -219,7 +218,7 @@ def all_of(result):
 
 def scene(kind, folder):
     """Arguments of a simulator."""
-    make, names, own, _ = KINDS[kind]
+    make, names, own = KINDS[kind]
     system = make(folder)
     pairs = touching(system, names) if names else []
     K_q = np.diag(np.arange(500.0, 500.0 + system.n_a))
@@ -257,7 +256,6 @@ def test_all_of_a_result_is_the_plain_path_s(tmp_path, monkeypatch, kind):
         assert claimed == said.get(fast.certify, one.solution.certificate.kind)
         assert fast.by_c
         assert (fast.blocks is not None) == ("boxes" in kind or "blocks" in kind)
-        assert isinstance(other, FollowingResult) == KINDS[kind][-1]
         assert differing_names(all_of(other), all_of(one)) == []
         if claimed != "exact":
             assert error(one.step, found.delta_q, one.solution.delta_q) < ACTIVE_SET
