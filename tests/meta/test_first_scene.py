@@ -9,19 +9,20 @@ from matplotlib import image
 
 from quasistatic_ref import trajectory_read
 from quasistatic_ref.cli.main import main
+from tests.pages import ROOT, downloads, shell_lines
 from tests.tolerances import CLOSED_FORM
-from validation.tools.installs import WALK, WALK_FILES, shell_lines
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """The page's files in an empty folder, and all its commands run there, in its order."""
     place = tmp_path_factory.mktemp("first_scene")
-    for name, text in WALK_FILES.items():
+    page = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
+    for name, text in downloads("first_scene").items():
         (place / name).write_text(text, "utf-8")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
-        for line in shell_lines(WALK):
+        for line in shell_lines(page):
             program, *words = shlex.split(line)
             if program == "python":
                 runpy.run_path(*words)

@@ -1,31 +1,53 @@
-"""What the README shows is what runs: its example, and its command for the tests."""
+"""What README shows is what runs: its example, its numbers, and its command for the tests."""
 
+import json
 import re
-from pathlib import Path
 
 import numpy as np
 
-from tests.quoted import printed_blocks
-from validation.tools.installs import shell_lines
+from quasistatic_ref.lab.claims.registry import BY_NAME
+from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
+from tests.pages import ROOT, flat, printed_blocks, shell_lines
 
-ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
+RESULTS = ROOT / "validation" / "results"
 
 
 def test_the_example_prints_what_the_readme_shows(capsys):
-    text = (ROOT / "README.md").read_text("utf-8")
-    (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    (example,) = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})
-    shown = [line.rsplit(maxsplit=1) for line in printed_blocks(text)[0].splitlines()]
-    found = [line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
-    assert [answer for answer, _ in found] == [answer for answer, _ in shown]
+    shown = [line.rsplit(maxsplit=1) for line in printed_blocks(README)[0].splitlines()]
+    printed = [line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    assert [answer for answer, _ in printed] == [answer for answer, _ in shown]
     # A solver's own digits depend on the instructions of the processor.
-    digits = [[int(own) for _, own in lines] for lines in (found, shown)]
+    digits = [[int(last) for _, last in lines] for lines in (printed, shown)]
     assert np.abs(np.subtract(*digits)).max() <= 1
 
 
+def test_the_numbers_of_the_readme_are_those_of_the_committed_results():
+    claims = (RESULTS / "claims.md").read_text("utf-8")
+    measured = dict(re.findall(r"^\| rotation (\w+) torsion \[deg\] \| 1 \| (\S+)", claims, re.M))
+    angles = {case: float(angle) for case, angle in measured.items()}
+    grasps = [row for row in cloud_rows() if row["count"] == 992 and row["change"] == "none"]
+    with_torsion = [row["rotation"] <= 1 for row in grasps if row["mu_omega"] > 0]
+    without = [row["rotation"] <= 1 for row in grasps if row["mu_omega"] == 0]
+    manifest = json.loads((ROOT / "validation/contact_qp_2/manifest.json").read_text("utf-8"))
+    families = manifest["families"]
+    problems = sum(family["count"] for family in families.values())
+    assert not any(without)
+    for sentence in (
+        f"the bunny turns by {angles['with']:.1f} degrees during the lift",
+        f"Without it the bunny turns by {angles['without']:.1f} degrees",
+        f"{len(without)} other point clouds of this bunny",
+        f"With torsional friction {sum(with_torsion)} of them turn by at most one degree",
+        f"Without it all {len(without)} turn by more",
+        f"{problems:,} contact problems in {len(families)} families",
+        f"tests [{len(BY_NAME)} claims]",
+    ):
+        assert sentence in flat(README)
+
+
 def test_ci_runs_the_line_for_the_tests_as_it_is_printed():
-    (line,) = (c for c in shell_lines((ROOT / "README.md").read_text("utf-8")) if "pytest" in c)
+    (line,) = (command for command in shell_lines(README) if "pytest" in command)
     pattern = re.search(r"grep -E '(.*)' README\.md", (ROOT / ".ci" / "run").read_text("utf-8"))[1]
-    found = [one for one in (ROOT / "README.md").read_text("utf-8").splitlines()
-             if re.search(pattern, one)]  # fmt: skip
-    assert found == [line]
+    assert [one for one in README.splitlines() if re.search(pattern, one)] == [line]

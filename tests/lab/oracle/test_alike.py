@@ -16,7 +16,7 @@ from quasistatic_ref.lab.oracle.run_table import OtherRun
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program, text_of_file
 from quasistatic_ref.lab.vectors.check.table import PATCHES as PATCHES_OF
 from tests.lab.oracle.test_compare import NAMES, SCENES, SIGN_OF_B, run_with
-from tests.quoted import flat
+from tests.pages import flat
 from validation.make.planted_runs import SCENES as KNOWN
 from validation.make.planted_runs import first_step, moved, q_after, scene
 from validation.make.program_changes import changes, changes_of_file

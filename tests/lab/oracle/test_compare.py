@@ -14,7 +14,7 @@ from quasistatic_ref.lab.oracle.run_table import OtherRun, positions, resolution
 from quasistatic_ref.lab.oracle.scene_case import SceneCases, states_by
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.extras import marked_parameters
-from tests.quoted import ROOT, flat, printed_blocks
+from tests.pages import ROOT, flat, printed_blocks
 
 PUSHED = "block_push"
 SIGN_OF_B = 'rows.py:\n- b.extend([-c["phi"]] * len(found))\n+ b.extend([c["phi"]] * len(found))'

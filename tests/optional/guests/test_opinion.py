@@ -11,8 +11,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
-from tests.quoted import ROOT, flat, printed_blocks
-from validation.tools.installs import WALK_FILES
+from tests.pages import ROOT, downloads, flat, printed_blocks
 
 PAGE = (ROOT / "docs/guides/does_my_contact_hold.md").read_text("utf-8")
 NOSLIP = 'impratio="10" noslip_iterations="10"'
@@ -31,12 +30,13 @@ def torsional_fingers(text):
     return text.replace('condim="3"', 'condim="4"')
 
 
+SCENES = downloads("opinion")
 GUIDE = {
-    "capsule": (WALK_FILES["capsule.xml"], 2, "grip"),
-    "mug": (WALK_FILES["mug.xml"], 0, "grip"),
-    "mug, condim 4": (torsional_fingers(WALK_FILES["mug.xml"]), 2, "grip"),
-    "mug, condim 4, weak": (torsional_fingers(WALK_FILES["mug.xml"]), 0, "grip", WEAK),
-    "block": (WALK_FILES["block.xml"], 2),
+    "capsule": (SCENES["capsule.xml"], 2, "grip"),
+    "mug": (SCENES["mug.xml"], 0, "grip"),
+    "mug, condim 4": (torsional_fingers(SCENES["mug.xml"]), 2, "grip"),
+    "mug, condim 4, weak": (torsional_fingers(SCENES["mug.xml"]), 0, "grip", WEAK),
+    "block": (SCENES["block.xml"], 2),
 }
 
 
@@ -72,7 +72,7 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
 
 def test_mujoco_creeps_as_its_documentation_says():
     """Slips are f R / b along each tangent of an elliptic contact, R with impratio in it."""
-    model = mujoco.MjModel.from_xml_string(WALK_FILES["capsule.xml"])
+    model = mujoco.MjModel.from_xml_string(SCENES["capsule.xml"])
     data = settled(model, 2, "grip")
     mujoco.mj_forward(model, data)
     force = np.zeros(6)
@@ -87,9 +87,9 @@ def test_mujoco_creeps_as_its_documentation_says():
 
 def test_options_that_are_named_end_the_creep(opinions):
     assert [one.kind for one in opinions["capsule"].findings] == ["creeps"]
-    slower = WALK_FILES["capsule.xml"].replace('impratio="1"', NOSLIP)
+    slower = SCENES["capsule.xml"].replace('impratio="1"', NOSLIP)
     assert opinion_on_settled(slower, 2, "grip").findings == ()
-    slower = torsional_fingers(WALK_FILES["mug.xml"]).replace('impratio="100"', NOSLIP)
+    slower = torsional_fingers(SCENES["mug.xml"]).replace('impratio="100"', NOSLIP)
     assert opinion_on_settled(slower, 2, "grip").findings == ()
 
 
@@ -97,7 +97,7 @@ def test_options_that_are_named_end_the_creep(opinions):
 def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal):
     """2 mu N of m g, N = kp (control - position)."""
     control = dict.fromkeys(WEAK, normal / 1000 + 0.0001)
-    opinion = opinion_on_settled(torsional_fingers(WALK_FILES["mug.xml"]), 0, "grip", control)
+    opinion = opinion_on_settled(torsional_fingers(SCENES["mug.xml"]), 0, "grip", control)
     (found,) = opinion.findings
     assert (found.kind, found.body) == ("slides", "mug")
     assert found.number == pytest.approx(2 * 0.8 * normal / (0.3 * GRAVITY), rel=0.02)
@@ -172,7 +172,7 @@ def test_what_rests_by_rolling_friction_alone_is_found():
 
 def test_the_command_prints_json_of_the_schema_draws_and_ends_with_1(tmp_path, cli):
     scene = tmp_path / "block.xml"
-    scene.write_text(WALK_FILES["block.xml"])
+    scene.write_text(SCENES["block.xml"])
     command = ["opinion", str(scene), "--settle", "0.5", "--json", "--out", str(tmp_path / "out")]
     record = json.loads(cli(*command, status=1).out)
     Draft4Validator.check_schema(opinion_schema())
@@ -204,7 +204,7 @@ def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, cli):
 
 
 def test_a_simulation_that_is_unstable_is_refused():
-    text = WALK_FILES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
+    text = SCENES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
         opinion_on_settled(text, 20, "grip")
 

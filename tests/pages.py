@@ -1,0 +1,31 @@
+"""What stands in pages of README and docs/: printed output, and commands."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES = ROOT / "docs" / "examples"
+SHELL = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def flat(text):
+    """A text in one line, single spaces."""
+    return " ".join(text.split())
+
+
+def printed_blocks(page):
+    """The fenced blocks of printed text on a page, without their indents."""
+    blocks = re.findall(r"^( *)```text\n(.*?)^\1```$", page, re.MULTILINE | re.DOTALL)
+    return [re.sub(rf"^{indent}", "", block, flags=re.MULTILINE) for indent, block in blocks]
+
+
+def shell_lines(page):
+    """Every command line in the fenced shell blocks of a page, without prompts and comments."""
+    lines = [line for block in SHELL.findall(page) for line in block.splitlines()]
+    stripped = [line.removeprefix("$ ").partition(" #")[0].strip() for line in lines]
+    return [line for line in stripped if line and not line.startswith("#")]
+
+
+def downloads(folder):
+    """Name -> text of the files in a folder of docs/examples."""
+    return {p.name: p.read_text("utf-8") for p in sorted((EXAMPLES / folder).glob("*"))}
