@@ -116,6 +116,15 @@ def fraction_solution(form: StepForm, working: Sequence[int]) -> Solution[fmpz]:
     return Solution(z, entries[n:], net, arb(denominator), EXACT)
 
 
+def in_balls(exact: Solution[fmpz]) -> Solution[arb]:
+    """A solution in fractions as balls of ``PRECISION`` bits."""
+    with ctx.workprec(PRECISION):
+        z = exact.z / exact.denominator
+        lam = [arb(v) / exact.denominator for v in exact.lam]
+        net = [v / exact.denominator for v in exact.net]
+    return Solution(z, lam, net, arb(1), PRECISION)
+
+
 class StepMinimiser:
     """The minimiser of a step, or of a group of one, under a_i x + c_i = 0 for i in W.
 
@@ -141,15 +150,17 @@ class StepMinimiser:
 
     @cached_property
     def balls(self) -> Solution[arb]:
-        """The solution in balls, at the first precision that shows the rows to be independent."""
+        """The solution in balls: by the system of forces, or from the fractions.
+
+        The inverses of blocks have a radius, so that a finer system would not help where theirs is
+        too wide to show that the rows are independent.
+        """
         if self._balls is not None:
             return self._balls
-        bits = PRECISION
-        while True:  # ends: they are
-            try:
-                return ball_solution(self.form, self.working, bits)
-            except ZeroDivisionError:
-                bits *= 2
+        try:
+            return ball_solution(self.form, self.working)
+        except ZeroDivisionError:
+            return in_balls(self.rational)
 
     @cached_property
     def rational(self) -> Solution[fmpz]:
