@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.show import Page, Row, counted, direction, number, vector
 from quasistatic_ref.optional.show.step_words import (
     CONTACT,
@@ -117,17 +118,20 @@ def trajectory_page(trajectory: Trajectory) -> Page:
     ]
     facts += [f"finding: {finding}" for finding in trajectory.findings]
     n_c = np.size(trajectory["mu_v"])
-    force = "forces" if "forces" in trajectory.arrays else "wrench"
-    shapes = {"phi": (), "n": (3,), force: (4,)}
+    shapes = {"phi": (), "n": (3,), "wrench": (4,)}
     fits = (trajectory[key].shape == (steps, n_c, *last) for key, last in shapes.items())
     if not (steps and all(fits)):  # no steps, or a file that another program wrote
         return title, facts, (), ()
     names = header["contacts"][-1] if header["contacts"] else ()
     names = names if len(names) == n_c else range(n_c)
+    try:
+        forces = trajectory.step_forces(steps - 1)
+    except InputError:  # of a light record: those of the proof
+        forces = trajectory["wrench"][-1]
     rows = [
         (str(name), number(phi), direction(n), *map(number, of_contact))
         for name, phi, n, of_contact in zip(
-            names, *(trajectory[key][-1] for key in shapes), strict=True
+            names, trajectory["phi"][-1], trajectory["n"][-1], forces, strict=True
         )
     ]
     return title, facts, ("contact, last step", *CONTACT[1:3], *FORCE[:4]), rows

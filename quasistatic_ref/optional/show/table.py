@@ -172,17 +172,22 @@ def _wide(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
 
 
 def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
-    """What is known of contacts by names of columns, shape (steps, n_c).
-
-    For wrenches, the forces where the record holds them.
-    """
+    """What is known of contacts by names of columns, shape (steps, n_c)."""
     columns = {"point": trajectory["point"]}
     arrays = {name: trajectory[name] for name in CONTACT}
-    arrays["wrench"] = trajectory.arrays.get("forces", arrays["wrench"])
+    arrays["wrench"] = _contact_wrenches(trajectory)
     for name, labels in CONTACT.items():
         entries = arrays[name].reshape(*columns["point"].shape, -1)
         columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
     return columns
+
+
+def _contact_wrenches(trajectory: "Trajectory") -> NDArray[Any]:
+    """The forces of single contacts, or, of a record that cannot form them, those of the proof."""
+    try:
+        return trajectory.forces
+    except InputError:
+        return trajectory["wrench"]
 
 
 def _positions(trajectory: "Trajectory") -> list[str]:

@@ -17,7 +17,6 @@ BAD = {
     "an unknown scenario": ('problems.scenarios = ["bunny"]', "did you mean 'bunny_grasp'?"),
     "an unknown solver": ('[[runs]]\nsolvers = ["qpsolvers:dapq"]', "did you mean 'daqp'?"),
     "an unknown interface": ('[[runs]]\nsolvers = ["a:daqp"]', "runs[0].solvers: holds no solver"),
-    "a key of very many parts": (f"{'a.' * 40_000}b = 1", "holds a key of more than 32 parts"),
     "an unknown setting": (RUN + 'settings = ["hihg"]', "did you mean 'high'?"),
     "options of no setting": (MINE + "options.higher.a = 1", "solvers.mine.options.higher"),
     "a promise of no setting": (MINE + "promised.higher = 3.0", "solvers.mine.promised.higher"),
