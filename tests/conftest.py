@@ -23,15 +23,7 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 def pytest_configure(config):
     """Declare the marker of tests that need an extra."""
-    os.environ.pop("PYTEST_ADDOPTS", None)  # of this run, not of those that tests start
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
-
-
-def pytest_addoption(parser):
-    """``--left-out FILE``: what is skipped, an id a line, for a run with every extra."""
-    parser.addoption(
-        "--left-out", type=Path, metavar="FILE", help="write the ids of what is skipped"
-    )
 
 
 def pytest_collection_modifyitems(items):
@@ -40,13 +32,6 @@ def pytest_collection_modifyitems(items):
         for mark in item.iter_markers("extra"):
             if is_missing(*mark.args):
                 item.add_marker(pytest.mark.skip(reason=reason(*mark.args)))
-
-
-def pytest_terminal_summary(terminalreporter, config):
-    """Write what ``--left-out`` asks for."""
-    if (file := config.getoption("left_out")) is not None:
-        skipped = [report.nodeid for report in terminalreporter.stats.get("skipped", ())]
-        file.write_text("".join(f"{name}\n" for name in sorted(skipped)))
 
 
 @pytest.hookimpl(wrapper=True)
