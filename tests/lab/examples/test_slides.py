@@ -1,4 +1,4 @@
-"""Slides of the two lectures: what stands on them is in the course, and can be read."""
+"""Slides of the two lectures: what stands on them is in the course."""
 
 import re
 from pathlib import Path
@@ -7,12 +7,11 @@ import pytest
 
 from quasistatic_ref.lab.examples.gallery import EXAMPLES
 from validation.tools import slides
-from validation.tools.restyled import FIGURES
 
 COURSE = Path(__file__).parents[3] / "docs" / "course"
 DECIMAL = re.compile(r"\d+\.\d+")
 QUICK = ("contact_geometry",)
-"""A figure that takes no time; `python -m validation.tools.slides` draws and reads all."""
+"""A figure that takes no time; `python -m validation.tools.slides` draws all."""
 
 
 def first_slides(name):
@@ -27,7 +26,7 @@ def test_slides_are_shown_in_order_in_75_minutes_and_their_figures_exist(name):
     assert minutes == sorted(set(minutes))
     assert minutes[-1] < 75
     figures = [slide["figure"] for slide in shown if "figure" in slide]
-    assert set(figures) <= {*EXAMPLES, *FIGURES}
+    assert set(figures) <= {*EXAMPLES, *slides.DRAWINGS}
     assert len(figures) >= 5
 
 
@@ -41,15 +40,9 @@ def test_every_decimal_number_of_a_slide_stands_in_the_course(name):
 
 
 @pytest.mark.parametrize("name", slides.SETS)
-def test_slides_are_legible_and_one_page_each_of_a_pdf(name, tmp_path, monkeypatch):
+def test_slides_are_one_page_each_of_a_pdf(name, tmp_path, monkeypatch):
     shown = first_slides(name)
     monkeypatch.setattr(slides, "slides", lambda name: shown)
-    assert slides.write_slides(name, tmp_path) == []
+    slides.write_slides(name, tmp_path)
     content = (tmp_path / f"lecture_{name}.pdf").read_bytes()
     assert content.count(b"/MediaBox") == len(shown)
-
-
-def test_what_reaches_out_of_a_slide_is_said(tmp_path, monkeypatch):
-    wide = {"title": "Wide", "minute": 0, "text": [r"$" + r"\lambda + " * 40 + r"\lambda$"]}
-    monkeypatch.setattr(slides, "slides", lambda name: [wide])
-    assert any("pixels across" in fault for fault in slides.write_slides("a", tmp_path))

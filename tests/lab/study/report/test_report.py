@@ -8,11 +8,9 @@ from zlib import crc32
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.figures.study import profile
-from quasistatic_ref.lab.figures.study_images import KINDS, figure_of
 from quasistatic_ref.lab.page.html import html_page, sorting_script
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Code, Report, Section, Table
@@ -28,7 +26,6 @@ from quasistatic_ref.lab.study.report.statistics import (
 from quasistatic_ref.lab.study.store.store import Store, contents
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import agrees, digits_delivered, quantile, rows_named
-from tests.legible import faults
 
 
 def test_every_number_of_a_column_of_counts_is_that_of_the_rows(tables, rows):
@@ -286,16 +283,6 @@ def test_the_html_page_shows_the_same_tables_without_network(report, tables):
     assert not re.search("fetch|import|XMLHttp|http|eval|innerHTML", sorting_script())
     links = re.findall(r'(?:src|href)="(.*?)"', text)
     assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in links)
-
-
-def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):
-    (tmp_path / TABLE).write_text(made_store.SWEEP)
-    every = (*report.pictures, *study_report(tmp_path).pictures)
-    assert [picture.kind for picture in every] == list(KINDS)
-    for picture in every:
-        figure = figure_of(picture.kind, picture.data)
-        assert faults(figure) == []
-        plt.close(figure)
 
 
 def test_a_sweep_is_reported_run_by_run_and_drawn_where_it_was_done(tmp_path):
