@@ -1,0 +1,118 @@
+"""The checker for sceptics, against files that are right, files with one fault, and `verify`."""
+
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import Extra, StepInfeasible, load_scenario, solve_step
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
+from quasistatic_ref.lab.vectors.files import inputs_read
+from quasistatic_ref.lab.vectors.own.step import posed_case
+from quasistatic_ref.step.files import step_text
+from tests.oracles.forged_scenes import scenes
+from tests.oracles.forgeries import good_file
+from tests.oracles.random_steps import mixed_step
+from tests.oracles.records import with_value
+from tests.oracles.single_faults import single_faults
+from validation import check_solution as checker
+from validation.tools.scripts import ROOT
+
+CHECKER = ROOT / "validation" / "check_solution.py"
+ORDER = "active names independent rows, in order"
+CONES = ("pyramid", "product", "facets-6", "facets-32", "frictionless")
+
+
+@pytest.fixture
+def said(tmp_path, capsys):
+    """The exit status and the last line of the checker for two texts."""
+
+    def status_and_line(step, solution):
+        paths = tmp_path / "step.json", tmp_path / "solution.json"
+        paths[0].write_text(step)
+        paths[1].write_text(solution)
+        status = checker.main(*map(str, paths))
+        return status, capsys.readouterr().out.splitlines()[-1]
+
+    return status_and_line
+
+
+def solved_text(step):
+    try:
+        return solution_text(solve_step(step))
+    except StepInfeasible as proof:
+        return infeasible_text(step, proof.farkas.exact)
+
+
+def test_it_is_short_and_imports_the_standard_library_alone():
+    lines = CHECKER.read_text().splitlines()
+    imported = {line for line in lines if line.startswith(("import ", "from "))}
+    allowed = {"import hashlib", "import json", "import sys", "from fractions import Fraction"}
+    assert len(lines) <= 250
+    assert imported == allowed
+
+
+def test_right_answers_of_scenes_hold(said):
+    names = ("bunny_grasp", "two_finger_pinch", "planar_push", "sphere_spin")
+    for name in names:
+        step = load_scenario(name, ["steps=2"], fast=True).run(progress=False).step_data(1)
+        assert said(step_text(step), solved_text(step))[0] == 0, name
+
+
+def test_right_answers_of_the_vectors_hold(said):
+    cases = inputs_read(ROOT / "validation" / "vectors", "step")
+    steps = [posed_case(case.input).step for case in list(cases)[::8]]
+    polyhedral = [step for step in steps if step.cone != "ellipsoid"]
+    assert len(polyhedral) > 5
+    for step in polyhedral:
+        assert said(step_text(step), solved_text(step))[0] == 0
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_degenerate_steps_hold_in_each_cone_and_a_last_bit_does_not(said, seed):
+    step = mixed_step(seed).replace(cone=CONES[seed % len(CONES)])
+    if seed % 3 == 0:
+        A = np.random.default_rng(seed).standard_normal((2, step.n_v))
+        A[1] = -A[0]
+        step = step.replace(extra=Extra(("a", "b"), A, np.zeros(2)))
+    text, right = step_text(step), solved_text(step)
+    assert said(text, right)[0] == 0
+    record = json.loads(right)
+    if record["status"] == "optimal":
+        moved = with_value(record, ("delta_q", 0), float(np.nextafter(record["delta_q"][0], 1.0)))
+        assert said(text, json.dumps(moved)) == (1, "Eq. (9), delta_q: FAILS")
+
+
+def test_each_equation_is_named(said):
+    of = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
+    sticks = of["sticks, six rows of rank four"]
+    text, good = step_text(sticks), good_file(sticks, "exact")
+    j, i = good["certificate"]["active"][0]
+    idle = next(k for k in range(4) if [0, k] not in good["certificate"]["active"])
+    for where, value, line in (
+        (("lam", j, i), 2 * good["lam"][j][i], "Eq. (9), lam: FAILS"),
+        (("lam", 0, idle), 1e-9, "Eq. (12), zero elsewhere: FAILS"),
+        (("wrench", 0, 0), 1e9, "wrench: FAILS"),
+        (("certificate", "error_bound"), 1e-9, "certificate: FAILS"),
+        (("certificate", "active"), [[0, 3], [0, 2]], f"{ORDER}: FAILS"),
+        (("step_sha256",), "0" * 64, "of this step: FAILS"),
+    ):  # fmt: skip
+        assert said(text, json.dumps(with_value(good, where, value))) == (1, line)
+
+
+def test_a_single_fault_is_never_accepted_and_signs_are_of_their_equation(said):
+    lines = {
+        "the minimiser on the rows of active violates a row": "Eq. (10): FAILS",
+        "a multiplier on the rows of active is not positive": "Eq. (11), positive on active: FAILS",
+    }
+    met = set()
+    for step, solution, reason in single_faults():
+        status, line = said(step, solution)
+        ellipsoid = '"ellipsoid"' in step
+        assert (
+            status == (2 if ellipsoid else 0) if reason == "every field is proved" else status > 0
+        )
+        if reason in lines and not ellipsoid:
+            assert line == lines[reason]
+            met.add(reason)
+    assert met == set(lines)

@@ -1,0 +1,250 @@
+"""Which of Eqs. (9)-(12) holds for a step and its solution, decided without any rounding.
+
+Run ``python check_solution.py STEP.json SOLUTION.json``. This one file needs Python alone, and
+shares no code with the package whose answers it judges. Exit status: 0 if everything holds, 1 if
+something fails, 2 if a file cannot be read, or cannot be judged here.
+
+All numbers of the files are float64, hence fractions, and fractions they stay. A step is the
+problem  min 1/2 x'Hx - g'x  subject to  A x >= b,  where x is delta_q. A solution names rows W, its
+``active``. Eq. (9) and A_W x = b_W are one linear system, which determines x and lam. The file is
+right if these satisfy Eqs. (10)-(12), and if its numbers are theirs, rounded once. Not judged are
+multipliers_unique and differentiable where a row touches that bears nothing, and how a file looks.
+"""
+
+import hashlib
+import json
+import sys
+from fractions import Fraction
+
+SQUARE = ((1, 0), (0, 1), (-1, 0), (0, -1))
+PI = 314159265358979323846264338327950288419716939937510582097494  # times 10^59
+ONE = 2**256  # the unit of sums in fixed point
+
+
+def need(condition, sentence):
+    """Stop with a sentence where a file holds what cannot be judged here."""
+    if not condition:
+        raise ValueError(sentence)
+
+
+def array(record, name, *shape):
+    """The field `name`: a finite float64, or nested lists of them; -0.0 counts as 0.0."""
+    value = record[name]
+    if shape:
+        need(
+            isinstance(value, list) and len(value) == shape[0], f"{name} has not {shape[0]} entries"
+        )
+        return [array({name: entry}, name, *shape[1:]) for entry in value]
+    finite = type(value) in (int, float) and abs(value) <= sys.float_info.max
+    need(finite, f"{name} is no finite number: {value!r}")
+    return float(value) + 0.0
+
+
+def step_read(record):
+    """The step, with its fields in the order in which they are hashed."""
+    kind = record["format"], record["version"]
+    need(kind == ("quasistatic-ref/step", 1), "the step is not of this format and version")
+    n_a, n_u = record["n_a"], record["n_u"]
+    shapes = {"K_q": (n_a, n_a), "M_u": (n_u, n_u)}
+    shapes |= {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)}
+    step = {"format": kind[0], "version": 1, "cone": record.get("cone", "pyramid")}
+    step |= {"h": array(record, "h"), "n_a": n_a, "n_u": n_u}
+    step |= {name: array(record, name, *shape) for name, shape in shapes.items()}
+    for name in ("K_q", "M_u"):  # the lower triangle counts
+        n = range(len(S := step[name]))
+        step[name] = [[S[max(i, j)][min(i, j)] for j in n] for i in n]
+        need(definite(fractions(step[name])), f"{name} is not positive definite")
+    need(step["h"] > 0, "h is not positive")
+    step["contacts"] = [contact_read(contact, n_a + n_u) for contact in record["contacts"]]
+    extra = record.get("extra", {"names": []})
+    if m := len(extra["names"]):
+        rows = {"A": array(extra, "A", m, n_a + n_u), "b": array(extra, "b", m)}
+        step["extra"] = {"names": extra["names"], **rows}
+    return step
+
+
+def contact_read(record, n_v):
+    """A contact, with its fields in the order in which they are hashed."""
+    shapes = {
+        "phi": (),
+        "n": (3,),
+        "d1": (3,),
+        "d2": (3,),
+        "J": (4, n_v),
+        "mu_v": (),
+        "mu_omega": (),
+    }
+    numbers = {name: array(record, name, *shape) for name, shape in shapes.items()}
+    need(record["rows"] in (4, 6), "rows is neither 4 nor 6")
+    return {"name": record["name"], **numbers, "rows": record["rows"]}
+
+
+def fractions(values):
+    """A number, or each in nested lists, as a fraction."""
+    return [fractions(v) for v in values] if isinstance(values, list) else Fraction(values)
+
+
+def rounded(x):
+    """The float64 nearest to a fraction, ties to even."""
+    try:
+        return x.numerator / x.denominator + 0.0
+    except OverflowError:
+        return float("inf") if x > 0 else float("-inf")
+
+
+def dot(u, v):
+    """The scalar product u'v."""
+    return sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+
+
+def along(M, v):
+    """The product M v."""
+    return [dot(row, v) for row in M]
+
+
+def definite(S):
+    """Whether a symmetric matrix is positive definite: all pivots of elimination are positive."""
+    while S and S[0][0] > 0:
+        first, *rest = S
+        S = [
+            [v - row[0] / first[0] * w for v, w in zip(row[1:], first[1:], strict=True)]
+            for row in rest
+        ]
+    return not S
+
+
+def solved(M, right):
+    """The solution of M x = right by elimination; None if M is singular."""
+    rows = [[*row, v] for row, v in zip(M, right, strict=True)]
+    for k in range(len(rows)):
+        i = next((i for i in range(k, len(rows)) if rows[i][k]), None)
+        if i is None:
+            return None
+        rows[k], rows[i] = [v / rows[i][k] for v in rows[i]], rows[k]
+        for i, row in enumerate(rows):
+            if i != k and row[k]:
+                rows[i] = [v - row[k] * w for v, w in zip(row, rows[k], strict=True)]
+    return [row[-1] for row in rows]
+
+
+def turn(k, K):
+    """The float64 numbers nearest to cos and sin of k/K of a turn, by their series."""
+    angle = 2 * PI * ONE * k // (K * 10**59)
+    term, sums = ONE, [0, 0, 0, 0]
+    for i in range(100):
+        sums[i % 4] += term
+        term = term * angle // (ONE * (i + 1))
+    both = (sums[0] - sums[2], sums[1] - sums[3])
+    return [rounded(Fraction(v, ONE)) if abs(v) > 2**128 else 0.0 for v in both]
+
+
+def cone_rows(cone, rows):
+    """(1, p, q, r) of each row J_n + p mu_v J_1 + q mu_v J_2 + r mu_omega J_w of a contact."""
+    K = next((K for K in range(4, 1025, 2) if cone == f"facets-{K}"), None)
+    need(cone != "ellipsoid", "the cone is the ellipsoid, and only cones with rows are judged here")
+    need(K or cone in ("pyramid", "product", "frictionless"), f"the cone {cone!r} is unknown")
+    sides = [turn(k, K) for k in range(K)] if K else SQUARE
+    spins = (1, -1) if rows == 6 else ()
+    if cone == "frictionless":
+        return [[1, 0, 0, 0]]
+    if cone == "product":
+        return [[1, *side, spin] for spin in spins or (0,) for side in sides]
+    return [[1, *side, 0] for side in sides] + [[1, 0, 0, spin] for spin in spins]  # Eqs. (5)-(7)
+
+
+def problem(step):
+    """H, g, A and b of Eqs. (13) and (8), and of each contact its rows' (1, p, q, r), times mu."""
+    h, n_a, n_u = fractions(step["h"]), step["n_a"], step["n_u"]
+    K_q, M_u = fractions(step["K_q"]), fractions(step["M_u"])
+    H = [[h * v for v in row] + [Fraction(0)] * n_u for row in K_q]
+    H += [[Fraction(0)] * n_a + [v / h for v in row] for row in M_u]
+    tau_k = along(K_q, fractions(step["delta_q_bar_a"]))  # Eq. (1)
+    tau_a = [v + w for v, w in zip(tau_k, fractions(step["tau_a"]), strict=True)]
+    g = [h * tau for tau in tau_a + fractions(step["tau_u"])]
+    A, b, weights = [], [], []
+    for contact in step["contacts"]:
+        J = list(zip(*fractions(contact["J"]), strict=True))  # its columns
+        axes = [fractions(contact[axis]) for axis in ("n", "d1", "d2")]
+        in_frame = [[*along(axes, column[:3]), column[3]] for column in J]  # (J_n, J_1, J_2, J_w)
+        mu = fractions([1, contact["mu_v"], contact["mu_v"], contact["mu_omega"]])
+        rows = fractions(cone_rows(step["cone"], contact["rows"]))
+        weights.append([[m * v for m, v in zip(mu, row, strict=True)] for row in rows])
+        A += [along(in_frame, row) for row in weights[-1]]  # Eq. (8)
+        b += [-fractions(contact["phi"])] * len(rows)
+    extra = step.get("extra", {"A": [], "b": []})
+    return H, g, A + fractions(extra["A"]), b + fractions(extra["b"]), weights
+
+
+def infeasible(A, b, y):
+    """Whether y proves that no x has A x >= b: y >= 0, A'y = 0 and b'y > 0."""
+    need(all(set(v) <= set("0123456789/") for v in y), "farkas has no fractions, or negative ones")
+    y = fractions(y)
+    balance = [dot(column, y) for column in zip(*A, strict=True)]
+    return not any(balance) and dot(b, y) > 0
+
+
+def wrench(rows, lam, h):
+    """(f_d1, f_d2, f_n, tau_n) of a contact from the multipliers of its rows."""
+    f_n, f_1, f_2, tau = (rounded(dot(column, lam) / h) for column in zip(*rows, strict=True))
+    return [f_1, f_2, f_n, tau]
+
+
+def verdicts(step, solution):
+    """Each claim of a solution, and whether it holds."""
+    text = json.dumps(step, ensure_ascii=False) + "\n"
+    same = solution["step_sha256"] == hashlib.sha256(text.encode()).hexdigest()
+    yield "of this step", same and solution["cone"] == step["cone"]
+    H, g, A, b, weights = problem(step)
+    if solution["status"] == "infeasible":
+        yield "Eq. (10) has no solution", infeasible(A, b, solution["farkas"])
+        return
+    claims = solution["certificate"]
+    judged = (solution["version"], solution["status"], claims["kind"]) == (2, "optimal", "exact")
+    need(judged, "only solutions of version 2 with certificates of kind exact are judged here")
+    counts = [len(rows) for rows in weights] + [len(A) - sum(map(len, weights))]
+    W = [sum(counts[:j]) + i for j, i in claims["active"] if 0 <= i < counts[j] and j >= 0]
+    x_lam = solved(
+        [row + [-A[w][i] for w in W] for i, row in enumerate(H)]  # Eq. (9): H x - A_W'lam = g
+        + [A[w] + [Fraction(0)] * len(W) for w in W],  # Eq. (12): A_W x = b_W
+        g + [b[w] for w in W],
+    )
+    ordered = len(W) == len(claims["active"]) and sorted(set(W)) == W
+    yield "active names independent rows, in order", ordered and x_lam is not None
+    x, lam_W = x_lam[: len(H)], x_lam[len(H) :]
+    slack = [v - w for v, w in zip(along(A, x), b, strict=True)]
+    lam = [array({"lam": c}, "lam", k) for c, k in zip(solution["lam"], counts[:-1], strict=True)]
+    every = [v for c in lam for v in c] + array(solution, "lam_extra", counts[-1])
+    right, idle = [rounded(v) for v in lam_W], [i for i in range(len(A)) if i not in W]
+    yield "Eq. (9), delta_q", array(solution, "delta_q", len(H)) == [rounded(v) for v in x]
+    yield "Eq. (9), lam", [every[w] for w in W] == right
+    yield "Eq. (10)", all(v >= 0 for v in slack)
+    yield "Eq. (11), positive on active", all(v > 0 for v in lam_W)
+    yield "Eq. (12), zero elsewhere", not any(every[i] for i in idle)
+    forces = [wrench(*c, Fraction(step["h"])) for c in zip(weights, fractions(lam), strict=True)]
+    yield "wrench", array(solution, "wrench", len(weights), 4) == forces
+    flags = claims["multipliers_unique"], claims["differentiable"]
+    true = flags == (True, True) or any(slack[i] == 0 for i in idle)  # where flags are not judged
+    least = min((rounded(v) for v in slack if v), default=None) if flags[1] else 0.0
+    numbers = least, min(right, default=None), 0.0
+    names = "smallest_inactive_slack", "smallest_active_multiplier", "error_bound"
+    yield "certificate", true and numbers == tuple(claims[name] for name in names)
+
+
+def main(step_path, solution_path):
+    """Print what holds, up to the first claim that does not; the exit status."""
+    sys.set_int_max_str_digits(0)  # the fractions of a Farkas vector may be long
+    try:
+        with open(step_path, "rb") as step, open(solution_path, "rb") as solution:
+            claims = verdicts(step_read(json.load(step)), json.load(solution))
+        for claim, holds in claims:
+            print(f"{claim}: {'holds' if holds else 'FAILS'}")
+            if not holds:
+                return 1
+    except (ArithmeticError, LookupError, OSError, RecursionError, TypeError, ValueError) as error:
+        print(f"cannot be judged: {type(error).__name__}, {error}")
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:3]))
