@@ -31,9 +31,8 @@ def array(record, name, *shape):
     """The field `name`: a finite float64, or nested lists of them; -0.0 counts as 0.0."""
     value = record[name]
     if shape:
-        need(
-            isinstance(value, list) and len(value) == shape[0], f"{name} has not {shape[0]} entries"
-        )
+        right = isinstance(value, list) and len(value) == shape[0]
+        need(right, f"{name} has not {shape[0]} entries")
         return [array({name: entry}, name, *shape[1:]) for entry in value]
     finite = type(value) in (int, float) and abs(value) <= sys.float_info.max
     need(finite, f"{name} is no finite number: {value!r}")
@@ -43,11 +42,11 @@ def array(record, name, *shape):
 def step_read(record):
     """The step, with its fields in the order in which they are hashed."""
     kind = record["format"], record["version"]
-    need(kind == ("quasistatic-ref/step", 1), "the step is not of this format and version")
+    need(kind == ("quasistatic-ref/step", 1), "the step is not of version 1")
     n_a, n_u = record["n_a"], record["n_u"]
     shapes = {"K_q": (n_a, n_a), "M_u": (n_u, n_u)}
     shapes |= {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)}
-    step = {"format": kind[0], "version": 1, "cone": record.get("cone", "pyramid")}
+    step = {"format": "quasistatic-ref/step", "version": 1, "cone": record.get("cone", "pyramid")}
     step |= {"h": array(record, "h"), "n_a": n_a, "n_u": n_u}
     step |= {name: array(record, name, *shape) for name, shape in shapes.items()}
     for name in ("K_q", "M_u"):  # the lower triangle counts
@@ -65,15 +64,8 @@ def step_read(record):
 
 def contact_read(record, n_v):
     """A contact, with its fields in the order in which they are hashed."""
-    shapes = {
-        "phi": (),
-        "n": (3,),
-        "d1": (3,),
-        "d2": (3,),
-        "J": (4, n_v),
-        "mu_v": (),
-        "mu_omega": (),
-    }
+    shapes = {"phi": (), "n": (3,), "d1": (3,), "d2": (3,), "J": (4, n_v), "mu_v": ()}
+    shapes["mu_omega"] = ()
     numbers = {name: array(record, name, *shape) for name, shape in shapes.items()}
     need(record["rows"] in (4, 6), "rows is neither 4 nor 6")
     return {"name": record["name"], **numbers, "rows": record["rows"]}
@@ -120,7 +112,8 @@ def solved(M, right):
         i = next((i for i in range(k, len(rows)) if rows[i][k]), None)
         if i is None:
             return None
-        rows[k], rows[i] = [v / rows[i][k] for v in rows[i]], rows[k]
+        rows.insert(k, rows.pop(i))
+        rows[k] = [v / rows[k][k] for v in rows[k]]
         for i, row in enumerate(rows):
             if i != k and row[k]:
                 rows[i] = [v - row[k] * w for v, w in zip(row, rows[k], strict=True)]
@@ -223,11 +216,11 @@ def verdicts(step, solution):
     forces = [wrench(*c, Fraction(step["h"])) for c in zip(weights, fractions(lam), strict=True)]
     yield "wrench", array(solution, "wrench", len(weights), 4) == forces
     flags = claims["multipliers_unique"], claims["differentiable"]
-    true = flags == (True, True) or any(slack[i] == 0 for i in idle)  # where flags are not judged
+    true = flags == (True, True) or any(slack[i] == 0 for i in idle)  # then flags are not judged
     least = min((rounded(v) for v in slack if v), default=None) if flags[1] else 0.0
-    numbers = least, min(right, default=None), 0.0
-    names = "smallest_inactive_slack", "smallest_active_multiplier", "error_bound"
-    yield "certificate", true and numbers == tuple(claims[name] for name in names)
+    true &= claims["smallest_inactive_slack"] == least and claims["error_bound"] == 0.0
+    true &= claims["smallest_active_multiplier"] == min(right, default=None)
+    yield "certificate", true
 
 
 def main(step_path, solution_path):
