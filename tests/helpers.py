@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from quasistatic_ref import Contacts, StepData, standard_form
+from quasistatic_ref import Contacts, InputError, StepData, standard_form, step_read
 from quasistatic_ref.certify.residuals import optimality_residuals
+from quasistatic_ref.cli.solution_files import solution_read
+from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
@@ -191,6 +193,18 @@ def error(step, delta_q, truth):
     free = free_displacement(step)
     gap = np.asarray(delta_q) - np.asarray(truth)
     return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
+
+
+def verify_refusal(folder, step, solution):
+    """Why the command `verify` refuses two texts, as files of a folder; None where it does not."""
+    paths = folder / "step.json", folder / "solution.json"
+    for path, text in zip(paths, (step, solution), strict=True):
+        path.write_text(text)
+    try:
+        posed = step_read(paths[0])
+        return refutation(posed, solution_read(paths[1], posed))
+    except InputError as error:
+        return str(error)
 
 
 def one_sentence(errors):

@@ -1,9 +1,9 @@
-"""`verify` of the package on the files with one fault that the second checker is tried on."""
+"""`verify` on files with one fault."""
 
 import pytest
 
+from tests.helpers import verify_refusal
 from tests.oracles.single_faults import PROVED, single_faults
-from validation.tools.verifier_files import verify_refusal
 
 FAULTS = list(single_faults())
 

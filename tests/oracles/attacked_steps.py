@@ -1,19 +1,23 @@
-"""Steps that validation/make/attacks.py tries: ordinary ones, and those of strange numbers."""
+"""Steps of ordinary and of strange numbers; matrices that are nearly singular."""
 
 import random
 from dataclasses import replace
+from fractions import Fraction
 from itertools import count
 
 import numpy as np
 
 from quasistatic_ref import Contacts, InputError
 from tests.oracles.random_steps import any_step, mixed_step
+from tests.oracles.rational_kkt import exact
 
 CONES = "pyramid", "product", "frictionless"
 FAMILIES = "ordinary", "all scales", "subnormal loads", "tiny or huge weights", "nearly singular"
 
 SCALES = 12.0
 """Largest power of ten by which a number of a step is multiplied."""
+SHARE = Fraction(1e-14)
+"""Of its diagonal entry, what a pivot of a positive definite matrix has to be above."""
 
 
 def hostile_step(rng):
@@ -105,3 +109,17 @@ def singular(rng, n, share=None):
         unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else 2.0**-520
         S = S * unit * np.reshape(unit, (-1, 1)) if np.ndim(unit) else S * unit * unit
     return np.tril(S) + np.tril(S, -1).T
+
+
+def positive_definite(S):
+    """Whether all pivots are above their share of the diagonal, in fractions."""
+    rest = exact(S)
+    diagonal = [row[i] for i, row in enumerate(rest)]
+    for k, entry in enumerate(diagonal):
+        pivot = rest[k]
+        if pivot[k] <= 0 or pivot[k] <= SHARE * entry:
+            return False
+        for i in range(k + 1, len(rest)):
+            factor = rest[i][k] / pivot[k]
+            rest[i] = [v - factor * w for v, w in zip(rest[i], pivot, strict=True)]
+    return True

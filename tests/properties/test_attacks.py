@@ -1,40 +1,127 @@
-"""A sample of validation/make/attacks.py, and planted faults that it finds."""
+"""Solution files of strange steps, against optima in fractions.
 
+The package's exact method names a working set, on which the optimum is proved and rounded here.
+"""
+
+import json
 from fractions import Fraction
+from itertools import cycle, islice, pairwise
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import solve_step
+from quasistatic_ref import InputError, QuasistaticError, StepInfeasible, solve_step, step_read
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import solver as fast_solvers
 from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
-from validation.make.attacks import Attack, bounds, exact_answers, matrices
-from validation.tools.verifier_files import verify_refusal
+from tests.helpers import verify_refusal
+from tests.oracles.attacked_steps import positive_definite, singular, steps
+from tests.oracles.random_steps import any_step
+from tests.oracles.rational_kkt import exact, proved_optimum
+from tests.oracles.solution_truth import (
+    Judge,
+    combinations,
+    nearest_float,
+    program,
+    proof,
+    wrenches,
+)
+
+FAMILIES = ("all scales", "subnormal loads", "nearly singular")
+BACKENDS = ("daqp", "clarabel", "osqp", "piqp", "quadprog")
 
 
-@pytest.fixture
-def attack(tmp_path):
-    return Attack("sample", tmp_path)
+def solution_file(step, backend, certify):
+    """The solution file of a step; None where a sentence takes its place."""
+    try:
+        return solution_text(solve_step(step, backend, certify=certify))
+    except StepInfeasible as error:
+        return infeasible_text(step, error.farkas.exact)
+    except QuasistaticError:
+        return None
 
 
-@pytest.mark.parametrize("family", ["all scales", "subnormal loads", "nearly singular"])
-def test_nothing_is_wrong_in_a_sample(attack, family):
-    exact_answers(attack, family, 2)
-    bounds(attack, family, 2)
-    assert attack.wrong == []
-    assert attack.counts["bounded"] == 2
+def right_file(step, record):
+    """What of an exact solution file fractions decide, from the working set that it names."""
+    starts = np.cumsum([0, *map(len, combinations(step))]).tolist()
+    working = [starts[j] + i for j, i in record["certificate"]["active"]]
+    problem = program(step)
+    x, lam_w, slack = proved_optimum(problem, working)
+    lam = [0.0] * len(problem[3])
+    for i, value in zip(working, lam_w, strict=True):
+        lam[i] = nearest_float(value)
+    by_contact = [lam[a:b] for a, b in pairwise(starts)]
+    known = {"smallest_active_multiplier": min(map(nearest_float, lam_w), default=None)}
+    if record["certificate"]["differentiable"]:
+        positive = [nearest_float(s) for s in slack if s]
+        known["smallest_inactive_slack"] = min(positive, default=None)
+    return record | {
+        "delta_q": [*map(nearest_float, x)],
+        "lam": by_contact,
+        "lam_extra": lam[starts[-1] :],
+        "wrench": wrenches(step, by_contact),
+        "certificate": record["certificate"] | known | {"error_bound": 0.0},
+    }
 
 
-def test_no_nearly_singular_matrix_is_judged_wrongly(attack):
-    matrices(attack, "M_u", 6)
-    assert attack.wrong == []
-    assert min(attack.counts["accepted"], attack.counts["refused"]) > 0
+@pytest.mark.parametrize("family", FAMILIES)
+def test_an_exact_answer_is_that_of_fractions_and_verified(family, tmp_path):
+    files = ((step, solution_file(step, "none", "full")) for step in steps(family, 0))
+    for step, text in islice(((s, t) for s, t in files if t is not None), 2):
+        record = json.loads(text)
+        if record["status"] == "infeasible":
+            assert proof(step, exact(record["farkas"]))
+        else:
+            assert json.dumps(right_file(step, record)) == json.dumps(record)  # -0.0 is not 0.0
+        assert verify_refusal(tmp_path, step_text(step), text) is None
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_bound_holds_and_is_verified(family, tmp_path):
+    checked = 0
+    for backend, step in islice(zip(cycle(BACKENDS), steps(family, 0), strict=False), 50):
+        text = solution_file(step, backend, "residual")
+        record = json.loads(text or "{}")
+        bound = record.get("certificate", {}).get("error_bound")
+        if bound is None or record["status"] != "optimal":
+            continue
+        judge = Judge(step, record)
+        square = judge.off(record) + 2 * judge.gap(record) / judge.free
+        assert 0 <= bound <= 1
+        assert square <= Fraction(bound) ** 2
+        assert record["wrench"] == wrenches(step, record["lam"])
+        assert verify_refusal(tmp_path, step_text(step), text) is None
+        checked += 1
+        if checked == 2:
+            return
+    pytest.fail("no backend's answer has a bound")
+
+
+def test_a_nearly_singular_matrix_is_accepted_where_its_exact_pivots_are_positive(tmp_path):
+    accepted = []
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        n = int(rng.integers(1, 8))
+        n_c = int(rng.integers(0, 4))
+        S = singular(rng, n)
+        record = json.loads(step_text(any_step(rng, 0, n, n_c))) | {"M_u": S.tolist()}
+        path = tmp_path / "read.json"
+        path.write_text(json.dumps(record))
+        accepted.append(positive_definite(S))
+        if accepted[-1]:
+            step = step_read(path)
+            text = solution_file(step, "none", "full")
+            if text is not None:
+                assert verify_refusal(tmp_path, step_text(step), text) is None
+        else:
+            with pytest.raises(InputError, match="must be positive definite"):
+                step_read(path)
+    assert {*accepted} == {True, False}
 
 
 @pytest.mark.parametrize("tau", [1e-323, 1e-312])

@@ -10,9 +10,8 @@ from quasistatic_ref.solve.units import float_inverse
 from quasistatic_ref.step import pivots
 from quasistatic_ref.step.pivots import exact_factor, positive_pivots
 from quasistatic_ref.tolerances import DEFINITE
-from tests.oracles.attacked_steps import singular
+from tests.oracles.attacked_steps import positive_definite, singular
 from tests.tolerances import ROUNDING
-from validation.make.attacks import positive_definite
 
 LOWER = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1000.0, 1.0]])
 PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
