@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref import Box, ContactError
 from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, OWN, SAYS
 from quasistatic_ref.tolerances import CLOSED_FORM
-from validation.make.forces_by_hand import (
+from tests.oracles.bodies_by_hand import (
     BOX,
     EDGE,
     FAMILIES,

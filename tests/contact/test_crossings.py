@@ -8,8 +8,8 @@ from quasistatic_ref import Box, Capsule, Cone, Cylinder
 from quasistatic_ref.contact.crossings import Edges, crossings, edge_crossings, edges, line
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
+from tests.oracles.bodies_by_hand import FLAT, HALF, UP, Scene, wrong_words
 from tests.tolerances import ROUNDING
-from validation.make.forces_by_hand import FLAT, HALF, UP, Scene, wrong_words
 
 ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)

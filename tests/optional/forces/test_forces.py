@@ -24,10 +24,10 @@ from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed
+from tests.oracles import force_checks as checks
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
 from tests.tolerances import ROUNDING
-from validation.make import forces as checks
 
 H = 0.01
 M = 1.0
@@ -331,7 +331,7 @@ def test_a_group_has_one_compliance_and_groups_their_own():
 
 
 def test_piles_at_random_bear_their_load_and_a_planted_loss_is_found(monkeypatch):
-    """A sample of validation/make/forces.py."""
+    """Piles of boxes at random, by the formula of the scene."""
     for seed in (3, 6):
         found = checks.loads(seed)
         assert not any(found[check] for check in checks.LOADS)
@@ -426,7 +426,7 @@ def test_a_compliance_that_is_none_is_refused(compliance):
 
 
 def test_whatever_should_not_matter_does_not(monkeypatch):
-    """A sample of validation/make/forces.py, with its proof by fractions; and a planted fault."""
+    """Random steps, one of them by fractions; and a planted fault."""
     monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
     for _, step in checks.random_steps(5):
         assert not any(checks.differences(step, oracle=False).values())

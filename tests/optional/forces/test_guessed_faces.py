@@ -14,9 +14,9 @@ from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.step.cones import cone_matrix
 from tests.closeness import assert_within
 from tests.optional.forces.test_forces import POLYHEDRAL, block, walled_block
+from tests.oracles import force_checks as checks
 from tests.oracles.random_steps import mixed_step
 from tests.tolerances import ROUNDING
-from validation.make import forces as checks
 
 
 @pytest.mark.parametrize("step", [block(push=1.0), walled_block()])

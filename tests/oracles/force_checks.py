@@ -1,16 +1,14 @@
 """Contact forces by compliance: one answer, whatever should not matter.
 
-Run ``python -m validation.make.forces`` (some hours; ``--random``, ``--oracle`` and ``--every``
-make it shorter). Records are kept with ``--log``, and a run that was stopped goes on from them. On
-random degenerate steps (duplicated contacts, penetration, coefficients of 0, masses 1e9 apart; one
-polyhedral cone after the other), on the steps of the vectors and on those of all scenarios:
+On a step (random and degenerate: duplicated contacts, penetration, coefficients of 0, masses 1e9
+apart; one polyhedral cone after the other):
 
 - every backend and none, plain and fast, cold, and contacts in another order give equal bits;
 - so does the definition, in which what each contact gives way by is solved for, too;
 - so do fractions, by which the optimum is proved (tests/oracles/compliant_forces.py; the pyramid);
 - noise of 1e-17 in phi changes forces by no more than the bound of (R42).
 
-On 300 piles of boxes, with masses of 1 g to 1000 t, h of 0.1 to 100 ms, 1 to 20 bodies up to 1000
+On piles of boxes, with masses of 1 g to 1000 t, h of 0.1 to 100 ms, 1 to 20 bodies up to 1000
 times as heavy as each other, half of them under a spring of 1e2 to 1e9 N/m, in metres, millimetres
 and kilometres, the formula of the scene says what each level of contacts bears:
 
@@ -20,13 +18,9 @@ and kilometres, the formula of the scene says what each level of contacts bears:
   where that bound is below 1e-3;
 - every backend and both speeds give equal bits;
 - the same scene in another unit of length has the same forces, to 1e-6 or the bound.
-
-Exit status 1 if anything of this fails.
 """
 
-import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -36,25 +30,18 @@ from quasistatic_ref import (
     StepData,
     StepSolution,
     contact_forces,
-    load_scenario,
     solve_step,
 )
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.lab.log import Log
-from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.loads import loaded_pile
-from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
-from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.optional.forces.forces import WRENCH, defined_optimum
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import SURE
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import ROOT, script_options, show_page
 
-VECTORS = ROOT / "validation" / "vectors"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")
 CHECKS = ("backends", "fast", "cold", "permuted", "definition", "independent", "noise")
@@ -170,74 +157,3 @@ def random_steps(count: int) -> Iterator[tuple[str, StepData]]:
             continue
         found += 1
         yield f"random {seed - 1}", step
-
-
-def vector_steps() -> Iterator[tuple[str, StepData]]:
-    """Those of the layer `step` of the vectors that have a solution."""
-    solved = expected_read(VECTORS, "step")
-    for case in inputs_read(VECTORS, "step"):
-        if "farkas" not in solved[case.id]["output"]:
-            yield case.id, posed_case(case.input).step
-
-
-def scenario_steps(every: int) -> Iterator[tuple[str, StepData]]:
-    """Steps of all scenarios in models/, every so many."""
-    for folder in sorted(path for path in (ROOT / "models").iterdir() if path.is_dir()):
-        run = load_scenario(folder.name, fast=True, record="full").run(progress=False)
-        for k in range(0, run.steps, every):
-            yield f"{folder.name} {k}", run.step_data(k)
-
-
-def main() -> int:
-    """Write the table; exit status 1 if anything fails."""
-    given = script_options(__doc__, random=2000, oracle=300, every=1, piles=300, log=Path, out=Path)
-    log = Log(given.log, lambda record: record["step"])
-    families = {
-        "random": random_steps(given.random),
-        "vectors": vector_steps(),
-        "scenarios": scenario_steps(given.every),
-    }
-    rows = []
-    failed = 0
-    for family, steps in families.items():
-        found = []
-        for i, (name, step) in enumerate(steps):
-            if name not in log.found:
-                log.add(
-                    {"step": name, **differences(step, family == "random" and i < 4 * given.oracle)}
-                )
-            found.append(log.found[name])
-        made = [sum(check in one for one in found) for check in CHECKS]
-        fails = [sum(one.get(check, 0) for one in found) for check in CHECKS]
-        failed += sum(fails)
-        cells = [f"{bad} of {all_}" for bad, all_ in zip(fails, made, strict=True)]
-        rows.append([family, len(found), *cells])
-    piles = []
-    for seed in range(given.piles):
-        name = f"pile {seed}"
-        if name not in log.found:
-            log.add({"step": name, **loads(seed)})
-        piles.append(log.found[name])
-    made = [sum(check in one for one in piles) for check in LOADS]
-    fails = [sum(one.get(check, 0) for one in piles) for check in LOADS]
-    failed += sum(fails)
-    sure = sum(one["sure"] for one in piles)
-    cells = [f"{bad} of {all_}" for bad, all_ in zip(fails, made, strict=True)]
-    lines = [
-        "# Forces of single contacts",
-        "",
-        "Steps on which a check fails, of those on which it is made; `validation/make/forces.py` "
-        f"says which checks these are. Backends: {', '.join(BACKENDS)}.",
-        "",
-        *markdown_table(["steps", "number", *CHECKS], rows, 1),
-        "",
-        f"Piles of boxes, {sure} of which bear so much that noise changes forces by at most 1e-3.",
-        "",
-        *markdown_table(["steps", "number", *LOADS], [["piles", len(piles), *cells]], 1),
-    ]
-    show_page("\n".join(lines), given.out)
-    return int(failed > 0)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
