@@ -48,10 +48,7 @@ nitpicky = True
 html_theme = "furo"
 html_title = f"quasistatic_ref {version}"
 html_static_path = ["_static"]
-html_extra_path = [
-    "../validation/programs/verifier",
-    "draggable",
-]  # pages of their own, and a script
+html_extra_path = ["draggable"]  # a page of its own
 viewcode_follow_imported_members = False
 html_css_files = ["page.css"]
 html_show_sphinx = False

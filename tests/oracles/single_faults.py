@@ -1,4 +1,4 @@
-"""Solution files with one fault, each of which one line of the second checker finds first.
+"""Solution files with one fault, and the line of a checker that has to find it.
 
 Forged files mostly have several: a number that is moved is no longer what the others give. Here the
 others go with it, or it comes first, so that a checker without that line would say something else.
