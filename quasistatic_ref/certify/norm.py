@@ -14,11 +14,13 @@ slacks are measured as the displacements that they stand for, so that the three 
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.pivots import exact_factor
 
@@ -86,6 +88,13 @@ def energy_norm(H: Array) -> EnergyNorm:
         If H, whose entries are rounded, is not positive definite, as that of a step may be if
         K_q or M_u is nearly singular.
     """
+    return _energy_norm(H.tobytes(), len(H))
+
+
+@lru_cache(maxsize=4)
+def _energy_norm(entries: bytes, n: int) -> EnergyNorm:
+    """The same: most steps of a run have the same H."""
+    H = np.frombuffer(entries).reshape(n, n)
     unit = 1 / np.sqrt(np.diag(H))
     try:
         L = np.linalg.cholesky(H * np.outer(unit, unit)).astype(np.float64)
@@ -98,7 +107,8 @@ def energy_norm(H: Array) -> EnergyNorm:
             )
             raise StepDataError(problem, field="H", value=H.tolist()) from None
         L = exact * unit[:, None]
-    return EnergyNorm(unit, L, np.linalg.inv(L).astype(np.float64))
+    inverse = np.linalg.inv(L).astype(np.float64)
+    return EnergyNorm(read_only(unit), read_only(L), read_only(inverse))
 
 
 def digits_of_error(error: float) -> float:

@@ -180,7 +180,11 @@ def closest(phi: Array, k: int) -> Indices:
     -------
     ndarray of int, shape (min(k, N),)
     """
-    return phi.argsort(kind="stable")[:k]
+    if k < len(phi):
+        kth = np.partition(phi, k - 1)[k - 1]
+        near = np.flatnonzero(~(phi > kth))  # and all that tie with it
+        return near[phi[near].argsort(kind="stable")][:k]
+    return phi.argsort(kind="stable")
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:

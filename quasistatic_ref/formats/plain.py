@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Mapping
 from dataclasses import Field, fields
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -32,6 +32,13 @@ class Plain:
     def kept(cls) -> tuple[str, ...]:
         """Names of what an object keeps, and a copy gets: its fields."""
         return tuple(field.name for field in _declared(cls))
+
+    @classmethod
+    def unchecked(cls, **fields: Any) -> Self:
+        """An object of fields that are right by construction: nothing of them is checked."""
+        made = cls.__new__(cls)
+        made.__dict__.update(fields)
+        return made
 
     def __hash__(self) -> int:
         return hash(bits(self))

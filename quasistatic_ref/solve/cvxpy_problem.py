@@ -58,8 +58,8 @@ class CvxpyProblem(StepProblem):
             If the step is of another kind, naming what differs.
         """
         super().fill(step)
-        self.parameters["A_extra"].value = step.extra.A
-        self.parameters["b_extra"].value = step.extra.b
+        self.parameters["A_extra"].save_value(step.extra.A)
+        self.parameters["b_extra"].save_value(step.extra.b)
 
     def primal(self) -> Array:
         """delta_q of the last solve, shape (n_v,)."""

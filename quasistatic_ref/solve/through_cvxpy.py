@@ -1,23 +1,21 @@
 """Through CVXPY: the step as the paper's program (13)."""
 
-import warnings
+from functools import cached_property
 from time import perf_counter
 from typing import Protocol
 
 import cvxpy as cp
+import cvxpy.settings as words
 import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, Options
+from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, phi_within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
-
-CANON = cp.CPP_CANON_BACKEND
-"""CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
-another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
 
 MOST_CONTACTS = 2000
 """Most contacts that are compiled: 6 s, in a time that grows with their square."""
@@ -69,7 +67,7 @@ class CvxpySolver(BackendSolver):
         natural = both.natural_step
         near = phi_within_reach(natural)
         self.problem.fill(natural)
-        self.problem.parameters["phi"].value = near
+        self.problem.parameters["phi"].save_value(near)
         return np.repeat(near < natural.contacts.phi, natural.counts)
 
     def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
@@ -78,10 +76,25 @@ class CvxpySolver(BackendSolver):
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        return cvxpy_reply(self.problem, self.name, option_set.options, False)
+        options = option_set.options
+        data = None if self._map is None else self._map.data(options)
+        return cvxpy_reply(self.problem, self.name, options, False, data)
+
+    @cached_property
+    def _map(self) -> CompiledMap | None:
+        """The compiled map from parameters to data, where it serves; the problem is filled."""
+        problem = self.problem.problem
+        template = problem_data(problem, self.name, {})
+        return CompiledMap(problem, template) if CompiledMap.serves(template) else None
 
 
-def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bool) -> Reply:
+def cvxpy_reply(
+    compiled: CompiledProgram,
+    name: str,
+    options: Options,
+    warm: bool,
+    data: ProblemData | None = None,
+) -> Reply:
     """The reply of a backend to a problem as its parameters stand.
 
     Parameters
@@ -93,26 +106,39 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
         In its own names.
     warm : bool
         Whether to start from the answer before.
+    data : ProblemData, optional
+        The problem's, where they are formed already.
     """
     problem = compiled.problem
     begin = perf_counter()
-    with warnings.catch_warnings():
-        # "Solution may be inaccurate" is dealt with below, by the status.
-        warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
-        problem.solve(solver=name.upper(), warm_start=warm, canon_backend=CANON, **options)
+    data = problem_data(problem, name, options) if data is None else data
+    own_options = {key: value for key, value in options.items() if key != "verbose"}
+    verbose = options.get("verbose", False)
+    raw = data.chain.solve_via_data(problem, data.numbers, warm, verbose, own_options)
+    solution = data.chain.invert(raw, data.inverse)
     seconds = perf_counter() - begin
-    status = str(problem.status)
-    stats = problem.solver_stats
-    own = None if stats.solve_time is None else float(stats.solve_time)
-    known = all(x.value is not None for x in problem.variables() if x.size)
+    status = str(solution.status)
+    if status in words.ERROR:
+        raise cp.error.SolverError(f"Solver '{name.upper()}' failed")
+    known = status in words.SOLUTION_PRESENT
+    if known:  # as `unpack_results` does, which evaluates the cost of it, too
+        for variable in problem.variables():
+            variable.save_value(solution.primal_vars[variable.id])
+        for row in problem.constraints:
+            if row.id in solution.dual_vars:
+                row.save_dual_value(solution.dual_vars[row.id])
+    own = solution.attr.get(words.SOLVE_TIME)
+    setup = solution.attr.get(words.SETUP_TIME)
+    iterations = solution.attr.get(words.NUM_ITERS)
+    own = None if own is None else float(own)
     return Reply(
         x=compiled.primal() if known else None,
         lam=compiled.dual() if known else None,
         solved=status == cp.OPTIMAL,
         status=status,
-        iterations=None if stats.num_iters is None else int(stats.num_iters),
+        iterations=None if iterations is None else int(iterations),
         seconds=own,
         call_seconds=seconds,
         own=own,
-        setup=None if stats.setup_time is None else float(stats.setup_time),
+        setup=None if setup is None else float(setup),
     )

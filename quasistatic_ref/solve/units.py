@@ -13,8 +13,8 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -22,6 +22,8 @@ import numpy as np
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.step.arrays import finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Extra, StepData
@@ -88,12 +90,21 @@ class HessianInBothUnits:
 
 def hessian_in_both_units(H: Array) -> HessianInBothUnits:
     """H, shape (n_v, n_v) [N m s/m^2], and what natural units take from it alone."""
+    return replace(_in_both_units(H.tobytes(), len(H)), H=H)
+
+
+@lru_cache(maxsize=4)
+def _in_both_units(entries: bytes, n: int) -> HessianInBothUnits:
+    """The same: most steps of a run have the same H."""
+    H = np.frombuffer(entries).reshape(n, n)
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     natural_H = H * np.outer(coordinate, coordinate)
-    return HessianInBothUnits(
-        H, coordinate, float_inverse(H), coordinate * coordinate, natural_H, usable
-    )
+    inverse = float_inverse(H)
+    squared = coordinate * coordinate
+    for array in (coordinate, inverse, squared, natural_H):
+        read_only(array)
+    return HessianInBothUnits(H, coordinate, inverse, squared, natural_H, usable)
 
 
 def float_inverse(H: Array) -> Array:
@@ -227,17 +238,24 @@ def natural_step(step: StepData, units: Units) -> StepData:
     S_u = S[step.n_a :]
     c = step.contacts
     extra = step.extra
-    phi = c.phi / (rho * ell)
-    J = c.J * (S / ell)
-    return step.replace(
-        K_q=step.K_q * np.outer(S_a, S_a),
-        M_u=step.M_u * np.outer(S_u, S_u),
-        tau_a=step.tau_a * S_a / rho,
-        tau_u=step.tau_u * S_u / rho,
-        delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
-        contacts=Contacts(c.name, phi, c.n, c.d1, c.d2, J, c.mu_v, c.mu_omega, c.rows),
-        extra=Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell)),
-    )
+    of_step = {
+        "K_q": step.K_q * np.outer(S_a, S_a),
+        "M_u": step.M_u * np.outer(S_u, S_u),
+        "tau_a": step.tau_a * S_a / rho,
+        "tau_u": step.tau_u * S_u / rho,
+        "delta_q_bar_a": step.delta_q_bar_a / (rho * S_a),
+    }
+    of_contacts = {"phi": c.phi / (rho * ell), "J": c.J * (S / ell)}
+    of_extra = {"A": extra.A * (S / ell), "b": extra.b / (rho * ell)}
+    for name, array in (of_step | of_contacts | of_extra).items():
+        if not finite(read_only(array).ravel()):
+            raise StepDataError("must contain finite numbers only", field=name)
+    # Shapes, signs, frames and definiteness are those of the step, which are checked.
+    parts = {
+        "contacts": Contacts.unchecked(**(field_values(c) | of_contacts)),
+        "extra": Extra.unchecked(**(field_values(extra) | of_extra)),
+    }
+    return StepData.unchecked(**(field_values(step) | of_step | parts))
 
 
 def phi_within_reach(natural: StepData) -> Array:

@@ -290,7 +290,14 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """In what of those `names` of ``KIND`` a step is not like another."""
     every = ((name, KIND[name](template), KIND[name](step)) for name in names)
-    return [name for name, own, other in every if not np.array_equal(own, other)]
+    return [name for name, own, other in every if not _equal(own, other)]
+
+
+def _equal(own: ArrayLike, other: ArrayLike) -> bool:
+    """Whether two words, numbers or vectors are equal."""
+    if isinstance(own, np.ndarray) and isinstance(other, np.ndarray):
+        return own.shape == other.shape and bool((own == other).all())
+    return own == other
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

@@ -59,6 +59,13 @@ def positive_pivots(S: Array) -> bool:
     S : ndarray, shape (..., n, n)
         Symmetric and finite [any unit].
     """
+    return _positive_pivots(S.tobytes(), S.shape)
+
+
+@lru_cache(maxsize=16)
+def _positive_pivots(entries: bytes, shape: tuple[int, ...]) -> bool:
+    """The same: K_q, and mostly M_u, are those of every step of a run."""
+    S = np.frombuffer(entries).reshape(shape)
     if _surely_positive(S):
         return True
     if S.ndim > 2:

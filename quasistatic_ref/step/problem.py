@@ -114,7 +114,7 @@ class StepProblem(Shown):
         self.parameters = {parameter.name(): parameter for parameter in named}
 
     def fill(self, step: StepData) -> None:
-        """Set every parameter from one step.
+        """Set every parameter from one step, which has checked its numbers: CVXPY need not again.
 
         Raises
         ------
@@ -123,16 +123,16 @@ class StepProblem(Shown):
         """
         self.check(step)
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
-        self.parameters["K_q"].value = step.K_q
-        self.parameters["M_u"].value = step.M_u
-        self.parameters["tau_k"].value = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-        self.parameters["tau_a"].value = step.tau_a
-        self.parameters["tau_u"].value = step.tau_u
-        self.parameters["phi"].value = step.contacts.phi
-        self.parameters["J_n"].value = J_n
-        self.parameters["J_1"].value = J_1
-        self.parameters["J_2"].value = J_2
-        self.parameters["J_w"].value = J_w
+        self.parameters["K_q"].save_value(step.K_q)
+        self.parameters["M_u"].save_value(step.M_u)
+        self.parameters["tau_k"].save_value(step.K_q @ step.delta_q_bar_a)  # Eq. (1)
+        self.parameters["tau_a"].save_value(step.tau_a)
+        self.parameters["tau_u"].save_value(step.tau_u)
+        self.parameters["phi"].save_value(step.contacts.phi)
+        self.parameters["J_n"].save_value(J_n)
+        self.parameters["J_1"].save_value(J_1)
+        self.parameters["J_2"].save_value(J_2)
+        self.parameters["J_w"].save_value(J_w)
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""

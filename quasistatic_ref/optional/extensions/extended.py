@@ -23,10 +23,10 @@ from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import EXTENDED, Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
+from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, Own
 from quasistatic_ref.solve.solve import EXTENDED_STEP, solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
-from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData, no_rows

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.through_cvxpy import CANON
+from quasistatic_ref.solve.compiled import CANON
 from tests.helpers import changed, planted_step
 from validation.programs.engines.judge import RESULTS
 from validation.programs.engines.reproduce import FOLDER

@@ -1,0 +1,85 @@
+"""The data of a solve by the compiled map: those of CVXPY, in every bit."""
+
+import cvxpy as cp
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from quasistatic_ref import Extra, solve_step
+from quasistatic_ref.solve.compiled import CompiledMap, problem_data
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from tests.helpers import planted_step, random_step
+
+SIZES = [(7, 6, (6,) * 10 + (4,) * 5), (3, 0, (4, 4)), (0, 4, (6, 4)), (2, 3, ())]
+
+
+def bits(value):
+    if sp.issparse(value):
+        parts = (value.data, value.indices, value.indptr)
+        return type(value), value.shape, *map(bits, parts)
+    if isinstance(value, np.ndarray):
+        return value.dtype, value.shape, value.tobytes()
+    return value
+
+
+def with_zeros(rng, parameter):
+    """Some entries of a parameter become zero: CVXPY may not drop them from its matrices."""
+    if not parameter.attributes["PSD"]:
+        parameter.save_value(parameter.value * rng.integers(0, 2, parameter.shape))
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8", "frictionless", "ellipsoid"])
+@pytest.mark.parametrize(("n_a", "n_u", "rows"), SIZES)
+def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, rng):
+    own = Extra(("a", "b"), rng.normal(size=(2, n_a + n_u)), rng.normal(size=2))
+    step = random_step(rng, n_a, n_u, rows).replace(cone=cone, extra=own)
+    problem = CvxpyProblem(step)
+    problem.fill(step)
+    template = problem_data(problem.problem, "clarabel", {})
+    assert CompiledMap.serves(template)
+    compiled = CompiledMap(problem.problem, template)
+    for _ in range(3):
+        other = random_step(rng, n_a, n_u, rows)
+        for name in ("K_q", "M_u", "tau_a", "tau_u"):
+            problem.parameters[name].save_value(getattr(other, name))
+        for name in ("phi", "J_n", "J_1", "J_2", "J_w", "A_extra", "b_extra"):
+            parameter = problem.parameters[name]
+            parameter.save_value(rng.normal(size=parameter.shape))
+            with_zeros(rng, parameter)
+        found = compiled.data({"max_iter": 7})
+        numbers = {name: bits(value) for name, value in found.numbers.items()}
+        expected = problem_data(problem.problem, "clarabel", {"max_iter": 7})
+        assert numbers == {name: bits(value) for name, value in expected.numbers.items()}
+        offsets = (np.asarray(data.inverse[-1]["offset"]) for data in (found, expected))
+        assert len({offset.tobytes() for offset in offsets}) == 1
+        assert found.inverse[-1].solver_options == expected.inverse[-1].solver_options
+
+
+@pytest.mark.parametrize("name", ["osqp", "piqp", "daqp"])
+def test_solvers_of_quadratic_programs_get_their_data_from_cvxpy(name, rng):
+    problem = CvxpyProblem(step := random_step(rng))
+    problem.fill(step)
+    assert not CompiledMap.serves(problem_data(problem.problem, name, {}))
+
+
+def test_a_step_without_rows_is_solved_though_the_map_does_not_serve(rng):
+    step = random_step(rng, rows=())
+    solver = CvxpySolver(step, "clarabel")
+    np.testing.assert_allclose(
+        solve_step(step, solver, certify="off").delta_q, solve_step(step).delta_q, rtol=1e-9
+    )
+
+
+def test_answers_have_the_bits_of_the_problem_s_own_solve(rng):
+    step, _, _ = planted_step(rng, 3, 4, (6, 4, 6))
+    solver = CvxpySolver(step, "clarabel")
+    both = solver.in_both_units(step)
+    solver.write(both)
+    option_set = solver.option_sets(1e-12)[0]
+    reply = solver.reply(option_set, both)
+    problem = solver.problem
+    problem.problem.solve(cp.CLARABEL, warm_start=False, **option_set.options)
+    assert reply.solved
+    assert reply.x.tobytes() == problem.primal().tobytes()
+    assert reply.lam.tobytes() == problem.dual().tobytes()
