@@ -251,8 +251,8 @@ What hands hold is longer than 20 mm, mostly, and shorter than 20 m."""
 
 ALIKE: Final = 1e3
 """Largest ratio of the lengths of a step's rows, in natural units [-], at which a solver is called
-that may not return. quadprog was found to loop for ever at 1e6 and above, HiGHS to end the process
-at 9e10; the steps of the scenarios in models/ stay below 3."""
+that may not return. On rows of very different lengths quadprog 0.1.14 may loop without end, and
+HiGHS 1.16 may end the process; the steps of the scenarios in models/ stay below 3."""
 
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""

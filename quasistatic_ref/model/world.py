@@ -37,8 +37,8 @@ from quasistatic_ref.step.arrays import Array
 class World(Plain):
     """Several bodies in one pinocchio model.
 
-    It holds the texts of the URDFs, of which :attr:`models` are made: pinocchio's own pickles lose
-    which joint a mimic follows, and crash.
+    It holds the texts of the URDFs, of which :attr:`models` are made: pinocchio 4.1's own pickles
+    lose which joint a mimic follows, and a model that is read from one may end the process.
 
     Parameters
     ----------

@@ -168,7 +168,7 @@ _qpalm = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 def _highs(accuracy: float) -> OptionSets:
     tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
     refuses_less = max(accuracy, 1e-10)
-    return (dict.fromkeys(tight, refuses_less) | {"time_limit": 5.0},)  # it can loop
+    return (dict.fromkeys(tight, refuses_less) | {"time_limit": 5.0},)  # it may loop
 
 
 BOTH = ("cvxpy", "qpsolvers")

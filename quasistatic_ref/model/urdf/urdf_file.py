@@ -19,8 +19,7 @@ from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
 _MOVING = tuple(JOINTS)
 MOST_LINKS = 1000
-"""Most links in a file: urdfdom recurses from link to link, and ends the process where the
-stack does."""
+"""Most links in a file: urdfdom recurses from link to link, and ends the process at long chains."""
 MOST_SHAPES = 1000
 """Most shapes that touch: pinocchio takes time with the cube of their number, 1.5 s for these."""
 MOST_COORDINATES = 250

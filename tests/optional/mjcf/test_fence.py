@@ -63,11 +63,6 @@ REFUSED = {
         "<worldbody>" + '<body name="c"/>' * 1001 + "</worldbody>",
         "body[c]: is one of more than 1000 bodies",
     ),
-    "a crash of MuJoCo's": (
-        '<asset><model name="m" file="m.xml"/></asset><worldbody><frame>'
-        '<attach model="m" body="b" prefix="p"/></frame></worldbody>',
-        "model[m].file: needs more than 2 GiB, or ends MuJoCo",
-    ),
     "memory": (
         '<size memory="10T"/>', "size.memory: MuJoCo refuses it: Error: engine error: Could not"
     ),
