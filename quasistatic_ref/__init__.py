@@ -17,7 +17,6 @@ _HOMES = {
     # A scene.
     "model.system": "System",
     "model.body": "Body",
-    "optional.mjcf.mjcf": "mjcf_urdf",
     "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
     "PlacedShape",
     "shapes.convex_mesh": "convex_hull",

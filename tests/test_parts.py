@@ -71,7 +71,7 @@ def test_every_slot_is_filled_by_the_module_that_it_names():
 
 @pytest.mark.parametrize(
     ("name", "folder"),
-    [("smoothed", "derivatives"), ("coulomb_step", "coulomb"), ("mjcf_urdf", "mjcf")],
+    [("smoothed", "derivatives"), ("coulomb_step", "coulomb")],
 )
 def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
     without(folder)

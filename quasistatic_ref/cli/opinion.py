@@ -41,12 +41,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print both answers, and what is found."""
     with needing("opinion"):
+        from quasistatic_ref.optional.guests.compiler import compiled_model
         from quasistatic_ref.optional.guests.mujoco_opinion import second_opinion
         from quasistatic_ref.optional.guests.settled import settled
-        from quasistatic_ref.optional.mjcf.mjcf import compiled_model
     control = controls(options.control)
     with about_file(options.scene):
-        model, _ = compiled_model(options.scene, options.roots, simulated=True)
+        model = compiled_model(options.scene, options.roots)
         mujoco = needed_package("mujoco", "engines", "opinion")
         mujoco.set_mju_user_warning(lambda text: None)  # or it writes a file where it is called
         data = settled(model, options.settle, options.keyframe, control)

@@ -199,11 +199,11 @@ def scenario_given(options: argparse.Namespace) -> Scenario:
                 raise InputError("is for a MuJoCo scene (.xml)", field=f"--{option}")
         return load_scenario(options.scenario, settings)
     with needing("a MuJoCo scene"):
+        from quasistatic_ref.optional.guests.compiler import compiled_model
         from quasistatic_ref.optional.guests.scene import mujoco_scenario, words
         from quasistatic_ref.optional.guests.settled import settled
-        from quasistatic_ref.optional.mjcf.mjcf import compiled_model
     with about_file(path):
-        model, _ = compiled_model(path, options.roots, simulated=True)
+        model = compiled_model(path, options.roots)
         needed_package("mujoco", "engines", "run").set_mju_user_warning(lambda text: None)
         start = settled(model, 0.0, options.keyframe)
         data = None if options.keyframe is None else start

@@ -1,9 +1,7 @@
 """The ``[bodies.NAME]`` tables of a scenario: URDF, base, stiffness, targets, wrenches."""
 
-import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +11,10 @@ from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.formats.together import once
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.model.urdf.urdf import BASE
-from quasistatic_ref.parts import Slot
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import folders_in, inline_text, path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
@@ -32,8 +28,6 @@ from quasistatic_ref.scenario.scenario_table import (
 from quasistatic_ref.simulate.target import JointTrack, Wrenches
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.pivots import positive_definite
-
-MJCF_URDF: Slot[Callable[[Path, str, Sequence[Path]], str]] = Slot("mjcf.mjcf")
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,12 +91,10 @@ def body_entry(
     """
     check_names(table, BODY)
     text = inline_text(table, "urdf")
-    urdf = path_in(folder, table, "urdf") if text is None else None
-    mjcf = path_in(folder, table, "mjcf")
-    if text is None and urdf is None and mjcf is None:
+    path = path_in(folder, table, "urdf") if text is None else None
+    urdf = text or path
+    if urdf is None:
         raise table.error_about("urdf", "is missing")
-    if (text or urdf) is not None and mjcf is not None:
-        raise table.error_about("mjcf", "cannot be combined with urdf; remove one of them")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
     if actuated != "all":
@@ -118,18 +110,10 @@ def body_entry(
         raise table.error_about(
             "gravity_compensated", "needs an actuated joint, and this body has none"
         )
-    robot: str | Path
-    if text is not None:
-        robot = text
-    elif urdf is not None:
-        robot = urdf
-        folders += shared_folders(urdf)
-    else:
-        assert mjcf is not None
-        named = os.path.realpath(mjcf), base, *folders
-        robot = once(named, partial(MJCF_URDF.needed("mjcf"), mjcf, base, folders))
+    if path is not None:
+        folders += shared_folders(path)
     try:
-        body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
+        body = Body(name, urdf, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:
         if error.field == f"{name}.rpy":
             error.field = table.name("pose.rpy")

@@ -102,8 +102,6 @@ TABLES = Tables({
     },
     BODY: {
         "urdf": Field("text", "file in the scenario's folder, or package://NAME/PATH of a robot",
-                      default=None, schema={"pattern": r"\S"}),
-        "mjcf": Field("text", "in place of a URDF; read by MuJoCo (extra 'engines')", default=None,
                       schema={"pattern": r"\S"}),
         "base": Field("text", "how the root link moves", default="fixed", choices=BASE_WORDS),
         "actuated": Field(

@@ -45,6 +45,16 @@ def test_a_path_in_a_scenario_stays_in_its_folder(outside, refused, tmp_path, fi
     assert f"--set bodies.ball.{field}=PATH (got '{value[:60]}" in sentence  # long ones are cut
 
 
+@pytest.mark.parametrize("field", ["roots", "bodies/ball/package_dirs"])
+def test_a_scenario_names_folders_inside_of_its_own(outside, refused, field):
+    name = field.replace("/", ".")
+    path = scene_written(outside, changed(SCENE, (field, [".."])))
+    leaves = f"{name}: is outside the scenario's folder; name it on the command line, as --root"
+    assert leaves in refused("inspect", path)
+    path = scene_written(outside, changed(SCENE, (field, ["ball.urdf"])))
+    assert f"{name}: is no folder" in refused("inspect", path)
+
+
 @pytest.mark.parametrize("value", ["ball.urdf", "./ball.urdf", "sub/../ball.urdf", "{}/ball.urdf"])
 def test_a_path_that_comes_back_is_good(outside, value, cli):
     (outside / "sub").mkdir()

@@ -34,7 +34,6 @@ OPTIONAL = (
     "optional/forces",
     "optional/guests",
     "optional/large",
-    "optional/mjcf",
     "optional/qpsolvers",
     "optional/readers",
     "optional/runs",
@@ -91,7 +90,7 @@ WALLS = {
         "lab/study/calling",
     ),
     "qpsolvers": ("optional/qpsolvers",),
-    "pinocchio": ("model", "optional/derivatives/model", "optional/mjcf", "optional/targets"),
+    "pinocchio": ("model", "optional/derivatives/model", "optional/targets"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),
@@ -128,7 +127,7 @@ CLOSED = dict.fromkeys(
 CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
 OF_CONES = ("step/cones.py", "optional/ellipsoid/cone.py")
 OF_JOINTS = {FIXED, *BASES, *JOINTS}
-READERS = ("model/joints", "model/body.py", "model/urdf", "scenario", "optional/mjcf", "cli", "lab")
+READERS = ("model/joints", "model/body.py", "model/urdf", "scenario", "cli", "lab")
 
 DYNAMIC = ("import_module", "__import__")
 

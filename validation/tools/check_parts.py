@@ -31,7 +31,6 @@ PARTS = {
     "forces": (["--set", "record=forces"], 'record = "forces"'),
     "guests": ([], ""),
     "large": (["--certify", "residual"], 'certify = "residual"'),
-    "mjcf": ([], ""),
     "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
     "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),

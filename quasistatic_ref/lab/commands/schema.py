@@ -9,7 +9,6 @@ from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.file.fields import study_schema
 from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.scenario_table import (
-    BODY,
     CONTACT,
     SHAPE,
     TABLES,
@@ -28,7 +27,6 @@ RULES: dict[str, Mapping[str, Any]] = {
         ]
     },
     WRENCH: {"anyOf": [{"required": ["force"]}, {"required": ["torque"]}]},
-    BODY: {"oneOf": [{"required": ["urdf"]}, {"required": ["mjcf"]}]},
     SHAPE: {"oneOf": [{"required": [kind]} for kind in SOLIDS]},
     WAYPOINT: {"additionalProperties": TARGET, "minProperties": 2},
 }

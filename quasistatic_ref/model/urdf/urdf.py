@@ -17,7 +17,7 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
-from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
+from quasistatic_ref.model.urdf.urdf_file import UrdfFile, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
 from quasistatic_ref.model.urdf.urdf_tree import link_poses, visiting_order
@@ -139,16 +139,16 @@ def urdf_model(text: str, base: str) -> pin.Model:
 def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint]]]:
     """A URDF that pinocchio can read, and what its joints are called here, by their names in it.
 
-    Meshes in the text itself are left out. Joints are numbered where pinocchio, which visits the
-    joints of a link in alphabetical order, would meet a mimic joint before its leader. The third
-    value has the kinds of joints, by name, that URDF does not have, and that float in its text.
+    Joints are numbered where pinocchio, which visits the joints of a link in alphabetical order,
+    would meet a mimic joint before its leader. The third value has the kinds of joints, by name,
+    that URDF does not have, and that float in its text.
 
     Raises
     ------
     ModelError
         If there are such joints and mimic joints, whose copies in pinocchio point to the first.
     """
-    if not any(word in text for word in ("mimic", "vertex", *OWN)):  # which saves the time of most
+    if not any(word in text for word in ("mimic", *OWN)):  # which saves the time of most
         return text, {}, {}
     robot = ElementTree.fromstring(text)
     own = {}
@@ -159,10 +159,6 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
             joint.set("type", "floating")
     if own and robot.find("joint/mimic") is not None:
         raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(own)}]")
-    for link in robot.findall("link"):
-        for collision in link.findall("collision"):
-            if any(map(is_inline, collision.findall("geometry/mesh"))):
-                link.remove(collision)
     order = visiting_order(robot)
     names = {f"{number:04}": name for number, name in enumerate(order)}
     numbers = {name: number for number, name in names.items()}

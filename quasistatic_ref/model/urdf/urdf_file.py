@@ -13,7 +13,7 @@ from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
@@ -29,16 +29,12 @@ LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _ROBOT = ("name", "version")
 _VERSIONS = ("1.0", "1.1", "1.2")
-_INLINE = ("vertex", "face")
-"""Attributes of a mesh that stands in the text itself: coordinates, and three corners a triangle.
-
-No other reader of URDFs knows them; models of MuJoCo are written with them."""
 _GEOMETRIES = {
     "box": ("size",),
     "sphere": ("radius",),
     "cylinder": ("radius", "length"),
     "capsule": ("radius", "length"),
-    "mesh": ("filename", "scale", *_INLINE),
+    "mesh": ("filename", "scale"),
 }
 """Shape -> its attributes."""
 
@@ -55,23 +51,7 @@ class FileMesh:
     scale: Array
 
 
-@dataclass(frozen=True, eq=False)
-class InlineMesh:
-    """A mesh in the text itself.
-
-    Parameters
-    ----------
-    vertices : ndarray, shape (V, 3)
-        [m].
-    triangles : ndarray of int, shape (T, 3)
-        Numbers of vertices.
-    """
-
-    vertices: Array
-    triangles: Indices
-
-
-FileShape = Shape | FileMesh | InlineMesh
+FileShape = Shape | FileMesh
 """A shape as written."""
 
 
@@ -121,8 +101,7 @@ class UrdfFile:
     joints : tuple of FileJoint
         Parents before children.
     ignored : tuple of str
-        Elements and attributes that the model does not use, e.g. ``link[base].visual``; and what
-        elements ``<ignored name="...">`` name, by which a converter says what it left out.
+        Elements and attributes that the model does not use, e.g. ``link[base].visual``.
     """
 
     path: Path
@@ -155,14 +134,14 @@ def urdf_file(given: str | Path) -> UrdfFile:
 def _content(path: Path, text: str) -> UrdfFile:
     robot = xml_root(text)
     if robot.tag != "robot":
-        remedy = '; give an MJCF model as mjcf = "FILE"' if robot.tag == "mujoco" else ""
+        is_mujoco = robot.tag == "mujoco"
+        remedy = "; a MuJoCo scene is run whole: quasistatic-ref run FILE.xml" if is_mujoco else ""
         raise ModelError(f"must be <robot>{remedy}", field="root element", value=robot.tag)
     version = robot.get("version", "1.0")
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
-    ignored = Tag(robot, "robot").ignored("link", "joint", "ignored", attributes=_ROBOT)
-    ignored += [Tag(each, "robot.ignored").text("name") for each in robot.findall("ignored")]
+    ignored = Tag(robot, "robot").ignored("link", "joint", attributes=_ROBOT)
     links: dict[str, FileLink] = {}
     counts = {
         "links": (len(robot.findall("link")), MOST_LINKS),
@@ -252,8 +231,6 @@ def written_shape(collision: Tag) -> FileShape:
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
-    if is_inline(shape.element):
-        return _inline_mesh(shape)
     if kind == "mesh":
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
@@ -273,27 +250,6 @@ def written_shape(collision: Tag) -> FileShape:
             error.field = f"{shape.where}.{name}"
             error.value = shape.element.get(name)
         raise
-
-
-def is_inline(shape: Element) -> bool:
-    """Whether a shape is a mesh in the text itself, which only this reader knows."""
-    return shape.tag == "mesh" and "vertex" in shape.attrib
-
-
-def _inline_mesh(mesh: Tag) -> InlineMesh:
-    mesh.only(*_INLINE)
-    arrays = []
-    for name in _INLINE:
-        count = len(mesh.text(name).split())
-        if count % 3:
-            raise ModelError("must be triples of numbers", field=f"{mesh.where}.{name}")
-        arrays.append(mesh.numbers(name, count).reshape(-1, 3))
-    vertices, corners = arrays
-    triangles = corners.astype(np.int64)
-    if np.any(triangles != corners) or triangles.min() < 0 or triangles.max() >= len(vertices):
-        problem = f"must be numbers of vertices, 0 to {len(vertices) - 1}"
-        raise ModelError(problem, field=f"{mesh.where}.face")
-    return InlineMesh(vertices, triangles)
 
 
 def _joint(element: Element, ignored: list[str]) -> FileJoint:

@@ -9,14 +9,9 @@ import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
-from quasistatic_ref.model.urdf.urdf_file import (
-    FileMesh,
-    InlineMesh,
-    UrdfFile,
-    is_inline,
-)
+from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
@@ -39,8 +34,7 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
         for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
             link.remove(ignored)
         for count, collision in enumerate(link.findall("collision")):
-            files = [m for m in collision.findall("geometry/mesh") if not is_inline(m)]
-            for mesh in files:
+            for mesh in collision.findall("geometry/mesh"):
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
                     uri = mesh.get("filename", "")
                     mesh.set("filename", str(mesh_path(uri, file.path.parent, package_dirs)))
@@ -56,8 +50,6 @@ def checked_shapes(
 ) -> tuple[tuple[PlacedShape, ...], tuple[str, ...]]:
     """Every collision shape in the frame of its link, as loaded; and notes on its meshes.
 
-    Meshes in the text itself, which pinocchio is not given, are placed as written.
-
     Raises
     ------
     ModelError
@@ -70,27 +62,18 @@ def checked_shapes(
         collisions = file.links[link].collisions
         loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
         where = f"link[{link}].collision"
-        inline = [isinstance(shape, InlineMesh) for shape, _, _ in collisions]
-        if len(loaded) != inline.count(False):
+        if len(loaded) != len(collisions):
             capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in collisions)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
             problem = (
                 f"only {len(loaded)} of its shapes were loaded, "
                 f"for the reason printed on standard error{hint}"
             )
-            raise ModelError(problem, field=where, value=inline.count(False))
-        following = iter(loaded)
-        for count, (shape, R, t) in enumerate(collisions):
-            at = (R, t)
-            if isinstance(shape, InlineMesh):
-                with about_field(f"{where}[{count}].mesh.vertices"):
-                    solid: Shape | None = hull_of_mesh(shape.vertices, shape.triangles)
-            else:
-                given = next(following)
-                placement = model.frames[frame].placement.actInv(given.placement)
-                at = (placement.rotation, placement.translation)
-                same = same_pose(placement, R, t)
-                solid = _solid(shape, given, f"{where}[{count}]") if same else None
+            raise ModelError(problem, field=where, value=len(collisions))
+        for count, ((shape, R, t), of_pinocchio) in enumerate(zip(collisions, loaded, strict=True)):
+            placement = model.frames[frame].placement.actInv(of_pinocchio.placement)
+            same = same_pose(placement, R, t)
+            solid = _solid(shape, of_pinocchio, f"{where}[{count}]") if same else None
             if solid is None:
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
@@ -98,7 +81,9 @@ def checked_shapes(
             name = given_name if given_name and _usable(given_name, every) else f"{link}#{count}"
             if isinstance(solid, ConvexMesh):
                 notes.append(hull_note(name, solid))
-            shapes.append(PlacedShape(name, number, *at, solid))
+            shapes.append(
+                PlacedShape(name, number, placement.rotation, placement.translation, solid)
+            )
     return tuple(shapes), tuple(notes)
 
 

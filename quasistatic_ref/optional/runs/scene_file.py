@@ -21,7 +21,6 @@ from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.solid import Homogeneous, solid_element
-from quasistatic_ref.model.urdf.urdf_file import is_inline
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
@@ -240,8 +239,7 @@ class _SceneFiles:
         folder = Path() if is_text else Path(body.urdf).parent
         for link in robot.findall("link"):
             for each in [*link.findall("collision"), *link.findall("visual")]:
-                files = [m for m in each.findall("geometry/mesh") if not is_inline(m)]
-                for mesh in files:
+                for mesh in each.findall("geometry/mesh"):
                     try:
                         found = mesh_path(mesh.get("filename", ""), folder, body.package_dirs)
                     except ModelError:

@@ -30,8 +30,6 @@ ROBOT = """<robot name="r" version="1.1">
  <collision><geometry><cylinder radius="0.5" length="0.6"/></geometry></collision>
  <collision><geometry><capsule radius="0.7" length="0.8"/></geometry></collision>
  <collision><geometry><mesh filename="a.obj" scale="1 1 1"/></geometry></collision>
- <collision><geometry><mesh vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3 0 3 2 1 2 3"/>
- </geometry></collision>
  <collision_checking><capsule name="box"/></collision_checking>
 </link>
 <link name="b"/><link name="c"/><link name="d"/><link name="e"/>
@@ -83,8 +81,6 @@ CHANGES = {
     "collision.capsule.length": ('length="0.8"', 'length="0.7"', USED),
     "collision.mesh.filename": ("a.obj", "b.obj", USED),
     "collision.mesh.scale": ('scale="1 1 1"', 'scale="1 2 1"', USED),
-    "collision.mesh.vertex": ('vertex="0 0 0 1', 'vertex="0 0 0 2', USED),
-    "collision.mesh.face": ('face="0 2 1', 'face="0 2 9', REFUSED),
     "link.collision_checking": ('capsule name="box"', 'capsule name="crate"', LISTED),
     "joint.name": ('name="k"', 'name="n"', USED),
     "joint.type": ('name="k" type="prismatic"', 'name="k" type="revolute"', USED),

@@ -14,7 +14,6 @@ from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, tri
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
-    InlineMesh,
     urdf_file,
     written_shape,
 )
@@ -74,12 +73,8 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
             yield Visual(number, corners @ R.T + t, colour)
 
 
-def _corners(
-    shape: Shape | FileMesh | InlineMesh, folder: Path, package_dirs: Sequence[str | Path]
-) -> Array:
+def _corners(shape: Shape | FileMesh, folder: Path, package_dirs: Sequence[str | Path]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
-    if isinstance(shape, InlineMesh):
-        return np.asarray(shape.vertices[shape.triangles.ravel()])
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
     loaded = loaded_mesh(mesh_path(shape.uri, folder, package_dirs), shape.scale)

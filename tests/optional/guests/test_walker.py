@@ -1,4 +1,4 @@
-"""A model as a guest, and read by ``optional/mjcf``: one step, where both see the same contacts."""
+"""A walker as a state of MuJoCo and as a URDF: one step, where both see the same contacts."""
 
 import mujoco
 import numpy as np
@@ -26,12 +26,32 @@ WALKER = """<mujoco><compiler angle="radian" eulerseq="XYZ"/><size memory="1M"/>
 <geom name="tail" size="{tail}" pos="-.3 0 -.3"/></body>
 </body></worldbody>
 <actuator><position joint="left" kp="300"/><position joint="right" kp="200"/></actuator></mujoco>"""
+URDF = """<robot name="walker"><link name="trunk"><inertial><origin xyz=".01 .02 0"/>
+<mass value="3"/><inertia ixx=".02" iyy=".03" izz=".04" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="left"><inertial><origin xyz=".1 0 0"/><mass value=".5"/>
+<inertia ixx=".001" iyy=".002" izz=".003" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz=".3 0 -.3"/><geometry><sphere radius="{left}"/></geometry></collision>
+</link>
+<link name="right"><inertial><origin xyz="0 .1 0"/><mass value=".4"/>
+<inertia ixx=".001" iyy=".002" izz=".003" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 .3 -.3"/><geometry><sphere radius="{right}"/></geometry></collision>
+</link>
+<link name="tail"><inertial><origin xyz="-.1 0 0"/><mass value=".4"/>
+<inertia ixx=".001" iyy=".002" izz=".003" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="-.3 0 -.3"/><geometry><sphere radius="{tail}"/></geometry></collision>
+</link>
+<joint name="left" type="continuous"><origin xyz=".1 .1 0"/><parent link="trunk"/>
+<child link="left"/><axis xyz="0 1 0"/></joint>
+<joint name="right" type="continuous"><origin xyz="-.1 -.1 0"/><parent link="trunk"/>
+<child link="right"/><axis xyz="1 .2 0"/></joint>
+<joint name="tail" type="prismatic"><parent link="trunk"/><child link="tail"/>
+<axis xyz=".3 0 1"/><limit effort="0" velocity="0"/></joint></robot>"""
 SCENE = """format = "quasistatic-ref/scenario"
 version = 1
 h = 0.01
 steps = 1
 [bodies.walker]
-mjcf = "walker.xml"
+urdf = "walker.urdf"
 base = "floating"
 actuated = ["left", "right"]
 gravity_compensated = false
@@ -58,7 +78,7 @@ JOINTS = ("left", "right", "tail")
 
 
 def walker(seed, above, folder):
-    """A random posture with three feet above the floor [m]; in the folder, as a scenario."""
+    """A random posture with three feet above the floor [m]: of MuJoCo, and in the folder."""
     random = np.random.default_rng(seed)
     q = random.uniform(-0.3, 0.3, 3)
     bar = q[:2] + random.uniform(-0.05, 0.05, 2)
@@ -70,14 +90,14 @@ def walker(seed, above, folder):
             "pose": " ".join(map(repr, xyz.tolist())),
             "rpy": " ".join(map(repr, rpy.tolist())),
         }
-        text = WALKER.format(**place, **sizes)
-        model = mujoco.MjModel.from_xml_string(text)
+        radii = sizes
+        model = mujoco.MjModel.from_xml_string(WALKER.format(**place, **radii))
         data = mujoco.MjData(model)
         data.qpos[7:] = q
         data.ctrl[:] = bar
         mujoco.mj_forward(model, data)
         sizes = {name: float(data.geom(name).xpos[2]) - above for name in sizes}
-    (folder / "walker.xml").write_text(text)
+    (folder / "walker.urdf").write_text(URDF.format(**radii))
     (folder / "scene.toml").write_text(
         SCENE.format(xyz=xyz.tolist(), rpy=rpy.tolist(), q=q.tolist(), bar=bar.tolist())
     )
@@ -85,17 +105,17 @@ def walker(seed, above, folder):
 
 
 @pytest.mark.parametrize(("seed", "above"), [(0, 0.0), (1, 0.0), (2, 2e-4)])
-def test_a_guest_steps_as_the_model_that_is_read(seed, above, tmp_path):
+def test_a_state_of_mujoco_steps_as_the_same_walker_from_a_urdf(seed, above, tmp_path):
     model, data = walker(seed, above, tmp_path)
     scenario = load_scenario(tmp_path / "scene.toml")
     step, coordinates = mujoco_step(model, data, 0.01)
     assert step.contacts.phi == pytest.approx([above] * 3, abs=1e-15)
     guest = coordinates.T @ solve_step(step).delta_q
     delta_q = scenario.run(progress=False).delta_q[0]
-    own = dict(zip((c.name for c in scenario.system.coordinates), delta_q, strict=True))
-    ours = [own[f"walker/base.{axis}"] for axis in ("x", "y", "z", "rx", "ry", "rz")]
+    moves = dict(zip((c.name for c in scenario.system.coordinates), delta_q, strict=True))
+    ours = [moves[f"walker/base.{axis}"] for axis in ("x", "y", "z", "rx", "ry", "rz")]
     R = data.xmat[1].reshape(3, 3)
-    ours = [*R @ ours[:3], *ours[3:], *(own[f"walker/{name}"] for name in JOINTS)]
+    ours = [*R @ ours[:3], *ours[3:], *(moves[f"walker/{name}"] for name in JOINTS)]
     assert guest == pytest.approx(np.array(ours), rel=0, abs=1e-9 * np.abs(guest).max())
     assert np.abs(guest).max() > 1e-5
 

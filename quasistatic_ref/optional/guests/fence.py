@@ -220,7 +220,7 @@ def _files(
                     if not any(inside.is_relative_to(root) for root in allowed):
                         problem = (
                             f"leads to {inside}, outside the folder of the model; move it there, "
-                            "or name its folder: --root FOLDER, or package_dirs of the body"
+                            "or name its folder: --root FOLDER"
                         )
                         raise _about(element, attribute, problem)
                     if not inside.is_file():

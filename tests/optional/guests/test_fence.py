@@ -2,23 +2,21 @@
 
 import os
 
+import mujoco
 import pytest
 
-from quasistatic_ref import ModelError, ScenarioError, load_scenario
-from quasistatic_ref.optional.mjcf import compiler
-from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from quasistatic_ref import ModelError
+from quasistatic_ref.errors import about_file
+from quasistatic_ref.optional.guests import compiler
 from tests.model.urdf.urdf_texts import urdf_of_text
 
 BODY = '<mujoco><worldbody><body name="b"><joint/><geom size="0.1"/></body></worldbody></mujoco>'
 
 
-SCENE = """format = "quasistatic-ref/scenario"
-version = 1
-h = 0.01
-steps = 1
-[bodies.b]
-mjcf = "m.xml"
-"""
+def compiled(path, roots=()):
+    """The model of a file, as `run` and `opinion` ask for it."""
+    with about_file(path):
+        return compiler.compiled_model(path, roots)
 
 
 def model(inside):
@@ -84,7 +82,7 @@ def test_a_model_that_reads_elsewhere_or_asks_for_too_much_is_refused(home, case
     inside, says = REFUSED[case]
     path = urdf_of_text(home, model(inside.replace("{home}", str(home))), "m.xml")
     with pytest.raises(ModelError) as caught:
-        mjcf_urdf(path)
+        compiled(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert says in str(caught.value)
 
@@ -101,7 +99,7 @@ def test_what_is_no_plain_xml_is_refused(tmp_path, content, says):
     path = tmp_path / "m.xml"
     path.write_bytes(content)
     with pytest.raises(ModelError) as caught:
-        mjcf_urdf(path)
+        compiled(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert says in str(caught.value)
 
@@ -110,22 +108,28 @@ def test_a_folder_that_is_named_may_be_read(home, tmp_path, cli):
     text = '<mujoco><include file="../outside.xml"/></mujoco>'
     path = urdf_of_text(home, text, "m.xml")
     with pytest.raises(ModelError, match="outside the folder of the model"):
-        mjcf_urdf(path)
-    assert '<link name="b">' in mjcf_urdf(path, roots=[tmp_path])
-    scene = urdf_of_text(home, SCENE, "scene.toml")
-    assert "m.xml: include.file: leads to " in cli("inspect", scene, status=2).err
-    cli("inspect", scene, "--root", tmp_path)
-    assert load_scenario(scene, roots=[tmp_path]).system.links == ("world", "b/worldbody", "b/b")
+        compiled(path)
+    assert compiled(path, [tmp_path]).body(1).name == "b"
+    assert "m.xml: include.file: leads to " in cli("opinion", path, status=2).err
+    cli("opinion", path, "--settle", 0, "--root", tmp_path)
 
 
-@pytest.mark.parametrize("field", ["roots", "bodies.b.package_dirs"])
-def test_a_scenario_cannot_name_folders_outside_of_its_own(home, tmp_path, field):
-    line = f'{field.rpartition(".")[2]} = [".."]'
-    text = SCENE + line if "." in field else f"{line}\n{SCENE}"
-    with pytest.raises(ScenarioError, match=r"is outside the scenario's folder; .* --root FOLDER"):
-        load_scenario(urdf_of_text(home, text, "scene.toml"))
-    with pytest.raises(ScenarioError, match=rf"{field}: is no folder"):
-        load_scenario(urdf_of_text(home, text.replace("..", "m.xml"), "scene.toml"))
+def test_a_model_has_the_numbers_that_mujoco_compiles(tmp_path):
+    path = urdf_of_text(tmp_path, BODY, "m.xml")
+    known = mujoco.MjModel.from_xml_path(str(path))
+    model = compiled(path)
+    for name in ("body_mass", "body_inertia", "geom_size", "jnt_axis", "qpos0"):
+        assert getattr(model, name).tobytes() == getattr(known, name).tobytes()
+    assert model.narena == known.narena
+
+
+def test_without_mujoco_one_sentence_says_what_to_install(tmp_path, monkeypatch):
+    def missing(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr(compiler, "import_module", missing)
+    with pytest.raises(ModelError, match=r"needs MuJoCo: pip install 'quasistatic-ref\[engines\]'"):
+        compiled(urdf_of_text(tmp_path, BODY, "m.xml"))
 
 
 def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
@@ -133,7 +137,7 @@ def test_a_compilation_that_takes_too_long_is_ended(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler, "PATIENCE", None)  # by the clock
     keys = BODY.replace("<worldbody>", '<size nkey="3000000"/><worldbody>')
     with pytest.raises(ModelError, match=r"size\.nkey: takes MuJoCo longer than 1 s"):
-        mjcf_urdf(urdf_of_text(tmp_path, keys, "m.xml"))
+        compiled(urdf_of_text(tmp_path, keys, "m.xml"))
 
 
 def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeypatch):
@@ -148,7 +152,6 @@ def test_time_in_which_others_use_the_processor_does_not_count(tmp_path, monkeyp
 def test_a_warning_of_mujocos_is_not_printed_or_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     nan = BODY.replace('size="0.1"', 'size="0.1" pos="NaN 0 0"')
-    with pytest.raises(ModelError):
-        mjcf_urdf(urdf_of_text(tmp_path, nan, "m.xml"))
+    compiled(urdf_of_text(tmp_path, nan, "m.xml"))
     assert [file.name for file in tmp_path.iterdir()] == ["m.xml"]
     assert capfd.readouterr().err == ""
