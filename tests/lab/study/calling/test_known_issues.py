@@ -3,9 +3,6 @@
 Then docs/studies.md, which lists them, is out of date, and the workaround may go.
 """
 
-import json
-import runpy
-
 import numpy as np
 import pytest
 
@@ -15,16 +12,17 @@ from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.compiled import CANON
-from tests.helpers import changed, planted_step
-from validation.programs.engines.judge import RESULTS
-from validation.programs.engines.reproduce import FOLDER
+from tests.helpers import planted_step
 
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""
 
 
 def highs_solved():
-    """How many of how many contact problems HiGHS solves; each was made around its solution."""
+    """How many of how many contact problems HiGHS solves; each was made around its solution.
+
+    HiGHS ends within milliseconds on each of them.
+    """
     steps = [planted_step(np.random.default_rng(seed), *PAPERS)[0] for seed in range(20)]
     replies = [qpsolvers_reply(standard_form(s), "highs", {"time_limit": 10.0}) for s in steps]
     return sum(reply.solved for reply in replies), len(replies)
@@ -44,17 +42,6 @@ def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims
 
 
-def test_proxqp_through_cvxpy_raises_on_a_warm_start_of_another_gap():
-    first = planted_step(np.random.default_rng(0))[0]
-    second = first.replace(contacts=changed(first.contacts, phi=first.contacts.phi + 1e-5))
-    problem = StepProblem(first)
-    problem.fill(first)
-    problem.problem.solve(solver="PROXQP", warm_start=True)
-    problem.fill(second)
-    with pytest.raises(TypeError, match="incompatible function arguments"):
-        problem.problem.solve(solver="PROXQP", warm_start=True)
-
-
 def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     some = pile((2, 1, 2))
     step = some.simulator.step(some.q, np.zeros(0), some.force).step
@@ -67,11 +54,3 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     works.fill(step)
     works.problem.solve(solver="CLARABEL", canon_backend=CANON)
     assert works.problem.status == "optimal"
-
-
-def test_crba_still_differs_from_call_to_call_where_joints_mimic(capsys):
-    file = "pinocchio_mimic.py"
-    runpy.run_path(str(FOLDER / file))
-    record = json.loads((RESULTS / "pinocchio.json").read_text("utf-8"))
-    _, _, rows = capsys.readouterr().out.rstrip().partition(": ")
-    assert rows == record["printed"][file].partition(": ")[2]
