@@ -131,6 +131,11 @@ fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the nor
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
+UNMOVED: Final = 1e-6
+"""Displacement of the softest coordinate [m, rad] that errors are at least measured by: where
+nothing happens, an answer that is off by 1e-14 m or rad has 8 digits. Steps that move are longer
+(certify/norm.py)."""
+
 CONVEX_EXCESS: Final = 1e-3
 """Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
 counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""

@@ -57,7 +57,7 @@ check(
 )
 
 # %% task
-"""The one definition of error, ||x - x*||_H / ||H^-1 g||_H, of an answer x with H and g given."""
+"""The error ||x - x*||_H / ||H^-1 g||_H of an answer x to a step that a load moves."""
 
 
 def error(x, exact, H, g):

@@ -26,7 +26,7 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import energy_norm, single_loads
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.certify.slacks import JoinedSlacks, KnownSlacks, Slacks, StepSlacks
@@ -303,13 +303,8 @@ def surely_short(step: StepData, delta_q: Array) -> bool:
     delta_q : ndarray, shape (n_v,)
     """
     s = np.sqrt(np.diag(step.H))
-    n_a = step.n_a
-    loads = np.zeros((3, step.n_v))
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        loads[0, :n_a] = step.K_q @ step.delta_q_bar_a
-        loads[1, :n_a] = step.tau_a
-        loads[2, n_a:] = step.tau_u
-        least = (step.h * np.abs(loads) / s).max(initial=0.0)
+        least = (np.abs(single_loads(step)) / s).max(initial=0.0)
         length = np.abs(delta_q) @ s
     usual = MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]
     return bool(usual and MIDDLE[0] < least and length <= 0.1 * ILL_POSED * least < MIDDLE[1])
@@ -337,21 +332,16 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     float
     """
     form = standard_form(step)
-    h = step.h
-    n_a = step.n_a
     norm = energy_norm(form.H)
     b = np.maximum(form.b, 0.0)
     parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
     # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.
     scale = 2.0 ** min(-math.frexp(np.abs(parameters).max(initial=0.0))[1], 1000)
-    loads = np.zeros((3, step.n_v))
-    loads[0, :n_a] = h * step.K_q @ (scale * step.delta_q_bar_a)
-    loads[1, :n_a] = h * (scale * step.tau_a)
-    loads[2, n_a:] = h * (scale * step.tau_u)
     pushed = b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         push_out = scale * b[pushed] / norm.of_impulses(form.A[pushed])
-        scene_length = float(max(norm.of_impulses(loads).max(), push_out.max(initial=0.0)))
+        of_loads = norm.of_impulses(single_loads(step, scale)).max()
+        scene_length = float(max(of_loads, push_out.max(initial=0.0)))
         length = norm.of_displacement(scale * delta_q)
         if scene_length:
             return length / scene_length

@@ -1,15 +1,15 @@
 r"""The norm that errors and lengths are measured in, and the one definition of error.
 
-.. math:: \mathrm{error} = \frac{\|x - x^*\|_H}{\|H^{-1} g\|_H}, \qquad
+.. math:: \mathrm{error} = \frac{\|x - x^*\|_H}{\ell}, \qquad
           \mathrm{digits} = -\log_{10} \mathrm{error} \text{, clipped to } 0 \ldots 16,
 
-with ||v||_H^2 = v'Hv; if g = 0, digits are 16 where x = x* and 0 elsewhere. Net impulses and
-slacks are measured as the displacements that they stand for, so that the three can be compared:
+with ||v||_H^2 = v'Hv and the length ell of :func:`error_length`. Net impulses and slacks are
+measured as the displacements that they stand for, so that the three can be compared:
 
 - net impulse p = A'lam by the displacement H^-1 p that it causes:
-  ||p - p*||_{H^-1} / ||H^-1 g||_H, with ||p||_{H^-1} = ||H^-1 p||_H;
+  ||p - p*||_{H^-1} / ell, with ||p||_{H^-1} = ||H^-1 p||_H;
 - slack of row i by the shortest displacement that changes it so much:
-  max_i |a_i'(x - x*)| / ||a_i||_{H^-1} / ||H^-1 g||_H, never more than the error of x.
+  max_i |a_i'(x - x*)| / ||a_i||_{H^-1} / ell, never more than the error of x.
 """
 
 import math
@@ -21,8 +21,9 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import read_only
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.pivots import exact_factor
+from quasistatic_ref.tolerances import UNMOVED
 
 MOST = 16.0
 """Digits of a float64: more cannot be known."""
@@ -124,11 +125,60 @@ def digits_of_error(error: float) -> float:
     return min(MOST, float(-np.log10(error))) if error > 0 else MOST
 
 
-def relative_digits(off: float, unconstrained: float) -> float:
+def single_loads(step: StepData, scale: float = 1.0) -> Array:
+    """Impulses of the targets, of tau_a and of tau_u, each by itself, shape (3, n_v) [N s, N m s].
+
+    Their sum is g of Eq. :eq:`eq-13`. With a `scale` [-] the loads are multiplied by it first.
+    """
+    n_a = step.n_a
+    loads = np.zeros((3, step.n_v))
+    loads[0, :n_a] = step.h * step.K_q @ (scale * step.delta_q_bar_a)
+    loads[1, :n_a] = step.h * (scale * step.tau_a)
+    loads[2, n_a:] = step.h * (scale * step.tau_u)
+    return loads
+
+
+def load_length(norm: Norm, loads: Array) -> float:
+    """The largest ||H^-1 p||_H of the impulses p [N s, N m s] in `loads`, shape (k, n_v)."""
+    return max((norm.of_impulse(load) for load in loads if load.any()), default=0.0)
+
+
+def error_length(norm: Norm, diagonal: Array, g: Array, optimum: Array, loads: float) -> float:
+    """The length ell that errors are divided by, in the norm of H [(N m s)^0.5].
+
+    It is the largest of
+
+    - ||H^-1 g||_H, the unconstrained step;
+    - ||x*||_H, the optimum: a body that is pushed out of penetration moves without a load;
+    - the unconstrained steps that the targets, tau_a and tau_u would each cause alone: at rest they
+      cancel but for rounding, and g and x* are noise;
+    - 1e-6 m or rad in the softest coordinate: where nothing happens at all, all others are zero.
+
+    No row's b enters, but through x*: with it, a limit that is far away would hide wrong answers.
+
+    Parameters
+    ----------
+    norm : Norm
+    diagonal : ndarray, shape (n_v,)
+        Of H [N m s/m^2].
+    g : ndarray, shape (n_v,)
+    optimum : ndarray, shape (n_v,)
+        x* [m, rad].
+    loads : float
+        The :func:`load_length` of the step's :func:`single_loads` [(N m s)^0.5]; 0 where they are
+        not known.
+    """
+    return max(
+        norm.of_impulse(g),
+        norm.of_displacement(optimum),
+        loads,
+        UNMOVED * math.sqrt(diagonal.min()),
+    )
+
+
+def relative_digits(off: float, length: float) -> float:
     """Correct digits, 0 to 16 [-], of an answer at the distance `off` from the optimum.
 
-    Both lengths are in the norm of H; `unconstrained` is ||H^-1 g||_H.
+    Both are in the norm of H; `length` is the :func:`error_length`.
     """
-    if unconstrained == 0:
-        return MOST if off == 0 else 0.0
-    return digits_of_error(off / unconstrained)
+    return digits_of_error(off / length) if 0 < length < math.inf else 0.0

@@ -11,7 +11,7 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.exact import ExactOptimum, check_length
-from quasistatic_ref.certify.norm import relative_digits
+from quasistatic_ref.certify.norm import error_length, load_length, relative_digits, single_loads
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind
@@ -185,9 +185,10 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     lam = optimum.lam
     if si_answer is not None:
         norm = solver.prover.norm(both)
-        distance = norm.of_displacement(si_answer[0] - delta_q)
-        free_length = norm.of_impulse(both.si_form.g)
-        digits = relative_digits(distance, free_length)
+        form = both.si_form
+        loads = load_length(norm, single_loads(step))
+        length = error_length(norm, form.H.diagonal(), form.g, delta_q, loads)
+        digits = relative_digits(norm.of_displacement(si_answer[0] - delta_q), length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

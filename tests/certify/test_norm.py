@@ -5,9 +5,19 @@ import math
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
+from quasistatic_ref import Extra, StepData
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.norm import digits_of_error, energy_norm
+from quasistatic_ref.certify.norm import (
+    digits_of_error,
+    energy_norm,
+    error_length,
+    load_length,
+    single_loads,
+)
 from quasistatic_ref.lab.digits import correct_digits
+from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
+from quasistatic_ref.lab.scenes.rigid import actuated_step
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.tolerances import ROUNDING
 
@@ -32,12 +42,62 @@ def test_relative_error_of_ten_to_minus_k_is_k_digits(k):
     assert correct_digits(step, off, exact.delta_q) == pytest.approx(k, abs=HALF_DIGIT)
 
 
-def test_without_forces_only_the_exact_answer_has_digits():
+def test_where_nothing_happens_errors_are_measured_by_a_micrometre():
     step = point_between_walls([EAST], [1.0])
     zero = np.zeros(3)
-    nearly = np.array([1e-300, 0, 0])
     assert correct_digits(step, zero, zero) == 16.0
-    assert correct_digits(step, nearly, zero) == 0.0
+    assert correct_digits(step, np.array([1e-14, 0, 0]), zero) == pytest.approx(8, abs=HALF_DIGIT)
+    assert correct_digits(step, np.array([1e-5, 0, 0]), zero) == 0.0
+
+
+def waiting_pusher():
+    """A spring at its target, 0.5 mm in front of a puck; g = 0."""
+    J = np.zeros((1, 4, 4))
+    J[0, 0] = [-1.0, 1.0, 0.0, 0.0]
+    J[0, 1] = [0.0, 0.0, 1.0, -0.05]
+    contacts = contacts_of([5e-4], frames_about(np.array([EAST]), -Z), J, 0.3)
+    none = np.zeros(1)
+    return StepData(0.01, [[1000.0]], np.diag([0.5, 0.5, 1e-3]), none, np.zeros(3), none, contacts)
+
+
+def arm_at_rest():
+    """Springs that bear a load: K_q delta_q_bar_a + tau_a is rounding."""
+    K_q = np.diag([100.0, 50.0])
+    tau = np.array([-3.1, -0.7])
+    rests = actuated_step(K_q, tau, np.linalg.solve(K_q, -tau), no_contacts(2), 0.01)
+    return rests.replace(tau_a=tau * (1 + 2e-16))
+
+
+def pushed_out():
+    """A ball that overlaps a wall by 0.1 mm, without a load."""
+    return point_between_walls([EAST], [-1e-4])
+
+
+@pytest.mark.parametrize("backend", ["clarabel", "piqp", "daqp", "osqp"])
+@pytest.mark.parametrize("idle", [waiting_pusher, arm_at_rest, pushed_out])
+def test_right_answers_of_idle_steps_have_digits(idle, backend):
+    assert qr.solve_step(idle(), backend).statistics.digits >= 8
+
+
+def test_a_limit_that_is_far_away_lends_no_digits():
+    step = point_between_walls([EAST], [1.0], force=(0.0, 3.0, 4.0))
+    exact = step_optimum(step).delta_q
+    far = step.replace(extra=Extra(("far",), [[0.0, 1.0, 0.0]], [-1e6]))
+    off = exact * (1 + 1e-5)
+    assert correct_digits(far, off, exact) == correct_digits(step, off, exact)
+    assert correct_digits(step, off, exact) == pytest.approx(5, abs=HALF_DIGIT)
+
+
+@pytest.mark.parametrize("scene", ["block_push", "two_finger_pinch", "stack"])
+def test_driven_steps_are_measured_by_the_unconstrained_step(scene):
+    run = qr.load_scenario(scene, record="full", steps=4).run(progress=False)
+    for k, delta_q in enumerate(run["delta_q"]):
+        step = run.step_data(k)
+        norm = energy_norm(step.H)
+        g = qr.standard_form(step).g
+        loads = load_length(norm, single_loads(step))
+        length = error_length(norm, np.diag(step.H), g, delta_q, loads)
+        assert length == pytest.approx(norm.of_impulse(g), rel=ROUNDING)
 
 
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])

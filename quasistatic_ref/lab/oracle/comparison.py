@@ -10,7 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm, relative_digits
+from quasistatic_ref.certify.norm import (
+    energy_norm,
+    error_length,
+    load_length,
+    relative_digits,
+    single_loads,
+)
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.oracle.alike import Diagnosis, diagnosis, known_name
 from quasistatic_ref.lab.oracle.causes import Cause, Taken, causes
@@ -227,8 +233,12 @@ def _beside(scenario: Scenario, k: int, q: Array, result: StepResult, q_next: Ar
     off = system.difference(result.q, q_next)
     form = standard_form(result.step)
     n_v = system.n_v  # an extension's coordinates come after them
-    norm = energy_norm(form.H[:n_v, :n_v])
-    digits = relative_digits(norm.of_displacement(off), norm.of_impulse(form.g[:n_v]))
+    H = form.H[:n_v, :n_v]
+    norm = energy_norm(H)
+    loads = load_length(norm, single_loads(result.step)[:, :n_v])
+    exact = result.solution.delta_q[:n_v]
+    length = error_length(norm, np.diag(H), form.g[:n_v], exact, loads)
+    digits = relative_digits(norm.of_displacement(off), length)
     return StepOff(k, q, result, system.difference(result.q_start, q_next), off, digits)
 
 

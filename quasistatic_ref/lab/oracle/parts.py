@@ -7,7 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm, relative_digits
+from quasistatic_ref.certify.norm import (
+    energy_norm,
+    error_length,
+    load_length,
+    relative_digits,
+    single_loads,
+)
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.arrays import Array
@@ -65,6 +71,7 @@ def parts_of(
     off = system.difference(result.q, q)
     delta_q = system.difference(result.q_start, q)
     small = max(least, NOTHING * np.abs(result.solution.delta_q).max(initial=0.0))
+    loads = single_loads(result.step)
     found = []
     for group in groups(result.step):
         mine = group.coordinates[group.coordinates < system.n_v]  # without an extension's
@@ -73,7 +80,9 @@ def parts_of(
         H = form.H[np.ix_(mine, mine)]
         g = form.g[mine]
         norm = energy_norm(H)
-        right = relative_digits(norm.of_displacement(off[mine]), norm.of_impulse(g))
+        load = load_length(norm, loads[:, mine])
+        length = error_length(norm, np.diag(H), g, result.solution.delta_q[mine], load)
+        right = relative_digits(norm.of_displacement(off[mine]), length)
         way = ENDED if q_next is None else ""
         if right < digits and np.abs(off[mine]).max() > small:
             J = contacts.J[group.contacts][:, :, mine].reshape(-1, len(mine))

@@ -9,7 +9,7 @@ from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.backends import NONE, QPSOLVERS
 from quasistatic_ref.step.cones import cone
 
 WORTH = 10.0
@@ -37,10 +37,12 @@ def backend_failures(run: Run) -> Iterator[Said]:
     first = int(np.flatnonzero(missed)[0])
     exact = (run["certificate"][missed] == "exact").all()
     other = "the exact method" if exact else "another backend or the exact method"
+    able = ("clarabel", "daqp") if cone(simulator.cone).polyhedral else ("clarabel", "scs")
+    others = [name for name in able if name != simulator.backend.removeprefix(QPSOLVERS)]
     said = f"failed in {failed} of {run.steps} steps" if failed else ""
     fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
     yield Said(
-        f"choose another backend than {simulator.backend}, such as clarabel or daqp",
+        f"choose another backend than {simulator.backend}, such as {' or '.join(others)}",
         f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
         f"{first}; {other} solved them",
         {"failed": failed, "short": short, "step": first},

@@ -9,6 +9,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 
 FAILS = (1, 4, 5)
 STEPS = 8
@@ -28,6 +29,13 @@ def failing(monkeypatch):
         return answer(self, both, accuracy)
 
     monkeypatch.setattr(CvxpySolver, "answer", sometimes)
+
+
+@pytest.mark.parametrize(("accused", "other"), [("clarabel", "daqp"), ("daqp", "clarabel")])
+def test_the_remedy_never_names_the_accused(failing, accused, other):
+    scenario = qr.load_scenario("block_push", {"solver.backend": accused}, steps=STEPS)
+    (finding,) = scenario.run(progress=False).findings
+    assert finding.sentence.startswith(f"choose another backend than {accused}, such as {other}: ")
 
 
 def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, cli):
@@ -53,6 +61,28 @@ def test_the_steps_have_the_bits_of_a_backend_that_never_fails(failing):
     ]
     assert runs[0]["q"].tobytes() == runs[1]["q"].tobytes()
     assert runs[1].findings == ()
+
+
+ARM = robot(
+    link("base"),
+    link("upper", inertial=inertial("1", ("0.01",) * 3, '<origin xyz="0.2 0 0"/>')),
+    link("lower", inertial=inertial("0.5", ("0.01",) * 3, '<origin xyz="0.1 0 0"/>')),
+    joint("shoulder", "base", "upper", axis="0 1 0"),
+    joint("elbow", "upper", "lower", axis="0 1 0", more='<origin xyz="0.4 0 0"/>'),
+)
+
+
+@pytest.mark.parametrize("backend", ["clarabel", "piqp", "daqp"])
+@pytest.mark.parametrize("gravity", [(0.0, 0.0, 0.0), (0.0, 0.0, -9.81)])
+def test_an_arm_at_rest_accuses_no_backend(tmp_path, backend, gravity):
+    """It sags for some steps, and then its springs bear it: g is zero, or rounding."""
+    arm = qr.Body("arm", urdf_of_text(tmp_path, ARM), actuated="all")
+    system = qr.System([arm])
+    own = {"h": 0.01, "K_q": np.diag([100.0, 50.0]), "gravity": gravity, "backend": backend}
+    simulator = qr.Simulator(system, [], gravity_acts=np.ones(2), **own)
+    run = qr.rollout(simulator, system.q_start, system.q_start, 40, progress=False)
+    assert run.digits.min() >= 8
+    assert run.findings == ()
 
 
 def failing_method(answer, fails):

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import MOST, EnergyNorm, digits_of_error, energy_norm
+from quasistatic_ref.certify.norm import EnergyNorm, digits_of_error, energy_norm
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.promises import UNSTATED
@@ -56,8 +56,8 @@ class ProblemForms:
         In natural units.
     norm : EnergyNorm
         Of the problem in natural units.
-    free : float
-        ||H^-1 g||_H in natural units [-].
+    length : float
+        That errors are divided by, in natural units [-].
     terms : dict of str to mapping or None
         By units, what promises are about; None where there is no solution.
     """
@@ -66,7 +66,7 @@ class ProblemForms:
     units: Units
     answer: Answer
     norm: EnergyNorm
-    free: float
+    length: float
     terms: dict[str, Terms | None]
 
 
@@ -76,10 +76,11 @@ def problem_forms(problem: Problem) -> ProblemForms:
     natural = problem.natural
     form = natural.form
     norm = energy_norm(natural.H.toarray())
-    free = float(norm.of_impulses(form.g[None])[0])
+    length = problem.error_length / problem.units.size
     raw = problem.form
     terms = {RAW: exact_terms(raw, problem.answer), NATURAL: exact_terms(form, natural.answer)}
-    return ProblemForms({RAW: raw, NATURAL: form}, problem.units, natural.answer, norm, free, terms)
+    forms = {RAW: raw, NATURAL: form}
+    return ProblemForms(forms, problem.units, natural.answer, norm, length, terms)
 
 
 def grades(
@@ -193,10 +194,8 @@ def _digits(
 
 
 def _digits_of(size: float, of: ProblemForms, bound: float) -> float:
-    if of.free == 0:
-        return MOST if size == 0 else 0.0
     # Of an enclosure no more digits are reported than are known.
-    return digits_of_error(max(size / of.free, bound))
+    return digits_of_error(max(size / of.length, bound))
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:

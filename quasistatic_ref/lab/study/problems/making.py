@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from quasistatic_ref.certify.norm import energy_norm, load_length, single_loads
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
@@ -102,6 +103,7 @@ def problem_of(
         "mass_ratio": mass_ratio(step),
         "dial": dial,
         "sequence": None,
+        "load_length": load_length(energy_norm(H), single_loads(step)),
         "status": answer.status,
         "answer": {
             "kind": answer.kind,

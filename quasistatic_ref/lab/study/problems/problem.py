@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
+from quasistatic_ref.certify.norm import energy_norm, error_length
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -94,6 +95,17 @@ class Problem:
     def feasible(self) -> bool:
         """Whether it has a solution."""
         return not self.answer.farkas
+
+    @property
+    def error_length(self) -> float:
+        """The length that errors are divided by, in the norm of H [(N m s)^0.5].
+
+        What each load asks for alone is in its line as ``load_length``, if it was made of a step.
+        """
+        x = self.answer.x if self.feasible else np.zeros(len(self.g))
+        norm = energy_norm(self.H.toarray())
+        loads = self.facts.get("load_length", 0.0)
+        return error_length(norm, self.H.diagonal(), self.g, x, loads)
 
     @property
     def sparse(self) -> bool:

@@ -182,15 +182,15 @@ def test_every_committed_answer_obeys_the_bound_by_three_residuals(committed):
     for problem in set_read(problem_set_folder(CONTACT_QP_2), ids=ids):
         own = problem.natural.answer
         numbers = (own.lam, np.concatenate([own.x, own.slack]))
-        sizes[problem.id] = [problem_forms(problem).free, *(abs(v).sum() for v in numbers)]
+        sizes[problem.id] = [problem_forms(problem).length, *(abs(v).sum() for v in numbers)]
     count = 0
     for row in committed.rows[::20]:
         size = sizes.get(row["problem"])
         if row["outcome"] != "solved" or not size or row["units"] != "natural" or not size[0]:
             continue
-        free, lam, others = size
+        length, lam, others = size
         primal, dual, gap = (1.005 * v for v in row["residuals"].values())  # three figures
-        error = math.sqrt(gap + lam * primal + others * dual) / free
+        error = math.sqrt(gap + lam * primal + others * dual) / length
         if error > 1e-12:  # of float64, whose rounding is in the residuals
             count += 1
             assert row["digits"]["delta_q"] >= min(-math.log10(error), 16) - 0.01, row
