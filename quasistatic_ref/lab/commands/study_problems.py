@@ -12,7 +12,7 @@ from quasistatic_ref.lab.study.problems.names import FORMATS, NATURAL, RAW, UNIT
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
-    "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB), json or qps",
+    "export": "write problems as npz or parquet (a test set of qpbenchmark)",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
 }
 

@@ -1,23 +1,22 @@
-"""A set in the formats that others read: npz, qpbenchmark's parquet, MATLAB's mat, JSON, QPS.
+"""A set in two formats that others read: npz, and qpbenchmark's Parquet.
 
 Each export carries a README with the layout of its files, the licences, and how to cite.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.io import savemat
-from scipy.sparse import csc_matrix, csr_matrix, tril
+from scipy.sparse import csr_matrix
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
+from quasistatic_ref.formats.files import bytes_written, text_written, written_whole
 from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
-from quasistatic_ref.lab.study.problems.names import PARQUET, QPS
+from quasistatic_ref.lab.study.problems.names import PARQUET
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package
 
@@ -40,7 +39,7 @@ def exported_files(name: str, problems: Sequence[Problem], to: str, folder: Path
     problems : sequence of Problem
         In the units that they are to have.
     to : str
-        One of ``npz``, ``parquet``, ``mat``, ``json``, ``qps``.
+        ``npz`` or ``parquet``.
     folder : Path
 
     Returns
@@ -55,23 +54,17 @@ def exported_files(name: str, problems: Sequence[Problem], to: str, folder: Path
     problems = [one for one in problems if has_place(one, to)]
     if not problems:
         raise InputError("holds no problem that this format has a place for", value=to)
-    own: dict[str, Callable[[], list[Path]]] = {
-        "npz": lambda: [_npz(folder / f"{name}.npz", problems)],
-        "mat": lambda: [_mat(folder / f"{name}.mat", problems)],
-        "json": lambda: [_json(folder / f"{name}.jsonl", problems)],
-        PARQUET: lambda: _parquet(name, problems, folder),
-        QPS: lambda: [*(_qps(folder / "qps", one) for one in problems),
-                      _npz(folder / f"{name}.npz", problems)],
-    }  # fmt: skip
-    return [*own[to](), *_carried_files(name, len(problems), to, folder)]
+    if to == PARQUET:
+        paths = _parquet(name, problems, folder)
+    else:
+        paths = [_npz(folder / f"{name}.npz", problems)]
+    return [*paths, *_carried_files(name, len(problems), to, folder)]
 
 
 def has_place(one: Problem, to: str) -> bool:
     """Whether a format has a place for a problem: qpbenchmark's for dense rows with a solution."""
-    rows = one.facts["kind"] == QP
-    if to == PARQUET:
-        return rows and one.feasible and not one.sparse
-    return rows or to != QPS
+    dense_rows = one.facts["kind"] == QP and not one.sparse
+    return to != PARQUET or (dense_rows and one.feasible)
 
 
 def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
@@ -94,25 +87,6 @@ def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
     ]
 
 
-def _qps(folder: Path, one: Problem) -> Path:
-    """A file of one problem: free MPS, with the lower triangle of H."""
-    H = tril(one.H).tocoo()
-    A = csc_matrix(one.A)
-    name = one.id.replace("/", "_").replace(" ", "_")
-    lines = [f"NAME {name}", "ROWS", " N objective", *(f" G r{i}" for i in range(len(one.b)))]
-    lines.append("COLUMNS")
-    for j, cost in enumerate((-one.g).tolist()):
-        lines.append(f" x{j} objective {cost!r}")
-        entries = slice(A.indptr[j], A.indptr[j + 1])
-        pairs = zip(A.indices[entries].tolist(), A.data[entries].tolist(), strict=True)
-        lines += [f" x{j} r{i} {value!r}" for i, value in pairs]
-    lines += ["RHS", *(f" rhs r{i} {value!r}" for i, value in enumerate(one.b.tolist()))]
-    lines += ["BOUNDS", *(f" FR bounds x{j}" for j in range(len(one.g)))]
-    triples = zip(H.row.tolist(), H.col.tolist(), H.data.tolist(), strict=True)
-    lines += ["QUADOBJ", *(f" x{i} x{j} {value!r}" for i, j, value in triples), "ENDATA"]
-    return text_written(folder / f"{name}.mps", "\n".join(lines) + "\n")
-
-
 def _npz(path: Path, problems: Sequence[Problem]) -> Path:
     """``id``, ``family``, ..., and ``K/H``, ``K/g``, ... of problem K; sparse matrices as CSR."""
     arrays: dict[str, Any] = {
@@ -126,42 +100,6 @@ def _npz(path: Path, problems: Sequence[Problem]) -> Path:
             else:
                 arrays[f"{k}/{key}"] = value
     return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
-
-
-def _mat(path: Path, problems: Sequence[Problem]) -> Path:
-    """A struct array ``problems``, as MATLAB's and Julia's readers of .mat files show it."""
-    names = (*WORDS, "H", "A", *VECTORS, *ANSWERS, "farkas")
-    table = np.zeros(len(problems), dtype=[(name, object) for name in names])
-    empty = np.zeros((0, 1))
-    for k, one in enumerate(problems):
-        for word in WORDS:
-            table[k][word] = _word(one.facts[word])
-        parts = _parts(one)
-        for key in names[len(WORDS) :]:
-            value = parts.get(key, empty)
-            column = isinstance(value, np.ndarray) and value.ndim == 1
-            table[k][key] = csc_matrix(value) if isinstance(value, csr_matrix) else value
-            if column:
-                table[k][key] = value[:, None]
-    found = {"problems": table}
-    return written_whole(path, lambda file: savemat(file, found, do_compression=True))
-
-
-def _json(path: Path, problems: Sequence[Problem]) -> Path:
-    """A line for each problem: its facts and its numbers, in shortest round-trip decimal."""
-
-    def lines() -> Iterator[str]:
-        for one in problems:
-            numbers = {
-                key: {"rows": value.shape[0], "starts": value.indptr.tolist(),
-                      "columns": value.indices.tolist(), "values": value.data.tolist()}
-                if isinstance(value, csr_matrix) else value.tolist()
-                for key, value in _parts(one).items() if key != "farkas"
-            }  # fmt: skip
-            farkas = {str(i): y for i, y in one.answer.farkas.items()}
-            yield json_text(dict(one.facts) | numbers | ({"farkas": farkas} if farkas else {}))
-
-    return text_written(path, "\n".join(lines()) + "\n")
 
 
 def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]:
@@ -209,6 +147,7 @@ def _parts(one: Problem) -> dict[str, Any]:
         "A": one.A if sparse else one.A.toarray(),
         "g": one.g,
         "b": one.b,
+        "length": one.error_length,
     }
     if not one.answer.farkas:
         return found | {key: getattr(one.answer, key) for key in ANSWERS}

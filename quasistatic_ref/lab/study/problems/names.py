@@ -5,6 +5,5 @@ NATURAL = "natural"
 UNITS = (RAW, NATURAL)
 """SI units, and those in which numbers are near one."""
 PARQUET = "parquet"
-QPS = "qps"
-FORMATS = ("npz", PARQUET, "mat", "json", QPS)
+FORMATS = ("npz", PARQUET)
 """Of exports."""

@@ -100,12 +100,13 @@ class Problem:
     def error_length(self) -> float:
         """The length that errors are divided by, in the norm of H [(N m s)^0.5].
 
-        What each load asks for alone is in its line as ``load_length``, if it was made of a step.
+        It is ``length`` in the line of the problem, which was made of a step. Where that is
+        missing, it is formed without what each load asks for alone.
         """
+        if "length" in self.facts:
+            return float(self.facts["length"])
         x = self.answer.x if self.feasible else np.zeros(len(self.g))
-        norm = energy_norm(self.H.toarray())
-        loads = self.facts.get("load_length", 0.0)
-        return error_length(norm, self.H.diagonal(), self.g, x, loads)
+        return error_length(energy_norm(self.H.toarray()), self.H.diagonal(), self.g, x, 0.0)
 
     @property
     def sparse(self) -> bool:
@@ -132,7 +133,8 @@ class Problem:
         A = csr_matrix(self.A.multiply(S / ell))
         g = self.g * (S / rho)
         b = self.b / (rho * ell)
-        return Problem(self.facts, H, g, A, b, one, answer)
+        facts = dict(self.facts) | {"length": self.error_length / rho}
+        return Problem(facts, H, g, A, b, one, answer)
 
     @property
     def form(self) -> StandardForm:
