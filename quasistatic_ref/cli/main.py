@@ -31,7 +31,6 @@ COMMANDS = {
     "targets": "write targets of joints that move a link along straight lines between poses",
     "extract": "write one step of a trajectory as a step file",
     "serve": "answer steps that another program asks for, one at a time, over a pipe",
-    "compare": "say where the run of another program leaves the reference, and why",
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers",
@@ -46,7 +45,6 @@ SWEEP = "sweep"
 LABS = (
     "demo",
     "serve",
-    "compare",
     "vectors",
     "validate",
     "study",

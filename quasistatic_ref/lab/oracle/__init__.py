@@ -1,5 +1,4 @@
-"""What the reference answers where another program takes steps: one by one, and over whole runs.
+"""What the reference answers where another program takes steps: ``serve``, one step at a time.
 
-It takes steps of scenes for others, ``serve`` and ``compare``. Single cases with known answers are
-in ``vectors``.
+Single cases with known answers are in ``vectors``.
 """

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
 from quasistatic_ref.lab.vectors.challenge.fresh import HARD, PLAIN, record_of
 from quasistatic_ref.lab.vectors.challenge.function import Function
@@ -19,13 +18,13 @@ from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import FLOOD, Program, Reply
 from quasistatic_ref.lab.vectors.challenge.simpler import shrunk
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
-from quasistatic_ref.lab.vectors.check.likeness import likely, wrong_parts
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, is_explained_by, mistakes_of
-from quasistatic_ref.lab.vectors.check.report import Likely, Named, sentence_of
+from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
-from quasistatic_ref.lab.vectors.check.verdict import FAILED, MISSING, Verdict
+from quasistatic_ref.lab.vectors.check.usual import usual_sentence
+from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.files import Case, expected_read, inputs_read
+from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
 MORE = 12
@@ -118,8 +117,10 @@ class Diagnosis:
             self.outcome.remarks.append(f"it wrote {size:.1f} MiB on its standard error")
         if self.program.starts > 1:
             self.outcome.remarks.append(f"it was started {self.program.starts} times")
-        if found := self._likely():
-            self.outcome.remarks.append(sentence_of(found))
+        wrong = [one for one in self.outcome.findings if one.kind == "wrong"]
+        first = min(wrong, key=lambda one: LAYERS.index(one.layer), default=None)
+        if first and not first.mistakes:
+            self.outcome.remarks.append(usual_sentence(first.layer))
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
@@ -133,32 +134,6 @@ class Diagnosis:
                     f"{layer}: {count} cases are not supported, {first} is the first"
                 )
         return self.outcome
-
-    def _likely(self) -> tuple[Likely, ...]:
-        """The formulas to look at first, by the committed cases; none if a mistake has a name."""
-        findings = self.outcome.findings
-        if not findings or any(one.mistakes for one in findings):
-            return ()
-        judged: set[str] = set()
-        wrong: set[str] = set()
-        for layer in (name for name in LAYERS if name in self._wanted):
-            records = expected_read(vectors_folder(), layer)
-            troubles = 0  # of these cases alone: a crash in each still tells the formula
-            for case in inputs_read(vectors_folder(), layer):
-                record = records[case.id]
-                if self.late or not self._supports(layer) or troubles >= GIVEN_UP:
-                    break
-                if not self._scope.holds(layer, case.input, record):
-                    continue
-                reply = self.program.ask(case.id, layer, case.input)
-                troubles += reply.kind in TROUBLES
-                one = Failed(case.id, case.input, record, None, Verdict(case.id, MISSING))
-                if reply.kind == "output":
-                    one = self._judgement(case.id, layer, case.input, record, reply)
-                judged |= set() if reply.kind == "unsupported" else {case.id}
-                if case.id in judged and one.verdict.verdict in (FAILED, MISSING):
-                    wrong |= {*wrong_parts(layer, one)}
-        return likely(wrong, judged)
 
     def _ask(self, tasks: Sequence[Task]) -> None:
         for (layer, seed, level), case, record in self._made(tasks):

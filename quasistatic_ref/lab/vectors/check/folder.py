@@ -9,9 +9,8 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
-from quasistatic_ref.lab.vectors.check.likeness import likely, wrong_parts
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
-from quasistatic_ref.lab.vectors.check.report import LayerReport, Likely, Report
+from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS, FAILED, MISSING, Verdict, failure
 from quasistatic_ref.lab.vectors.converters import converted
@@ -84,17 +83,7 @@ def check_answers(
             report = layer_report(name, within, records, found[name], digits, scope)
             reports.append(report.required() if layers is not None else report)
     own = None if scope is WHOLE else replace(scope, digits=digits)
-    return Report(str(folder), tuple(reports), digits, own, _likely_of(reports))
-
-
-def _likely_of(reports: Sequence[LayerReport]) -> tuple[Likely, ...]:
-    """The formulas to look at first; none where the first layer that fails has a name for it."""
-    if next((one.mistakes for one in reports if one.wrong), ()):
-        return ()
-    given = [v for one in reports if one.present for v in one.verdicts]
-    unsaid = {f"{v.id} {field}" for v in given for field in v.without}
-    wrong = frozenset().union(*(one.wrong for one in reports if one.present))
-    return likely(wrong, {v.id for v in given}, unsaid)
+    return Report(str(folder), tuple(reports), digits, own)
 
 
 def _cases_named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
@@ -135,12 +124,10 @@ def layer_report(
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
     right: list[Failed] = []
-    missing: list[Failed] = []
     for case in cases:
         record = expected[case.id]
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
-            missing.append(Failed(case.id, case.input, record, None, verdicts[-1]))
             continue
         given = answers.outputs[case.id]
         one = answer_judged(layer, case, record, given, answers, digits, scope)
@@ -159,7 +146,6 @@ def layer_report(
         problem=problem,
         verdicts=tuple(verdicts),
         mistakes=named,
-        wrong=frozenset(part for one in failed + missing for part in wrong_parts(layer, one)),
     )
 
 

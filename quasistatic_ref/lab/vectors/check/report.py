@@ -1,9 +1,9 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
 from quasistatic_ref.lab.vectors.check.scope import Scope
+from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
@@ -35,30 +35,6 @@ class Named:
 
 
 @dataclass(frozen=True)
-class Likely:
-    """A formula in which a mistake would spoil nearly the same.
-
-    Parameters
-    ----------
-    subject : str
-        What it computes.
-    place : str
-        Where the plain program has it.
-    likeness : float
-        Of the most alike mistake in it, from 0 to 1 [-].
-    """
-
-    subject: str
-    place: str
-    likeness: float
-
-    @property
-    def words(self) -> str:
-        """The formula, and how like its mistake is."""
-        return f"{self.subject} ({self.place} of the plain program, {self.likeness:.0%} alike)"
-
-
-@dataclass(frozen=True)
 class LayerReport:
     """What became of one layer.
 
@@ -75,8 +51,6 @@ class LayerReport:
         Of every case, in the order of the inputs.
     mistakes : tuple of Named
         What explains the failures, the best explanation first.
-    wrong : set of str
-        What is wrong, by case and field, as ``wrong_parts`` names it.
     must : bool
         Whether a layer without a file is a failure.
     """
@@ -87,7 +61,6 @@ class LayerReport:
     problem: str
     verdicts: tuple[Verdict, ...]
     mistakes: tuple[Named, ...] = ()
-    wrong: frozenset[str] = frozenset()
     must: bool = False
 
     def required(self) -> "LayerReport":
@@ -230,15 +203,12 @@ class Report:
         [-] To how many digits an answer is acceptable.
     scope : Scope, optional
         What was looked at; by default everything.
-    likely : tuple of Likely
-        The formulas to look at first, if no classic mistake explains what fails.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
     digits: float | None = None
     scope: Scope | None = None
-    likely: tuple[Likely, ...] = ()
 
     @property
     def few(self) -> tuple[str, ...]:
@@ -274,7 +244,9 @@ class Report:
                     f"{m.sentence}"
                 )
             said += [words for words in (layer.partial, layer.unasked) if words]
-        said += [sentence_of(self.likely)] if self.likely else []
+        wrong = [layer for layer in self.layers if layer.count(FAILED)]
+        if wrong and not wrong[0].mistakes:
+            said.append(usual_sentence(wrong[0].layer))
         if self.scope:
             words = f": {self.scope.words}" if self.scope.words else ""
             said.append(f"only cases of the scope {self.scope.name!r} were looked at{words}")
@@ -297,12 +269,5 @@ class Report:
             "ok": self.ok,
             "digits": self.digits,
             "scope": self.scope and {"name": self.scope.name, "words": self.scope.words},
-            "likely": [asdict(one) for one in self.likely],
             "layers": [layer.record for layer in self.layers],
         }
-
-
-def sentence_of(some: Sequence[Likely]) -> str:
-    """Where to look first."""
-    formulas = ", or in ".join(one.words for one in some)
-    return f"what is wrong is most like what a mistake spoils in {formulas}"
