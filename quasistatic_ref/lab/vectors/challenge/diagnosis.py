@@ -118,9 +118,9 @@ class Diagnosis:
         if self.program.starts > 1:
             self.outcome.remarks.append(f"it was started {self.program.starts} times")
         wrong = [one for one in self.outcome.findings if one.kind == "wrong"]
-        first = min(wrong, key=lambda one: LAYERS.index(one.layer), default=None)
-        if first and not first.mistakes:
-            self.outcome.remarks.append(usual_sentence(first.layer))
+        earliest = min(wrong, key=lambda one: LAYERS.index(one.layer), default=None)
+        if earliest and not earliest.mistakes:
+            self.outcome.remarks.append(usual_sentence(earliest.layer))
         for layer in LAYERS:
             if self._troubles[layer] >= GIVEN_UP:
                 self.outcome.remarks.append(
