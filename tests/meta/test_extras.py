@@ -36,11 +36,10 @@ def test_that_has_what_it_needs():
 """
 
 
-def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_program():
+def test_nothing_is_skipped_but_for_want_of_an_extra():
     sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != Path(__file__).name]
     found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
-    without_a_program = {"test_serve.py"}  # Go: no extra's
-    assert found == {"conftest.py", *without_a_program}, "it skips by the marker"
+    assert found == {"conftest.py"}, "it skips by the marker"
 
 
 def test_every_marker_names_an_extra(request):

