@@ -168,7 +168,9 @@ _qpalm = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 def _highs(accuracy: float) -> OptionSets:
     tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
     refuses_less = max(accuracy, 1e-10)
-    return (dict.fromkeys(tight, refuses_less) | {"time_limit": 5.0},)  # it may loop
+    # It adds 1e-7 to the diagonal of H by default: 7.6 digits in place of 12.6, in the median.
+    others = {"qp_regularization_value": 0.0, "time_limit": 5.0}  # it may loop
+    return (dict.fromkeys(tight, refuses_less) | others,)
 
 
 BOTH = ("cvxpy", "qpsolvers")
@@ -187,16 +189,16 @@ BACKENDS: dict[str, Backend] = {
         Backend("daqp", "dual active set", _once(_daqp),
                 adapter="Daqp", sparse=SPARSE_FROM_DAQP, warm=("qpsolvers",),
                 required=True),
-        Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=BOTH,
+        Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=("qpsolvers",),
                 package="proxsuite"),
         Backend("scs", "operator splitting", _once(_scs), time_limit="time_limit_secs",
                 warm=BOTH, cones=True),
-        Backend("highs", "active set", _highs, floor=1e-10, warm=("cvxpy",),
+        Backend("highs", "active set", _highs, floor=1e-10,
                 time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
         Backend("quadprog", "dual active set", lambda _: ({},), adapter="Quadprog",
                 cvxpy=False, returns=False),
-        Backend("qpalm", "augmented Lagrangian", _once(_qpalm), warm=BOTH,
+        Backend("qpalm", "augmented Lagrangian", _once(_qpalm), warm=("cvxpy",),
                 steps=False),
     )
 }  # fmt: skip

@@ -2,9 +2,10 @@
 
 Each names the page of the solver's documentation. `accuracy` are the options that a setting sets to
 its accuracy: those of the residuals, of the duality gap, and of what proves that there is no
-solution; `others` go with them. `defaults` are the solver's own tolerances of residuals and gap,
-and `promise` says what it promises by them (``promises.py``). `sparse` are the interfaces that take
-sparse matrices. A table of an interface has what differs there, and what the interface refuses.
+solution; `others` go with them, and `always` are set at every setting. `defaults` are the solver's
+own tolerances of residuals and gap, and `promise` says what it promises by them (``promises.py``).
+`sparse` are the interfaces that take sparse matrices. A table of an interface has what differs
+there, and what the interface refuses.
 """
 
 import tomllib
@@ -41,9 +42,9 @@ def options_at(name: str, interface: str, accuracy: float) -> Options:
     """
     own = option_file(name)
     refused = own.get(interface, {}).get("refused", ())
-    names = [option for option in own["accuracy"] if option not in refused]
-    others: Options = own.get("others", {})
-    return dict.fromkeys(names, max(accuracy, own.get("floor", 0.0))) | others
+    options: Options = dict.fromkeys(own["accuracy"], max(accuracy, own.get("floor", 0.0)))
+    options |= own.get("others", {})
+    return {option: value for option, value in options.items() if option not in refused}
 
 
 def takes_sparse(name: str, interface: str) -> bool:

@@ -41,8 +41,9 @@ def modes_of(solver: Solver) -> tuple[str, ...]:
 def kept_reply(mode: str, before: Reply) -> Reply | None:
     """What a mode keeps of the reply to the step before; None if it keeps nothing.
 
-    A step without an answer leaves nothing that is known to be whole: the next is set up again.
+    A step that was not solved starts nothing: what its solver left may be no point at all (OSQP's
+    x of an infeasible step has entries of 2147483647), and the next is set up again.
     """
-    if mode == COLD or before.x is None:
+    if mode == COLD or not before.solved:
         return None
     return replace(before, x=None, lam=None) if mode == UPDATES else before

@@ -109,7 +109,9 @@ class Solver:
         name = str(self.target)
         entry = self.entry
         accuracy = setting.accuracy
+        always = option_file(name).get("always", {})
         limit: dict[str, Any] = {entry.time_limit: seconds} if entry.time_limit else {}
+        limit |= always
         if accuracy is None or not has_accuracy(name):
             return limit
         if setting.tuned and name in BACKENDS:

@@ -226,7 +226,7 @@ GUESTS: dict[str, Guest] = {
         Line("exact", "active set, exact", interfaces=("native",), native=_exact,
              package="quasistatic_ref"),
         Line("qoco", "interior point", interfaces=("cvxpy", "native"), native=_qoco),
-        Line("cvxopt", "interior point", interfaces=("qpsolvers", "cvxpy")),
+        Line("cvxopt", "interior point", interfaces=("qpsolvers", "cvxpy"), warm=("qpsolvers",)),
         Line("ecos", "interior point", interfaces=("qpsolvers", "cvxpy")),
         Line("qpax", "interior point", interfaces=("native",), native=_qpax),
         Line("mpax", "primal-dual gradients", interfaces=("native",), native=_mpax),

@@ -3,11 +3,13 @@
 import os
 from collections.abc import Sequence
 from dataclasses import asdict
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.lab.study.calling.accepted import OF_THE_INTERFACE, check_options
 from quasistatic_ref.lab.study.file.study_file import Study
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
@@ -50,6 +52,10 @@ def run_study(
     InputError
         If the folder holds another study, or a solver cannot be reached.
     """
+    for solver, setting in product(study.solvers, study.settings):
+        if solver.takes(setting) and solver.interface in OF_THE_INTERFACE:
+            options = solver.settings_of(setting, study.limits.time_limit)
+            check_options(solver.interface, str(solver.target), options)
     folder = writable_folder(folder)
     problems = study_problems(study.problems, folder, progress)
     by_id = {one.id: one for one in problems}
