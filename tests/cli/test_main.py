@@ -137,7 +137,7 @@ def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]
     + [["study", "report"], ["study", "pack"]]
-    + [["vectors", name] for name in ("check", "report", "pack", "challenge")],
+    + [["vectors", name] for name in ("check", "challenge")],
     ids=" ".join,
 )
 def test_every_command_takes_quiet(words, capsys):

@@ -1,4 +1,4 @@
-"""``vectors check|report|challenge|...``: for other implementations."""
+"""``vectors check|challenge|generate|own``: for other implementations."""
 
 import argparse
 import sys
@@ -7,19 +7,15 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import vectors_folder
 
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
-    "report": "say what an implementation passed, and write it as a badge that holds it all",
     "challenge": "ask a program new cases, and show the smallest that it gets wrong",
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
-    "pack": "write the vectors as one archive to be kept, with its SHA-256",
 }
-OUT = {"own": "answers", "report": "badge.svg", "pack": "."}
+OUT = {"own": "answers"}
 """Where an action writes; ``vectors`` otherwise."""
 
 
@@ -31,20 +27,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             continue
         words = "folder of vectors; by default those that come along"
         action.add_argument("--vectors", type=Path, metavar="FOLDER", help=words)
-        if name in ("check", "report"):
+        if name == "check":
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
             shared.add(action, "--json")
             _add_digits(action)
-        if name == "check":
             words = "only cases whose ids begin so, e.g. rows/cone; may be given several times"
             action.add_argument("--only", metavar="PREFIX", action="append", default=[], help=words)
             action.add_argument("--case", metavar="ID", help="one case alone, number by number")
         else:
-            file = {"metavar": "FILE", "help": "file for the badge"} if name == "report" else {}
-            shared.add(action, "--out", default=Path(OUT.get(name, "vectors")), **file)
-        if name == "report":
-            words = "its name and version; by default as the answers name themselves"
-            action.add_argument("--implementation", metavar="NAME", help=words)
+            shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
         if name in ("check", "own"):
             _add_layers(action)
 
@@ -52,8 +43,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _add_digits(action: argparse.ArgumentParser) -> None:
     words = "answers that are right to D digits are acceptable"
     action.add_argument("--digits", type=float, metavar="D", help=words)
-    words = "what the program does, a TOML file: within it, it is complete or not"
-    action.add_argument("--scope", type=Path, metavar="FILE", help=words)
 
 
 def _add_layers(action: argparse.ArgumentParser) -> None:
@@ -91,12 +80,12 @@ def _challenge(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
-    from quasistatic_ref.lab.vectors.check.scope import scope_read
 
     source = _vectors(options)
     only = [options.case] if options.case else options.only
-    report = check_answers(options.answers, source, options.layers, only=only,
-                           digits=options.digits, scope=scope_read(options.scope))  # fmt: skip
+    report = check_answers(
+        options.answers, source, options.layers, only=only, digits=options.digits
+    )
     if options.json:
         shared.print_json(report.record)
         return report.status
@@ -104,8 +93,9 @@ def _check(options: argparse.Namespace) -> int:
         shared.print_rows(report.rows)
     if options.case:
         _show_case(options, source)
-    for sentence in report.sentences:
-        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    if not options.quiet or not report.ok:
+        for sentence in report.sentences:
+            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     return report.status
 
 
@@ -133,41 +123,6 @@ def _vectors(options: argparse.Namespace) -> Path:
     return vectors_folder() if folder is None else folder
 
 
-def _report(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.check.scope import scope_read
-    from quasistatic_ref.lab.vectors.conformance.badge import badge
-    from quasistatic_ref.lab.vectors.conformance.conformance import conformance
-
-    if options.out.suffix != ".svg":
-        raise InputError("is an image: name a file that ends in .svg", field="--out")
-    found = conformance(
-        options.answers, _vectors(options), options.implementation, options.digits,
-        scope_read(options.scope),
-    )  # fmt: skip
-    text_written(options.out, badge(found))
-    if options.json:
-        shared.print_json(found.record)
-        return found.report.status
-    if not options.quiet:
-        shared.print_rows(found.report.rows)
-        for sentence in found.sentences:
-            shared.print_wrapped(sentence)
-        print(f"wrote {options.out}")
-    elif not found.report.ok:
-        print(f"quasistatic-ref: {found.message}", file=sys.stderr)
-    return found.report.status
-
-
-def _pack(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.pack import write_zip
-
-    path, code = write_zip(_vectors(options), options.out)
-    if not options.quiet:
-        print(f"wrote {path}")
-        print(f"SHA-256 {code}")
-    return 0
-
-
 def _generate(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.generate import generate_folder
 
@@ -190,9 +145,7 @@ def _own(options: argparse.Namespace) -> int:
 
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
-    "report": _report,
     "challenge": _challenge,
     "generate": _generate,
     "own": _own,
-    "pack": _pack,
 }

@@ -2,6 +2,7 @@
 
 import functools
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,8 @@ ROOT = Path(__file__).parents[3]
 VECTORS = ROOT / "validation" / "vectors"
 NUMPY = LAYERS[:8]
 """Layers that the plain program answers."""
+PLAIN_PROGRAM = f"{sys.executable} -m quasistatic_ref.lab.program"
+"""The plain program, as a command."""
 
 
 @functools.cache

@@ -5,7 +5,6 @@ import pytest
 from tests.lab.vectors.committed_cases import VECTORS, answer_file, right_answers
 
 CHECK = ["check", "answers"]
-REPORT = ["report", "answers", "--out", "out.svg"]
 CHALLENGE = ["challenge", "--command", "x"]
 BAD = [
     (["own", "--layer", "row", "--out", "out"], "did you mean 'rows'?"),
@@ -18,11 +17,6 @@ BAD = [
     ([*CHECK, "--digits", "0"], "digits: must be from 0 to 16"),
     ([*CHECK, "--digits", "17"], "digits: must be from 0 to 16"),
     ([*CHECK, "--digits", "nan"], "digits: must be from 0 to 16"),
-    ([*REPORT, "--implementation", ""], "--implementation: must be a name of 1 to 80 characters"),
-    ([*REPORT, "--implementation", "a\nb"], "--implementation: must be a name"),
-    ([*REPORT, "--implementation", "x" * 81], "--implementation: must be a name"),
-    ([*REPORT, "--vectors", "nowhere"], "nowhere"),
-    (["report", "answers", "--out", "answers/selection.json"], "a file that ends in .svg"),
     (["challenge"], "--command: is missing"),
     ([*CHALLENGE, "--cases", "0"], "--cases: must be positive"),
     ([*CHALLENGE, "--timeout", "nan"], "--timeout: must be positive"),

@@ -19,9 +19,8 @@ from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answer
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.closeness import assert_within
-from tests.lab.vectors.committed_cases import NUMPY, VECTORS
+from tests.lab.vectors.committed_cases import NUMPY, PLAIN_PROGRAM, VECTORS
 from tests.tolerances import CLOSED_FORM
-from validation.make.challenges import PLAIN
 
 PROGRAM = Path(program.__file__).parent
 LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
@@ -52,7 +51,7 @@ def test_the_plain_program_passes_layers_1_to_8(numpy_answers):
 
 
 def test_what_challenges_found_in_programs_is_mended():
-    program = Program(PLAIN)
+    program = Program(PLAIN_PROGRAM)
     with program:
         for i, case in enumerate(json.loads(FOUND.read_text())):
             reply = program.ask(str(i), "qp", case)

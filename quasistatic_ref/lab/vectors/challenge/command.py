@@ -10,7 +10,6 @@ from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge, sent_again
-from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 
 
@@ -48,7 +47,6 @@ def challenge_status(options: argparse.Namespace) -> int:
             digits=options.digits,
             jobs=options.jobs,
             first=options.first,
-            scope=scope_read(options.scope),
             say=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
         )
     _print_outcome(outcome, options)

@@ -20,7 +20,6 @@ from quasistatic_ref.lab.vectors.challenge.simpler import shrunk
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, is_explained_by, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import Named
-from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
@@ -51,8 +50,6 @@ class Diagnosis:
         [-].
     made : callable
         Cases of tasks, in their order.
-    scope : Scope
-        What the program does: nothing else is asked of it.
     until : float
         By the monotonic clock, from when on nothing more is asked [s].
     """
@@ -62,10 +59,8 @@ class Diagnosis:
         program: Program | Function,
         digits: float | None,
         made: Callable[[Iterable[Task]], Iterator[tuple[Task, Json, Json]]],
-        scope: Scope = WHOLE,
         until: float = math.inf,
     ) -> None:
-        self._scope = scope
         self._until = until
         self.program = program
         self._digits = digits
@@ -139,8 +134,6 @@ class Diagnosis:
         for (layer, seed, level), case, record in self._made(tasks):
             if self.late:
                 return
-            if not self._scope.holds(layer, case, record):
-                continue
             if self._troubles[layer] >= GIVEN_UP or layer not in self.program.layers:
                 continue
             self.outcome.sent[layer] += 1
@@ -176,9 +169,7 @@ class Diagnosis:
         with np.errstate(all="ignore"):  # answers may be any numbers
             whole = Case(id, "", case)
             said = self.program.said
-            return answer_judged(
-                layer, whole, record, reply.output, said, self._digits, self._scope
-            )
+            return answer_judged(layer, whole, record, reply.output, said, self._digits)
 
     def _trouble(self, kind: str, layer: str, id: str, said: str, case: Json) -> None:
         """A finding without an answer: once by layer and kind, its case made smaller."""

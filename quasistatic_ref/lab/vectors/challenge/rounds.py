@@ -18,7 +18,6 @@ from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh
 from quasistatic_ref.lab.vectors.challenge.function import Function, Simulator
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import check_layer
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -41,7 +40,6 @@ def challenge(
     jobs: int = 1,
     first: bool = False,
     say: Callable[[str], None] = lambda line: None,
-    scope: Scope = WHOLE,
 ) -> Outcome:
     """Ask a program new cases, and say what it does wrong.
 
@@ -64,16 +62,12 @@ def challenge(
         Whether to end after the first round in which something is found.
     say : callable
         Called with a line on what is being done.
-    scope : Scope
-        What the program does: nothing else is asked of it.
 
     Returns
     -------
     Outcome
     """
     names = [check_layer(name) for name in layers or LAYERS]
-    names = [name for name in names if name in scope.layers]
-    digits = scope.digits if digits is None else digits
     began = time.monotonic()
     until = math.inf if seconds is None else began + seconds
     player = program if isinstance(program, Program) else Function(program)
@@ -86,7 +80,7 @@ def challenge(
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
             makers = partial(pool.map, _task_and_case)
-        found = Diagnosis(player, digits, makers, scope, until)
+        found = Diagnosis(player, digits, makers, until)
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
         while names and not found.full:

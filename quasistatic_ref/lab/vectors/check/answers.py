@@ -27,6 +27,8 @@ class Answers:
         Whether there is a file.
     problem : str
         Why the file cannot be read, or which of its entries cannot; empty if nothing is wrong.
+    unsupported : set of str
+        Ids of cases that the program says it does not do.
     """
 
     outputs: dict[str, Json] = field(default_factory=dict)
@@ -35,6 +37,7 @@ class Answers:
     quaternion: str = "xyzw"
     present: bool = True
     problem: str = ""
+    unsupported: frozenset[str] = frozenset()
 
 
 def answers_read(folder: str | Path, layer: str) -> Answers:
@@ -52,17 +55,24 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
     except InputError as error:
         return Answers(problem=str(error.in_file(path)))
     outputs: dict[str, Json] = {}
+    unsupported: set[str] = set()
     problems = []
     for i, entry in enumerate(entries):
         try:
             one = TableReader(entry, f"answers[{i}]")
             name = one.text("id")
-            output = one.take("output")
+            left_out = one.boolean("unsupported", False)
+            output = None if left_out else one.take("output")
             one.close()
-            if name in outputs:
+            if name in outputs or name in unsupported:
                 raise one.error_about("id", "is answered twice", name)
         except InputError as error:
             problems.append(str(error.in_file(path)))
             continue
-        outputs[name] = output
-    return Answers(outputs, implementation, tangent, quaternion, True, "; ".join(problems[:1]))
+        if left_out:
+            unsupported.add(name)
+        else:
+            outputs[name] = output
+    problem = "; ".join(problems[:1])
+    known = frozenset(unsupported)
+    return Answers(outputs, implementation, tangent, quaternion, True, problem, known)

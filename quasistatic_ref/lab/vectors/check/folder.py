@@ -1,7 +1,6 @@
 """``vectors check``: a folder of answers against the reference vectors, layer by layer."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,14 @@ from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
-from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
-from quasistatic_ref.lab.vectors.check.verdict import DIGITS, FAILED, MISSING, Verdict, failure
+from quasistatic_ref.lab.vectors.check.verdict import (
+    DIGITS,
+    FAILED,
+    MISSING,
+    UNSUPPORTED,
+    Verdict,
+    failure,
+)
 from quasistatic_ref.lab.vectors.converters import converted
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case, check_layer, expected_read, inputs_read
@@ -26,7 +31,6 @@ def check_answers(
     *,
     only: Sequence[str] = (),
     digits: float | None = None,
-    scope: Scope = WHOLE,
 ) -> Report:
     """Compare a folder of answers with the vectors.
 
@@ -42,9 +46,7 @@ def check_answers(
     only : sequence of str
         Beginnings of the ids of the cases that are looked at, e.g. ``rows/cone``; by default all.
     digits : float, optional
-        [-] An answer that is right to so many digits is acceptable; by default those of the scope.
-    scope : Scope
-        What the program does: only that is looked at, and all of it has to be answered.
+        [-] An answer that is right to so many digits is acceptable.
 
     Returns
     -------
@@ -61,11 +63,8 @@ def check_answers(
     folder = Path(answers)
     if not folder.is_dir():
         raise InputError("is not a folder of answers", file=folder)
-    digits = scope.digits if digits is None else digits
     if only and layers is None:
         layers = list(dict.fromkeys(one.partition("/")[0] for one in only))
-    if scope is not WHOLE:
-        layers = [name for name in layers or LAYERS if name in scope.layers]
     named = LAYERS if layers is None else [check_layer(name) for name in layers]
     known = [name for name in named if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
@@ -78,12 +77,10 @@ def check_answers(
     for name in known:
         records = expected_read(vectors, name)
         cases = _cases_named(inputs_read(vectors, name), only, name)
-        within = [one for one in cases if scope.holds(name, one.input, records[one.id])]
-        if within:
-            report = layer_report(name, within, records, found[name], digits, scope)
+        if cases:
+            report = layer_report(name, cases, records, found[name], digits)
             reports.append(report.required() if layers is not None else report)
-    own = None if scope is WHOLE else replace(scope, digits=digits)
-    return Report(str(folder), tuple(reports), digits, own)
+    return Report(str(folder), tuple(reports), digits)
 
 
 def _cases_named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
@@ -105,7 +102,6 @@ def layer_report(
     expected: dict[str, Json],
     answers: Answers,
     digits: float | None = None,
-    scope: Scope = WHOLE,
 ) -> LayerReport:
     """The verdicts on all answers of one layer, and what is wrong in those that fail.
 
@@ -118,23 +114,25 @@ def layer_report(
     answers : Answers
     digits : float, optional
         [-] An answer that is right to so many digits is acceptable.
-    scope : Scope
-        What of each answer is compared.
     """
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
     right: list[Failed] = []
     for case in cases:
         record = expected[case.id]
+        if case.id in answers.unsupported:
+            verdicts.append(Verdict(case.id, UNSUPPORTED))
+            continue
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
             continue
         given = answers.outputs[case.id]
-        one = answer_judged(layer, case, record, given, answers, digits, scope)
+        one = answer_judged(layer, case, record, given, answers, digits)
         verdict = one.verdict
         verdicts.append(verdict)
         (failed if verdict.verdict == FAILED else right).append(one)
-    unknown = [name for name in answers.outputs if name not in expected]
+    answered = [*answers.outputs, *answers.unsupported]
+    unknown = [name for name in answered if name not in expected]
     problem = answers.problem
     named = mistakes_of(layer, failed, right)
     if unknown and not problem:
@@ -156,7 +154,6 @@ def answer_judged(
     given: Json,
     answers: Answers,
     digits: float | None = None,
-    scope: Scope = WHOLE,
 ) -> Failed:
     """One answer, in the package's conventions, and its verdict.
 
@@ -171,14 +168,11 @@ def answer_judged(
     answers : Answers
     digits : float, optional
         [-].
-    scope : Scope
-        What of the answer is compared.
     """
-    given = scope.part(layer, given)
     try:
         output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
         verdict = verdict_to_digits(layer, case.input, record, output, digits)
-        verdict = scope.of_part(layer, verdict).named(case.id)
+        verdict = verdict.named(case.id)
     except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
         output = given

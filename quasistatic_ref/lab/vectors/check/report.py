@@ -2,14 +2,19 @@
 
 from dataclasses import asdict, dataclass, replace
 
-from quasistatic_ref.lab.vectors.check.scope import Scope
 from quasistatic_ref.lab.vectors.check.usual import usual_sentence
-from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
+from quasistatic_ref.lab.vectors.check.verdict import (
+    ACCEPTABLE,
+    FAILED,
+    MISSING,
+    PASSED,
+    UNSUPPORTED,
+    Verdict,
+)
 from quasistatic_ref.lab.vectors.expected import Json
 
-FEW = 5
-"""Cases of a layer below which a scope is said to be one of few cases."""
-HEADER = ("layer", PASSED, ACCEPTABLE, FAILED, MISSING, "worst digits", "first failure")
+KINDS = (PASSED, ACCEPTABLE, FAILED, MISSING, UNSUPPORTED)
+HEADER = ("layer", *KINDS, "worst digits", "first failure")
 
 
 @dataclass(frozen=True)
@@ -94,10 +99,15 @@ class LayerReport:
         return self._good(whole=False, loose=False) + self._good(whole=False, loose=True)
 
     @property
+    def supported(self) -> int:
+        """How many cases the program does not say to be beyond it."""
+        return len(self.verdicts) - self.count(UNSUPPORTED)
+
+    @property
     def complete(self) -> bool:
-        """Whether every case is answered whole, and right to the digits that were asked for."""
+        """Whether each case that is supported is answered whole, and right to the digits asked."""
         good = self.right + self.loose
-        return self.present and not self.problem and good == len(self.verdicts)
+        return self.present and not self.problem and good == self.supported
 
     @property
     def whole(self) -> bool:
@@ -116,6 +126,20 @@ class LayerReport:
             return ", ".join(f"{count} {word}" for count, word in wrong if count)
         kinds = ((self.loose, "to fewer digits"), (self.in_part, "in part"))
         return ", ".join(["right", *(word for count, word in kinds if count)])
+
+    @property
+    def passed(self) -> str:
+        """E.g. ``rows 80 of 80``, with what is right in part or not supported."""
+        notes = []
+        if self.loose:
+            notes.append(f"{self.loose} to fewer digits")
+        if self.in_part:
+            notes.append(f"{self.in_part} in part")
+        if left_out := self.count(UNSUPPORTED):
+            notes.append(f"{left_out} not supported")
+        good = self.right + self.loose + self.in_part
+        more = f" ({', '.join(notes)})" if notes else ""
+        return f"{self.layer} {good} of {len(self.verdicts)}{more}"
 
     @property
     def ok(self) -> bool:
@@ -167,7 +191,7 @@ class LayerReport:
     @property
     def row(self) -> tuple[str, ...]:
         """Its line of the table."""
-        counts = (str(self.count(v)) for v in (PASSED, ACCEPTABLE, FAILED, MISSING))
+        counts = (str(self.count(v)) for v in KINDS)
         digits = f"{self.worst.digits:.1f}" if self.worst else "-"
         first = self.first.id if self.present and self.first else "-"
         return (self.layer, *counts, digits, first)
@@ -181,7 +205,7 @@ class LayerReport:
             "answered": self.present,
             "problem": self.problem or None,
             "ok": self.ok,
-            **{verdict: self.count(verdict) for verdict in (PASSED, ACCEPTABLE, FAILED, MISSING)},
+            **{verdict: self.count(verdict) for verdict in KINDS},
             "worst_digits": self.worst.digits if self.worst else None,
             "worst_case": self.worst.id if self.worst else None,
             "first_failure": self.first.record if self.present and self.first else None,
@@ -201,20 +225,11 @@ class Report:
     layers : tuple of LayerReport
     digits : float, optional
         [-] To how many digits an answer is acceptable.
-    scope : Scope, optional
-        What was looked at; by default everything.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
     digits: float | None = None
-    scope: Scope | None = None
-
-    @property
-    def few(self) -> tuple[str, ...]:
-        """Layers of a scope of which hardly any case is within it."""
-        small = (one.layer for one in self.layers if len(one.verdicts) < FEW)
-        return tuple(small) if self.scope else ()
 
     @property
     def ok(self) -> bool:
@@ -247,17 +262,26 @@ class Report:
         wrong = [layer for layer in self.layers if layer.count(FAILED)]
         if wrong and not wrong[0].mistakes:
             said.append(usual_sentence(wrong[0].layer))
-        if self.scope:
-            words = f": {self.scope.words}" if self.scope.words else ""
-            said.append(f"only cases of the scope {self.scope.name!r} were looked at{words}")
-        if self.few:
-            said.append(f"fewer than {FEW} cases are within the scope in {', '.join(self.few)}")
         if self.digits is not None:
             said.append(f"acceptable are answers that are right to {self.digits:g} digits")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
         if unanswered:
             said.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
-        return said
+        return [*said, self.verdict]
+
+    @property
+    def verdict(self) -> str:
+        """The last line: what was passed, or which layers are not right.
+
+        Examples
+        --------
+        ``right: rows 80 of 80, wrench 60 of 84 (24 not supported)``;
+        ``not right: wrench (82 wrong)``.
+        """
+        if not self.ok:
+            wrong = [f"{one.layer} ({one.words})" for one in self.layers if not one.ok]
+            return f"not right: {', '.join(wrong)}"
+        return f"right: {', '.join(one.passed for one in self.layers if one.present)}"
 
     @property
     def record(self) -> dict[str, Json]:
@@ -268,6 +292,6 @@ class Report:
             "answers": self.answers,
             "ok": self.ok,
             "digits": self.digits,
-            "scope": self.scope and {"name": self.scope.name, "words": self.scope.words},
+            "verdict": self.verdict,
             "layers": [layer.record for layer in self.layers],
         }

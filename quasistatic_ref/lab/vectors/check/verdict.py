@@ -11,6 +11,8 @@ PASSED = "passed"
 ACCEPTABLE = "acceptable"
 FAILED = "failed"
 MISSING = "missing"
+UNSUPPORTED = "unsupported"
+"""The program says that it does not do this."""
 DIGITS = 16.0
 """More correct digits than that float64 does not hold."""
 CANCELLED = 1e3
@@ -63,7 +65,7 @@ class Verdict:
     ----------
     id : str
     verdict : str
-        One of PASSED, ACCEPTABLE, FAILED, MISSING.
+        One of PASSED, ACCEPTABLE, FAILED, MISSING, UNSUPPORTED.
     reason : str
         Why it is not simply passed; empty otherwise.
     field : str

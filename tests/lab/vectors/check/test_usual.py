@@ -36,3 +36,17 @@ def test_a_missing_answer_before_a_wrong_one_hides_nothing(tmp_path):
 
 def test_every_layer_has_a_line():
     assert list(USUAL) == list(LAYERS)
+
+
+def test_what_a_program_does_not_do_is_neither_wrong_nor_missing(tmp_path):
+    right = of_the_pyramid("wrench")
+    left_out = [case.id for case in cases("wrench") if case.id not in right]
+    answers = [{"id": name, "output": output} for name, output in right.items()]
+    answers += [{"id": name, "unsupported": True} for name in left_out]
+    answer_file(tmp_path, "wrench", {}, answers=answers)
+    report = check_answers(tmp_path, VECTORS, ["wrench"])
+    assert report.status == 0
+    assert report.sentences[-1] == report.verdict
+    assert report.verdict == (
+        f"right: wrench {len(right)} of {len(cases('wrench'))} ({len(left_out)} not supported)"
+    )
