@@ -6,8 +6,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import data_folder
 
-CONTACT_QP_1, CONTACT_QP_2 = EDITIONS = ("contact-qp-1", "contact-qp-2")
-"""Sets of quadratic programs by name."""
+CONTACT_QP = "contact-qp"
+"""The set of quadratic programs that comes with the package."""
 
 
 def vectors_folder() -> Path:
@@ -28,11 +28,13 @@ def problem_set_folder(source: str) -> Path:
     InputError
         If there is neither.
     """
-    if source in EDITIONS:
-        folder = source.replace("-", "_")
-        return data_folder(f"validation/{folder}", f"lab/study/problems/{folder}")
+    if source == CONTACT_QP:
+        return data_folder("validation/contact_qp", "lab/study/problems/contact_qp")
+    if source in ("contact-qp-1", "contact-qp-2"):
+        words = f"was an edition of the set; its problems are in {CONTACT_QP}, under the same names"
+        raise InputError(words, value=source)
     if not Path(source).is_dir():
-        hint = suggestion(source, EDITIONS)
+        hint = suggestion(source, [CONTACT_QP])
         raise InputError(f"is neither a folder nor a set that comes along{hint}", value=source)
     return Path(source)
 

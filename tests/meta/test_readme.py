@@ -31,7 +31,7 @@ def test_the_numbers_of_the_readme_are_those_of_the_committed_results():
     grasps = [row for row in cloud_rows() if row["count"] == 992 and row["change"] == "none"]
     with_torsion = [row["rotation"] <= 1 for row in grasps if row["mu_omega"] > 0]
     without = [row["rotation"] <= 1 for row in grasps if row["mu_omega"] == 0]
-    manifest = json.loads((ROOT / "validation/contact_qp_2/manifest.json").read_text("utf-8"))
+    manifest = json.loads((ROOT / "validation/contact_qp/manifest.json").read_text("utf-8"))
     families = manifest["families"]
     problems = sum(family["count"] for family in families.values())
     assert not any(without)

@@ -1,4 +1,4 @@
-"""Every answer of ``contact-qp-2`` proved again, and a tenth of them by fractions alone.
+"""Every answer of ``contact-qp`` proved again, and a tenth of them by fractions alone.
 
 Run ``python -m validation.make.proved_problems``; some minutes. ``--every N`` takes each N-th
 problem only. The first proof is that of ``study problems check --exact``. The second shares no code
@@ -13,10 +13,11 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
+from quasistatic_ref.lab.study.problems.problem import EXACT
 from tests.oracles import rational_kkt
 from validation.tools.scripts import script_options, show_page
 
@@ -33,7 +34,7 @@ Read = tuple[dict[str, Any], dict[str, Any]]
 
 def reader() -> Callable[[Path, str], Iterator[Read]]:
     """The function ``problems(folder, family)`` of the set's README."""
-    page = (problem_set_folder(CONTACT_QP_2) / "README.md").read_text("utf-8")
+    page = (problem_set_folder(CONTACT_QP) / "README.md").read_text("utf-8")
     (lines,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     names = {}
     exec(lines, names)
@@ -59,17 +60,18 @@ def refuted_and_time(judge: Callable[[Any], str | None], some: Sequence[Any]) ->
 
 def lines(every: int) -> Iterator[tuple[str, ...]]:
     """A line for each family; of a sample, each so-many-th problem."""
-    folder = problem_set_folder(CONTACT_QP_2)
+    folder = problem_set_folder(CONTACT_QP)
     read = reader()
     members = set_read(folder)
     for family in manifest(folder)["families"]:
         own = [one for one in members if one.facts["family"] == family][::every]
-        small = [one for one in read(folder, family) if one[0]["n"] <= LARGEST]
+        small = [one for one in read(folder, family)
+                 if one[0]["n"] <= LARGEST and one[0]["answer"]["kind"] == EXACT]  # fmt: skip
         share = small[:: SHARE * every]
         wrong, seconds = refuted_and_time(refutation, own)
         wrong_again, seconds_again = refuted_and_time(refuted_in_fractions, share)
         largest = max(one.facts["n"] for one in own)
-        largest_again = max(facts["n"] for facts, _ in share)
+        largest_again = max((facts["n"] for facts, _ in share), default="")
         yield (f"`{family}`", str(len(own)), f"{largest}", str(wrong), seconds,
                str(len(share)), f"{largest_again}", str(wrong_again), seconds_again)  # fmt: skip
 
@@ -82,10 +84,11 @@ def main() -> None:
         sum(int(line[i]) for line in found) for i in (1, 3, 5, 7)
     )
     text = (
-        f"# Answers of contact-qp-2, proved again\n\n{proved} answers by the exact method, "
-        f"from the rows that the files name: {refuted} refuted. {again} of them, one in {SHARE} "
-        f"of up to {LARGEST} coordinates in each family, proved in Python's integers, read by the "
-        f"lines of the set's README: {refuted_again} refuted. Processor time; the number of "
+        f"# Answers of contact-qp, proved again\n\n{proved} answers by the exact method from the "
+        "rows that the files name, by an enclosure (`ellipsoid`) or by a bound (`sparse`): "
+        f"{refuted} refuted. {again} exact ones, one in {SHARE} of those of up to {LARGEST} "
+        "coordinates in each family, proved in Python's integers, read by the lines of the set's "
+        f"README: {refuted_again} refuted. Processor time; the number of "
         "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found))
     )
     show_page(text, options.out)

@@ -13,7 +13,7 @@ import time
 
 from quasistatic_ref.cli.main import main as command
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section
 from quasistatic_ref.lab.study.measuring.judged_again import judged_again, write_packed
@@ -48,7 +48,7 @@ def make(name: str, run: bool) -> None:
         if not run:
             found = contents(out, every=True)
             ids = [one["id"] for one in found.problems]
-            problems = set_read(problem_set_folder(CONTACT_QP_2), ids=ids)
+            problems = set_read(problem_set_folder(CONTACT_QP), ids=ids)
             write_packed(judged_again(found, problems), FOLDER / name)
         steps = [["run", name, "--out", store], ["pack", store, "--out", out]] if run else []
         for step in (*steps, ["report", out, "--out", out]):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.names import FORMATS, NATURAL, RAW, UNITS
 
 ACTIONS = {
@@ -21,10 +21,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below ``study problems``."""
     parsers = parsers_of(parser, "problems", ACTIONS)
     for name in ("list", "export", "check"):
-        words = "contact-qp-1 or contact-qp-2, which come along, or the folder of a set"
-        parsers[name].add_argument(
-            "set", nargs="?", metavar="SET", default=CONTACT_QP_2, help=words
-        )
+        words = "contact-qp, which comes along, or the folder of a set"
+        parsers[name].add_argument("set", nargs="?", metavar="SET", default=CONTACT_QP, help=words)
     export = parsers["export"]
     to = export.add_argument("--to", required=True, choices=FORMATS, help="which format")
     shared.completed(to, lambda: FORMATS)
@@ -87,7 +85,6 @@ def _export(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.checking import refutation
-    from quasistatic_ref.lab.study.problems.editions import edition_problem
     from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
@@ -102,16 +99,15 @@ def _check(options: argparse.Namespace) -> int:
                 if why is not None:
                     wrong[one.id] = why
                 bar.update()
-    other = edition_problem(folder)
     kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in problems)
     if options.json:
-        found = {"problems": len(problems), "answers": kinds, "refuted": wrong, "edition": other}
+        found = {"problems": len(problems), "answers": kinds, "refuted": wrong}
         shared.print_json(found)
-        return int(bool(wrong or other))
+        return int(bool(wrong))
     said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     print(f"{len(problems)} problems, as the manifest lists them: {said}")
     if options.exact:
         print(f"{len(problems) - len(wrong)} answers proved again, {len(wrong)} refuted")
-    for sentence in (*(f"{name}: {why}" for name, why in wrong.items()), *filter(None, [other])):
-        print(f"quasistatic-ref: {sentence}", file=sys.stderr)
-    return int(bool(wrong or other))
+    for name, why in wrong.items():
+        print(f"quasistatic-ref: {name}: {why}", file=sys.stderr)
+    return int(bool(wrong))

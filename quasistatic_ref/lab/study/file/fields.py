@@ -78,7 +78,7 @@ TABLES = WholeTables({
                       default=1, least=0, most=2**32 - 1),
         "scenarios": Field("list of words", "whose steps problems are made of: names, or files in "
                            "the study's folder; else all that come along", default=None),
-        "set": Field("text", "what problems are taken from, \"contact-qp-2\", \"contact-qp-1\" "
+        "set": Field("text", "what problems are taken from, \"contact-qp\" "
                      "or the folder of another set; else they are steps of scenarios",
                      default=None),
         "families": Field("table", "how many problems of each", default={"scenarios": 20},

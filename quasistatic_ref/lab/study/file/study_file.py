@@ -196,7 +196,7 @@ def _counts(table: TableReader, of_a_set: bool) -> tuple[dict[str, int], dict[st
         count = TABLES.all_values(inner, COUNT)
         needs_set = name not in MADE and not of_a_set
         if count["count"] and needs_set and name != SCENARIOS:
-            words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
+            words = 'is a family of sets; say set = "contact-qp"'
             raise table.error_about(name, words)
         if count["most"] is not None and needs_set:
             raise table.error_about(name, "has no dial to be turned, unless it is taken from a set")

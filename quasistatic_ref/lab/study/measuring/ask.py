@@ -8,7 +8,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.lab.folders import EDITIONS, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
@@ -115,25 +115,20 @@ def _problem(name: str, store: str | Path | None) -> Problem:
     if own is not None and (own / MANIFEST).exists():
         (found,) = set_read(own, ids=[name])
     else:
-        found = _of_an_edition(name)
+        found = _of_the_set(name)
     if found.facts["kind"] != QP:
         raise InputError("has cones; studies contain rows only", value=name)
     return found
 
 
-def _of_an_edition(name: str) -> Problem:
-    """A problem of a set that comes along; those of one name are the same in all."""
-    for edition in EDITIONS:
-        try:
-            (found,) = set_read(problem_set_folder(edition), ids=[name])
-        except InputError:
-            continue
-        return found
-    words = (
-        f"is not a problem of {' or '.join(EDITIONS)}; others need --store, the folder of a study "
-        "that holds its problems"
-    )
-    raise InputError(words, value=name)
+def _of_the_set(name: str) -> Problem:
+    """A problem of the set that comes along."""
+    try:
+        (found,) = set_read(problem_set_folder(CONTACT_QP), ids=[name])
+    except InputError:
+        words = f"is not a problem of {CONTACT_QP}; others need --store, the folder of a study that"
+        raise InputError(f"{words} holds its problems", value=name) from None
+    return found
 
 
 def solver_named(label: str) -> Solver:

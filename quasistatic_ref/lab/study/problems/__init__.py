@@ -1,6 +1,6 @@
 """Quadratic programs of contact with exact answers: sets of them, made, kept, checked, exported.
 
 It knows no solver. Answers are the exact method's, with a proof. Only the family ``scenarios`` is
-made here; the sets ``contact-qp-1`` and ``-2`` are frozen, and ``dials`` says what their families
+made here; the set ``contact-qp`` is frozen, and ``dials`` says what their families
 vary.
 """

@@ -1,4 +1,4 @@
-"""The families of the sets, each with its dial: the number that makes its problems harder."""
+"""The families of the set, each with its dial: the number that makes its problems harder."""
 
 from typing import TypedDict
 
@@ -34,11 +34,9 @@ MADE = {
 }
 """Families of no set, which a study makes itself."""
 DIALS = MADE | {
-    "sequences": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "moving": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "time_step": _dial("h", "s", 0.1, 1e-4),
     "closest_points": _dial("k", "-", 1.0, 50.0),
-    "wedge": _dial("angle", "rad", 1e-1, 1e-9),
     "ellipsoid": _dial("contacts", "-", 2.0, 12.0),
     "sparse": _dial("bodies", "-", 10.0, 500.0),
     "contacts": _dial("contacts", "-", 2, 200),

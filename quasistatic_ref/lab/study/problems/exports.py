@@ -15,13 +15,13 @@ from scipy.sparse import csr_matrix
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written, text_written, written_whole
-from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.names import PARQUET
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.parts import needed_package
 
 CARRIED = ("LICENSE*", "CITATION.cff")
-"""Files of a set that come with every export of it; of contact-qp-2, where a set has none."""
+"""Files of contact-qp that come with every export."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
 VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
@@ -78,8 +78,7 @@ def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
         .read_text("utf-8")
         .format(name=name, to=to, count=count, version=__version__, layout=words)
     )
-    edition = next((one for one in EDITIONS if name.startswith(one)), CONTACT_QP_2)
-    source = problem_set_folder(edition)
+    source = problem_set_folder(CONTACT_QP)
     found = [path for part in CARRIED for path in sorted(source.glob(part))]
     return [
         text_written(folder / "README.md", text),

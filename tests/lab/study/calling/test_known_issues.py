@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import StepProblem, standard_form
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
@@ -36,7 +36,7 @@ def test_highs_still_does_not_solve_each_of_20_contact_problems():
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     names = ("mass_ratio/7.99853/30", "mass_ratio/775.59/96", "limits/0.000769265/8",
              "gaps/0.00152334/19", "bodies/5/33")  # fmt: skip
-    problems = set_read(problem_set_folder(CONTACT_QP_2), ids=names)
+    problems = set_read(problem_set_folder(CONTACT_QP), ids=names)
     assert all(problem.feasible for problem in problems)
     claims = [qpsolvers_reply(one.natural.form, "proxqp", {}).status for one in problems]
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims

@@ -8,7 +8,7 @@ from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.calling.packages import announced_function, announced_solvers
 from quasistatic_ref.lab.study.store.store import contents
 
-PROBLEMS = "repetitions = 2\n[problems]\nset = 'contact-qp-2'\nfamilies = { gaps = 2 }\n"
+PROBLEMS = "repetitions = 2\n[problems]\nset = 'contact-qp'\nfamilies = { gaps = 2 }\n"
 """Small and well conditioned, so that quadprog keeps nearly all digits."""
 
 MODULE = """

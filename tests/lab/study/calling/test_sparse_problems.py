@@ -5,7 +5,7 @@ from time import perf_counter
 import pytest
 from scipy.sparse import issparse
 
-from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.calling.calls import call_of
 from quasistatic_ref.lab.study.calling.options import takes_sparse
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
@@ -27,7 +27,7 @@ LESS = {("cvxpy", "cvxopt"), ("cvxpy", "ecos"), ("qpsolvers", "ecos")}
 @pytest.fixture(scope="module")
 def wall():
     """Ten bricks; 60 coordinates, 128 rows, the answer known to 6.8 digits."""
-    (found,) = set_read(problem_set_folder(CONTACT_QP_1), ids=["sparse/10/0"])
+    (found,) = set_read(problem_set_folder(CONTACT_QP), ids=["sparse/10/0"])
     return found
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.lab import processes
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
@@ -268,7 +268,7 @@ def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem)
 @pytest.fixture(scope="module")
 def none_to_find():
     """A problem without a solution."""
-    (found,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["infeasible/0.01/0"])
+    (found,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/0.01/0"])
     assert not found.feasible
     return found
 

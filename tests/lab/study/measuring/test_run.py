@@ -99,7 +99,7 @@ warm_up = 1.0
 budget = 5.0
 repetitions = 2
 [problems]
-set = "contact-qp-2"
+set = "contact-qp"
 families = { contacts = { count = 5, most = 12 } }
 [solvers.slow]
 callable = "planted_solvers:slow"

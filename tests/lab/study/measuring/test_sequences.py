@@ -70,8 +70,8 @@ ORDERED = """
 repetitions = 1
 {limits}
 [problems]
-set = "contact-qp-1"
-families.sequences = {{ count = 12, most = {stride} }}
+set = "contact-qp"
+families.moving = {{ count = 12, most = {stride} }}
 [solvers.own]
 callable = "sequence_solvers:{own}"
 options.high = {{}}
@@ -121,8 +121,8 @@ def test_a_solver_that_returns_its_last_answer_again_is_named(own, run, tmp_path
 STUDY = """
 repetitions = 1
 [problems]
-set = "contact-qp-1"
-families = { sequences = 12 }
+set = "contact-qp"
+families = { moving = 12 }
 [[runs]]
 solvers = ["qpsolvers:daqp"]
 settings = ["high"]

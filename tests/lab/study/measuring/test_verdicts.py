@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.measuring.false_claims import FACTOR, certificate_holds
 from quasistatic_ref.lab.study.measuring.grade import grades, problem_forms
@@ -41,7 +41,7 @@ def row_of(problem, x, lam, units="natural", solver=MINE, setting=TIGHT):
 
 @pytest.fixture(scope="module")
 def wedge():
-    (found,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["capped_wedge/1e-08/79"])
+    (found,) = set_read(problem_set_folder(CONTACT_QP), ids=["capped_wedge/1e-08/79"])
     return found
 
 
@@ -107,7 +107,7 @@ def test_proxqp_whose_documentation_states_no_limit_of_signs_is_held_to_a_thousa
 
 
 def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
-    (none,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["infeasible/1.14868e-11/243"])
+    (none,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/1.14868e-11/243"])
     form = none.natural.form
     near = dual_gradient(form, 1e-3)
     kept = row_of(none, *near, setting=Setting("loose", 1e-3))
@@ -118,7 +118,7 @@ def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
 
 def test_relative_tolerances_without_a_solution_are_those_of_the_answer():
     """As a solver measures them: FACTOR 1e-3 |Ax|, to which the terms' rounding adds 1e-12."""
-    (none,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["infeasible/0.01/0"])
+    (none,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/0.01/0"])
     form = none.natural.form
     relative = {"tight": {"primal": {"rel": 1e-3, "of": ["|Ax|"]}}}
     solver = Solver("mine", "callable", "m:f", promised=relative)
@@ -167,7 +167,7 @@ def test_the_verdicts_of_the_committed_rows_are_those_of_the_files_of_options(co
     rows = [r for k, r in enumerate(committed.rows) if k % 20 == 0 or r["wrong"]]
     ids = sorted({row["problem"] for row in rows})
     part = Contents(committed.study, rows, committed.problems, {})
-    again = judged_again(part, set_read(problem_set_folder(CONTACT_QP_2), ids=ids))
+    again = judged_again(part, set_read(problem_set_folder(CONTACT_QP), ids=ids))
     assert again.rows == rows
     assert again.study["solvers"] == committed.study["solvers"]
 
@@ -179,7 +179,7 @@ def test_every_committed_answer_obeys_the_bound_by_three_residuals(committed):
     """
     ids = sorted({row["problem"] for row in committed.rows if row["feasible"]})
     sizes = {}
-    for problem in set_read(problem_set_folder(CONTACT_QP_2), ids=ids):
+    for problem in set_read(problem_set_folder(CONTACT_QP), ids=ids):
         own = problem.natural.answer
         numbers = (own.lam, np.concatenate([own.x, own.slack]))
         sizes[problem.id] = [problem_forms(problem).length, *(abs(v).sum() for v in numbers)]

@@ -13,28 +13,28 @@ from pyarrow.parquet import read_table
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
 from quasistatic_ref.lab.study.problems.names import FORMATS
 from quasistatic_ref.lab.study.problems.problem import Problem
 
 
 @pytest.fixture
-def few(members, older):
+def few(members):
     """Some problems of each kind: rows, rows without a solution, limits, cones, sparse matrices."""
     newer = ("capped_wedge", "limits", "large", "jammed")
     mended = [one for one in members if one.facts["family"] in newer]
-    others = [one for one in older if one.facts["family"] in ("ellipsoid", "sparse")]
-    return [*mended[::60], *others[::80]]
+    others = [one for one in members if one.facts["family"] in ("ellipsoid", "sparse")]
+    return [*mended[::60], *others[::100]]
 
 
 def export(to, folder, problems):
-    assert exports.exported_files("contact-qp-2", problems, to, folder)
+    assert exports.exported_files("contact-qp", problems, to, folder)
 
 
 def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
     export("npz", tmp_path, few)
-    with np.load(tmp_path / "contact-qp-2.npz") as bundle:
+    with np.load(tmp_path / "contact-qp.npz") as bundle:
         assert bundle["id"].tolist() == [one.id for one in few]
         for k, one in enumerate(few):
             if "sparse" in one.facts["tags"]:
@@ -89,9 +89,9 @@ def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
 def test_every_export_says_what_it_is_and_how_to_cite_it(to, few, tmp_path):
     export(to, tmp_path, few[:1])
     text = (tmp_path / "README.md").read_text("utf-8")
-    assert text.startswith(f"# contact-qp-2, as {to}\n")
+    assert text.startswith(f"# contact-qp, as {to}\n")
     assert "{" not in text.partition("```")[0]
-    licences = {path.name for path in problem_set_folder(CONTACT_QP_2).glob("LICENSE*")}
+    licences = {path.name for path in problem_set_folder(CONTACT_QP).glob("LICENSE*")}
     assert licences | {"CITATION.cff"} <= {path.name for path in tmp_path.iterdir()}
 
 
@@ -109,7 +109,7 @@ def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     ]
     assert "left out 4 problems" in cli(*command, *some).err
     program = Path(sys.executable).with_name("qpbenchmark")
-    module = "contact_qp_2_natural.py"
+    module = "contact_qp_natural.py"
     done = subprocess.run(
         [program, "--results-path", "results.csv", module, "run", "--solver", "daqp",
          "--author", "nobody"],
@@ -129,7 +129,7 @@ def test_the_module_of_qpbenchmark_judges_claims_by_residuals(tmp_path, members)
     narrow = [one.natural for one in members if one.facts["family"] == "capped_wedge"][40::10]
     export("parquet", tmp_path, narrow)
     said = subprocess.run(
-        [sys.executable, "contact_qp_2.py", "osqp"], cwd=tmp_path, capture_output=True,
+        [sys.executable, "contact_qp.py", "osqp"], cwd=tmp_path, capture_output=True,
         text=True, timeout=120, check=True,
     ).stdout  # fmt: skip
     verdict = "0 of 4 answers that it calls solved have a residual above 0.001"
@@ -140,8 +140,8 @@ def test_the_module_of_qpbenchmark_judges_claims_by_residuals(tmp_path, members)
 def test_the_module_of_qpbenchmark_sees_wrong_answers(tmp_path, members, part):
     one = next(one for one in members if one.facts["family"] == "contacts").natural
     export("parquet", tmp_path, [one])
-    module = runpy.run_path(str(tmp_path / "contact_qp_2.py"))
-    ((problem),) = module["ContactQp2"]()
+    module = runpy.run_path(str(tmp_path / "contact_qp.py"))
+    ((problem),) = module["ContactQp"]()
     answer = {"x": one.answer.x, "z": one.answer.lam}
     assert module["excess"](problem, **answer) < 1e-9
     answer[part] = answer[part] + 1.0

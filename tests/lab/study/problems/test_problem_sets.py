@@ -12,20 +12,43 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
-from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, EDITIONS, problem_set_folder
+from quasistatic_ref.certify.norm import energy_norm, error_length
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
-from quasistatic_ref.lab.study.problems.editions import FROZEN, edition_problem
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, manifest, set_read
 from tests.oracles import rational_kkt
+from tests.tolerances import ROUNDING
 from validation.make import proved_problems
 
-NEWER = problem_set_folder(CONTACT_QP_2)
+FOLDER = problem_set_folder(CONTACT_QP)
 
 
-@pytest.mark.parametrize("name", EDITIONS)
-def test_a_set_that_ships_is_the_one_that_was_frozen(name):
-    assert list(FROZEN) == [*EDITIONS]
-    assert edition_problem(problem_set_folder(name)) is None
+def test_the_numbers_of_the_set_are_those_that_were_published():
+    """Of the numbers of its two editions; the lines have a length since."""
+    files = {
+        one["path"]: one["sha256"] for one in manifest(FOLDER)["files"] if one["path"] != FACTS
+    }
+    digest = sha256(json.dumps(files, sort_keys=True).encode()).hexdigest()
+    assert digest == "b1d226f79b43c91baffa80fb8083ec4efa8fd1b57e8f3b152d92954f415d7768"
+    assert manifest(FOLDER)["count"] == 1510
+    assert len(files) == 20
+
+
+def test_names_of_the_editions_that_it_was_made_of_lead_to_it():
+    for name in ("contact-qp-1", "contact-qp-2"):
+        with pytest.raises(
+            InputError, match="its problems are in contact-qp, under the same names"
+        ):
+            problem_set_folder(name)
+
+
+def test_every_problem_has_its_length(members):
+    """The largest of the three lengths that are known of a problem of no step."""
+    for one in members[::7]:
+        x = np.zeros(len(one.g)) if one.answer.farkas else one.answer.x
+        wanted = error_length(energy_norm(one.H.toarray()), one.H.diagonal(), one.g, x, 0.0)
+        assert one.error_length == one.facts["length"] == pytest.approx(wanted, rel=ROUNDING)
+        assert one.natural.error_length == one.error_length / one.units.size
 
 
 def test_wrong_answers_and_wrong_proofs_are_refuted_in_fractions():
@@ -55,11 +78,11 @@ def test_wrong_answers_and_wrong_proofs_are_refuted_in_fractions():
 
 
 @pytest.mark.parametrize("kind", ["exact", "enclosed", "bounded", "infeasible"])
-def test_an_answer_that_was_changed_is_refuted(members, older, kind):
+def test_an_answer_that_was_changed_is_refuted(members, kind):
     def of_kind(one):
         return kind == ("infeasible" if one.answer.farkas else one.answer.kind)
 
-    one = next(one for one in [*members, *older] if of_kind(one))
+    one = next(one for one in members if of_kind(one))
     if kind == "infeasible":
         some = dict(one.answer.farkas)
         first = next(iter(some))
@@ -72,19 +95,14 @@ def test_an_answer_that_was_changed_is_refuted(members, older, kind):
     assert refutation(replace(one, answer=changed)) is not None
 
 
-@pytest.mark.parametrize("name", EDITIONS)
-def test_the_code_of_the_readme_reads_what_the_package_reads(name, members, older):
-    folder = problem_set_folder(name)
-    every = {CONTACT_QP_1: older, CONTACT_QP_2: members}[name]
-    page = (folder / "README.md").read_text("utf-8")
+def test_the_code_of_the_readme_reads_what_the_package_reads(members):
+    page = (FOLDER / "README.md").read_text("utf-8")
     (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     names = {}
     exec(code, names)
-    for family in {"wedge", "ellipsoid", "capped_wedge", "jammed"} & manifest(folder)[
-        "families"
-    ].keys():
-        own = [one for one in every if one.facts["family"] == family]
-        found = list(names["problems"](folder, family))
+    for family in ("ellipsoid", "capped_wedge", "jammed"):
+        own = [one for one in members if one.facts["family"] == family]
+        found = list(names["problems"](FOLDER, family))
         assert len(found) == len(own)
         for (facts, numbers), one in zip(found, own, strict=True):
             assert facts["id"] == one.id
@@ -96,7 +114,7 @@ def test_the_code_of_the_readme_reads_what_the_package_reads(name, members, olde
 
 
 def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
-    shutil.copytree(NEWER, tmp_path / "set")
+    shutil.copytree(FOLDER, tmp_path / "set")
     path = tmp_path / "set" / NUMBERS / "limits.npz"
     content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 1
@@ -111,25 +129,15 @@ def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
 def test_a_set_whose_lines_are_something_else_is_refused(tmp_path, spoilt):
     """Its manifest lists the files as they are."""
     (tmp_path / NUMBERS).mkdir()
-    shutil.copy(NEWER / NUMBERS / "limits.npz", tmp_path / NUMBERS)
+    shutil.copy(FOLDER / NUMBERS / "limits.npz", tmp_path / NUMBERS)
     (tmp_path / FACTS).write_text(spoilt)
     files = [FACTS, f"{NUMBERS}/limits.npz"]
     listed = [{"path": name, "sha256": sha256((tmp_path / name).read_bytes()).hexdigest()}
               for name in files]  # fmt: skip
-    head = manifest(NEWER) | {"families": {"limits": {}}, "files": listed}
+    head = manifest(FOLDER) | {"families": {"limits": {}}, "files": listed}
     (tmp_path / MANIFEST).write_text(json.dumps(head))
     with pytest.raises(InputError):
         set_read(tmp_path)
-
-
-def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path):
-    shutil.copytree(NEWER, tmp_path / "set")
-    path = tmp_path / "set" / MANIFEST
-    head = json.loads(path.read_text())
-    head["families"]["limits"]["dial"]["unit"] = "mrad"
-    path.write_text(json.dumps(head))
-    found = edition_problem(tmp_path / "set")
-    assert found == "calls itself contact-qp-2 and has other problems: give it another name"
 
 
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
@@ -145,8 +153,7 @@ def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, cli):
 
 def test_the_commands_say_what_the_set_has(cli):
     assert "problems, as the manifest lists them" in cli("study", "problems", "check").out
-    for name in EDITIONS:
-        assert name in cli("study", "problems", "list", name).out
+    assert "contact-qp: 1510 problems" in cli("study", "problems", "list").out
 
 
 def test_a_sample_of_each_family_is_proved_both_ways(tmp_path, monkeypatch):
@@ -157,4 +164,4 @@ def test_a_sample_of_each_family_is_proved_both_ways(tmp_path, monkeypatch):
         proved_problems.main()
     text = page.read_text("utf-8")
     assert text.count(": 0 refuted") == 2
-    assert all(f"`{family}`" in text for family in manifest(NEWER)["families"])
+    assert all(f"`{family}`" in text for family in manifest(FOLDER)["families"])

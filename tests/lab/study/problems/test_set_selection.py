@@ -10,7 +10,7 @@ from tests.closeness import assert_relative
 
 STUDY = """
 [problems]
-set = "contact-qp-2"
+set = "contact-qp"
 families = {{ {families} }}
 
 [[runs]]
@@ -57,17 +57,16 @@ def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_pat
 
 def test_a_family_of_cones_is_refused():
     with pytest.raises(InputError, match="has cones; studies contain rows only"):
-        problems_taken("contact-qp-1", {"ellipsoid": 2}, {})
+        problems_taken("contact-qp", {"ellipsoid": 2}, {})
 
 
 @pytest.mark.parametrize(("text", "words"), [
-    ("families = { sequences = 12 }", "is a family of sets; say set"),
+    ("families = { moving = 12 }", "is a family of sets; say set"),
     ("families = { scenarios = { count = 3, most = 0.01 } }", "has no dial to be turned"),
-    ('set = "contact-qp-3"\nfamilies = { wedge = 3 }', "is neither a folder nor a set"),
-    ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is not a family of the set"),
-    ('set = "contact-qp-1"\nfamilies = { wedges = 3 }', "wedges"),
+    ('set = "contact-qp-3"\nfamilies = { narrow = 3 }', "is neither a folder nor a set"),
+    ('set = "contact-qp"\nfamilies = { heaps = 3 }', "heaps"),
     ("families = { contacts = { most = 3 } }", "count"),
-    ('set = "contact-qp-1"\nfamilies = { wedge = { count = 3, most = -1 } }', "must be greater"),
+    ('set = "contact-qp"\nfamilies = { narrow = { count = 3, most = -1 } }', "must be greater"),
 ])  # fmt: skip
 def test_what_cannot_be_taken_is_said(study, tmp_path, text, words):
     with pytest.raises(InputError, match=words):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
@@ -33,7 +33,7 @@ NAMED = {  # what is false of it on three problems, and what it looks like
 @pytest.fixture(scope="module")
 def screen(harmless, tmp_path_factory):
     """The page, and its first table by solver; the last would spoil the process of all others."""
-    problems = set_read(problem_set_folder(CONTACT_QP_2), ids=PROBLEMS)
+    problems = set_read(problem_set_folder(CONTACT_QP), ids=PROBLEMS)
     keys = {"interface": "callable", "setting": "default", "mode": "", "warm": False,
             "units": "natural", "repetition": 0}  # fmt: skip
     names = {"name": "", "interface": "callable", "options": {"default": {}}}

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import digits_delivered, rows_named, seconds
 
-WEDGE = "wedge/0.1/0"
+WEDGE = "capped_wedge/0.1/0"
 
 
 def worst(tables):
@@ -95,7 +95,7 @@ def test_a_solver_of_a_study_has_the_name_that_its_file_gives_it(whole):
     ((WEDGE, "daqp", "default"), "neither interface:name nor module:function"),
     ((WEDGE, "qpsolvers:daqp", "tunde"), "did you mean 'tuned'"),
     ((WEDGE, "qpsolvers:clarabel", "default", "natural", True), "takes no start"),
-    (("wedge/0.1/x", "qpsolvers:daqp", "default"), "is not a problem of contact-qp-1"),
+    (("capped_wedge/0.1/x", "qpsolvers:daqp", "default"), "is not a problem of contact-qp"),
 ])  # fmt: skip
 def test_what_cannot_be_run_is_refused_in_a_sentence(words, problem):
     with pytest.raises(InputError, match=problem):
