@@ -21,6 +21,11 @@ settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 
+def pytest_addoption(parser):
+    """How many random steps both speeds take: more than a few are slow."""
+    parser.addoption("--count", type=int, default=40, help="random steps at both speeds")
+
+
 def pytest_configure(config):
     """Declare the marker of tests that need an extra."""
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
@@ -51,6 +56,12 @@ def pytest_collection():
 def rng():
     """Random numbers, the same in every run."""
     return np.random.default_rng(20231)
+
+
+@pytest.fixture
+def count(request):
+    """How many random steps are taken."""
+    return request.config.getoption("--count")
 
 
 @dataclass(frozen=True)

@@ -96,7 +96,7 @@ negative."""
 def dual_active_set(
     form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
 ) -> Optimum | Farkas:
-    """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none. In C: walk.c.
+    """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
     Parameters
     ----------

@@ -63,8 +63,6 @@ def tight_rows(
 def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
     """Which equations [a, b] follow from those that are `held`, whose left sides are independent.
 
-    In C: span.c, zeros.c.
-
     Raises
     ------
     AssertionError

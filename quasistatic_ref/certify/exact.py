@@ -185,8 +185,6 @@ def group_optimum(
 ) -> ExactOptimum:
     """The exact optimum of a group of a step, from the step of the group and its `warm` rows.
 
-    In C: certificate.c.
-
     Raises
     ------
     StepInfeasible

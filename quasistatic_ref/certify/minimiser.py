@@ -73,7 +73,7 @@ def form_in_balls(form: ExactForm) -> BallForm:
 
 
 def inverse(H: fmpz_mat) -> arb_mat:
-    """H^-1 in balls, of an H that is positive definite. In C: contraction.c."""
+    """H^-1 in balls, of an H that is positive definite."""
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
         with ctx.workprec(precision):
@@ -145,7 +145,7 @@ class RationalSolution:
 
 
 def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolution:
-    """The minimiser under A_i x = b_i for i in a working set, without rounding. In C: kkt.c.
+    """The minimiser under A_i x = b_i for i in a working set, without rounding.
 
     Raises
     ------

@@ -266,5 +266,5 @@ def two_to(e: int) -> fmpq:
 
 
 def fraction(x: float) -> fmpq:
-    """A float64 number, without rounding [the same unit]. In C: fixed_point.h."""
+    """A float64 number, without rounding [the same unit]."""
     return fmpq(*x.as_integer_ratio())

@@ -79,8 +79,6 @@ def nearest_numbers(
 ) -> Array:
     """Some numbers of a minimiser, times a unit, in float64, rounded correctly, shape (entries,).
 
-    In C: rounding.c.
-
     Each of the `entries`, shape (entries,), of the field `name` of its solutions is rounded from
     its ball; where the ball leaves that open, it is zero if `zeros` proves so, and otherwise
     rounded from the rational solution.

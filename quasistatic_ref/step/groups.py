@@ -131,8 +131,6 @@ def labels(
 def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     """The groups of a step, each with its own step; the step itself if there is one group.
 
-    In C: groups.c.
-
     Parameters
     ----------
     step : StepData

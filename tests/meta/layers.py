@@ -102,7 +102,6 @@ WALLS = {
         "optional/coulomb",
         "optional/ellipsoid",
         "optional/extensions",
-        "optional/fast/far.py",
         "optional/forces",
         "optional/large",
         "lab/vectors",

@@ -85,7 +85,7 @@ def test_every_result_has_a_test_by_random_instances():
 
 def test_a_file_of_c_names_the_function_that_it_repeats_and_the_test_and_is_named_there():
     compiled = PACKAGE / "optional" / "fast" / "compiled" / "source"
-    for file in [*compiled.glob("*.c"), compiled / "fixed_point.h", compiled / "solid.h"]:
+    for file in [*compiled.glob("*.c"), compiled / "solid.h"]:
         first = file.read_text().partition("\n\n")[0]
         (test,) = re.findall(r"with (test_\w+\.py)|core: (test_\w+\.py)", first)
         assert (ROOT / "tests" / "optional" / "fast" / "compiled" / "".join(test)).exists(), file

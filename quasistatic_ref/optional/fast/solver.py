@@ -1,17 +1,15 @@
-"""Solvers that keep what steps have in common, and try a guessed working set before all else."""
+"""Solvers that keep what steps have in common."""
 
-from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.between import FLOAT_BOUND, FloatBound
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
-from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.prover import Prover
-from quasistatic_ref.solve.solver import FAST_SOLVER, NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.solver import FAST_SOLVER, Solver, solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask, StepData
@@ -41,24 +39,17 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     return FastSolver(step, name)
 
 
-class GuessProver(Prover):
-    """What tries a guess of the working set before the exact method, and keeps what H gives.
+class FastProver(Prover):
+    """The exact method, with what H gives of norms and bounds kept while H stays.
 
     Attributes
     ----------
-    proofs : Proofs
-        Of the steps that are certified.
     bound : FloatBound or None
         For the H of the step whose error was bounded last.
     """
 
     def __init__(self) -> None:
-        self.proofs = Proofs()
         self.bound: FloatBound | None = None
-
-    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum: proved on a guess of its working set, or found by the exact method."""
-        return self.proofs.optimum(both, answer)
 
     def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step."""
@@ -91,11 +82,11 @@ class FastSolver(NativeSolver):
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
-    prover: GuessProver
+    prover: FastProver
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
-        self.prover = GuessProver()
+        self.prover = FastProver()
         self.written: Units | None = None
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.norm import Norm
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
+from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.between import LARGE_STEPS, LargeSteps
 from quasistatic_ref.optional.fast.adapters.program import SparseProgram
 from quasistatic_ref.optional.fast.native import NativeSolver
-from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
@@ -50,19 +49,23 @@ def reachable(options: Options, rows: int) -> Options:
 
 
 class SparseProver(Prover):
-    """What proves large steps, group by group."""
+    """The exact method for large steps, whose rows are sparse."""
 
     def __init__(self, kind: LargeSteps) -> None:
-        self.proofs = Proofs()
         self.kind = kind
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum."""
-        return self.proofs.optimum(both, answer)
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step."""
-        return self.proofs.norm()
+        if answer is None:
+            return step_optimum(both.si_step)
+        form = both.natural_form
+        lam = answer.natural_lam
+        slack = form.A @ answer.natural_delta_q - form.b
+        pressed = np.flatnonzero(lam > np.maximum(slack, 0))
+        A: csc_matrix = form.A
+        rows = A.tocsr()[pressed].toarray()
+        warm = warm_rows(rows, lam[pressed], slack[pressed])
+        return step_optimum(both.si_step, pressed[warm].tolist())
 
     def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""

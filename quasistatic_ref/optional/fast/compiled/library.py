@@ -33,17 +33,14 @@ from quasistatic_ref.optional.fast.compiled.cache import Cache, CompileError
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
-TESTED_BY = (
-    "selftest.py", "known_functions.py", "known_pairs.py", "known_steps.py", "known_steps.jsonl.gz",
-)  # fmt: skip
+TESTED_BY = ("selftest.py", "known_pairs.py")
 SELFTEST = "quasistatic_ref.optional.fast.compiled.selftest"
 CONSTANTS = {
     **{
         name: getattr(tolerances, name)
         for name in (
-            "COMPLIANCE", "FILLED", "HARDLY_MOVES", "ILL_POSED", "ON_RIM", "ON_SURFACE",
-            "OUTSIDE_FACE", "OVER_FACE", "REPEATED", "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN",
-            "UPRIGHT",
+            "FILLED", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE", "OVER_FACE", "REPEATED",
+            "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
         )
     },
     "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,
@@ -66,10 +63,6 @@ FUNCTIONS = {
     "turns": ctypes.c_int,
     "changes": None,
     "natural_program": ctypes.c_int,
-    "hessian": ctypes.c_int,
-    "proof": ctypes.c_int,
-    "proof_nearby": ctypes.c_int,
-    "groups_proved": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""
 
