@@ -1,6 +1,6 @@
 """Exact steps over a grid of parameters: thresholds by bisection, and exponents, for claims.
 
-Whole scenarios are swept by ``study/measuring/many.py``.
+Whole scenarios are swept by ``sweep.py``.
 """
 
 from collections.abc import Callable, Sequence

@@ -15,9 +15,9 @@ from unittest.mock import patch
 import numpy as np
 
 from quasistatic_ref import StepNotSolved
+from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.optional.fast import simulator as fast
 from validation.tools.scripts import script_options, show_page

@@ -7,8 +7,8 @@ DAQP). docs/speed.md compares it with the paper's Fig. 4.
 from pathlib import Path
 
 from quasistatic_ref.lab.bench.profile import PARTS, SOLVE, Microseconds, share, step_profiles
+from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.study.measuring.environment import machine
 from validation.tools.scripts import script_options, show_page
 
 

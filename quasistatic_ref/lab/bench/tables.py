@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab import machine as computer
 from quasistatic_ref.lab.bench.acceptance import promises
 from quasistatic_ref.lab.bench.derived import of_derivatives
 from quasistatic_ref.lab.bench.grasp import (
@@ -17,7 +18,6 @@ from quasistatic_ref.lab.bench.grasp import (
 )
 from quasistatic_ref.lab.bench.solids import LARGE, SCENES, solid_scenes
 from quasistatic_ref.lab.bench.whole_run import whole_run
-from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.optional.fast.speed import usable
 from quasistatic_ref.solve.backends import installed
 
@@ -83,7 +83,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
 
 def machine() -> dict[str, Any]:
     """What was measured on, and what was measured."""
-    return {"quasistatic_ref": __version__, "numpy": np.__version__, **environment.machine()}
+    return {"quasistatic_ref": __version__, "numpy": np.__version__, **computer.machine()}
 
 
 def _load() -> str:

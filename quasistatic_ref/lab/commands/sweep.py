@@ -5,7 +5,7 @@ import argparse
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.measuring.many import DONE, TABLE, simulate_many, swept_values
+from quasistatic_ref.lab.sweep import DONE, TABLE, simulate_many, swept_values
 from quasistatic_ref.scenario.scenario import load_scenario
 
 SHOWN = 4

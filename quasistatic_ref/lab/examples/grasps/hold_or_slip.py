@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.study.measuring.many import simulate_many
+from quasistatic_ref.lab.sweep import simulate_many
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array, Mask
 

@@ -1,12 +1,8 @@
 """The same study on an existing Dask cluster: blocks of measurements travel with their problems."""
 
-from collections.abc import Iterator
-from concurrent.futures import Executor
-from contextlib import contextmanager
 from functools import partial
-from typing import Any
 
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.cluster import executor_of
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
@@ -20,9 +16,6 @@ from quasistatic_ref.lab.study.measuring.schedule import (
     measure_all,
 )
 from quasistatic_ref.lab.study.store.rows import Row
-
-CONNECT = 30
-"""Seconds in which a scheduler must answer."""
 
 
 def measure_on_cluster(work: Work, address: str) -> None:
@@ -49,26 +42,6 @@ def measure_on_cluster(work: Work, address: str) -> None:
         measure_all(work, executor, slots, answered, BLOCK)
 
 
-@contextmanager
-def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
-    """An executor on the workers of a Dask scheduler, and how many calls they take at once.
-
-    Raises
-    ------
-    InputError
-        If Dask is not installed, nothing answers at that address, or there are no workers.
-    """
-    client = _client(address)
-    try:
-        slots = sum(client.nthreads().values())
-        if not slots:
-            raise InputError("has no workers", field="--scheduler", value=address)
-        with client.get_executor(pure=False, retries=0) as executor:
-            yield executor, slots
-    finally:
-        client.close()
-
-
 def _rows_elsewhere(
     folder: str, solver: Solver, block: Block, limits: Limits, left: Left
 ) -> list[Row]:
@@ -76,20 +49,3 @@ def _rows_elsewhere(
     settings = tuple(dict.fromkeys(m.setting for m, _ in block))
     with Keeper(solver, folder, limits.memory, settings) as keeper:
         return block_rows(keeper, block, limits, left)
-
-
-def _client(address: str) -> Any:
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError(
-            "needs Dask, which is not installed; pip install 'quasistatic-ref[study]'",
-            field="--scheduler",
-            value=address,
-        ) from None
-    try:
-        return Client(address, timeout=CONNECT, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        raise InputError(
-            f"nothing answers there: {error}", field="--scheduler", value=address
-        ) from None

@@ -1,31 +1,10 @@
-"""Where a study ran: machine and versions, recorded with its times."""
+"""Versions of what a study calls."""
 
-import os
-import platform
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 
 from quasistatic_ref.lab.study.calling.packages import entry_of, package_of
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.lab.study.calling.study_only import EVERY
-
-CPU = Path("/sys/devices/system/cpu/cpu0")
-UNKNOWN = "unknown"
-"""What stands for a fact that the system does not report."""
-
-
-def machine() -> dict[str, object]:
-    """Processor, cores, caches, governor of its frequency, memory, system, Python, the load."""
-    return {
-        "processor": _processor(),
-        "cores": os.cpu_count(),
-        "caches": _caches(),
-        "governor": _text(CPU / "cpufreq" / "scaling_governor") or UNKNOWN,
-        "memory [GB]": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
-        "system": f"{platform.system()} {platform.release()}",
-        "python": platform.python_version(),
-        "load": " ".join(f"{one:.2f}" for one in os.getloadavg()),
-    }
 
 
 def versions(solvers: tuple[Solver, ...]) -> dict[str, str]:
@@ -45,29 +24,3 @@ def _version(package: str) -> str:
 
             return __version__
         return "not known"
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text().strip()
-    except OSError:
-        return ""
-
-
-def _caches() -> str:
-    """Sizes by level and kind, such as ``L1 data 32K``."""
-    found = []
-    for folder in sorted((CPU / "cache").glob("index*")):
-        kind = _text(folder / "type").lower().replace("unified", "")
-        found.append(f"L{_text(folder / 'level')} {kind}".strip() + f" {_text(folder / 'size')}")
-    return ", ".join(found) or UNKNOWN
-
-
-def _processor() -> str:
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()

@@ -9,9 +9,10 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.study.calling.accepted import OF_THE_INTERFACE, check_options
 from quasistatic_ref.lab.study.file.study_file import Study
-from quasistatic_ref.lab.study.measuring.environment import machine, versions
+from quasistatic_ref.lab.study.measuring.environment import versions
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.plan import Measurement, plan
 from quasistatic_ref.lab.study.measuring.schedule import Work, measure_here

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.parts import Report
-from quasistatic_ref.lab.study.measuring.many import RUNS, TABLE
 from quasistatic_ref.lab.study.report.solver_report import solver_report
 from quasistatic_ref.lab.study.report.sweep_report import sweep_report
 from quasistatic_ref.lab.study.store.store import UNREADABLE, contents
+from quasistatic_ref.lab.sweep import RUNS, TABLE
 
 
 def study_report(folder: str | Path, out: str | Path | None = None) -> Report:

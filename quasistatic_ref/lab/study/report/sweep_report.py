@@ -10,8 +10,8 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import LARGEST_TEXT, bytes_read, text_of
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
-from quasistatic_ref.lab.study.measuring.many import DONE, LAYER
 from quasistatic_ref.lab.study.report.words import sentences
+from quasistatic_ref.lab.sweep import DONE, LAYER
 
 OTHER = "the scenario's unit"
 UNITS = {"h": "s", "mu_omega": "m", "mu_v": "-", "steps": "-"}

@@ -14,7 +14,6 @@ from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.page.html import html_page, sorting_script
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Code, Report, Section, Table
-from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.report.comparison import noise_of
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.report.rows import rows_of
@@ -24,6 +23,7 @@ from quasistatic_ref.lab.study.report.statistics import (
     resampled_means,
 )
 from quasistatic_ref.lab.study.store.store import Store, contents
+from quasistatic_ref.lab.sweep import TABLE
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import agrees, digits_delivered, quantile, rows_named
 

@@ -6,10 +6,10 @@ from matplotlib import pyplot as plt
 from quasistatic_ref import InputError
 from quasistatic_ref.lab.figures.study_images import figure_of
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.measuring.many import TABLE
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.pack import shorter
 from quasistatic_ref.lab.study.store.store import Store, contents
+from quasistatic_ref.lab.sweep import TABLE
 from tests.lab.study import made_store, plain_report
 
 

@@ -23,7 +23,6 @@ from quasistatic_ref.formats.files import (
 )
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import InThisProcess, results, workers
-from quasistatic_ref.lab.study.store.store import STORE
 from quasistatic_ref.optional.account.words import measures
 from quasistatic_ref.optional.runs.saved_files import Lock, fingerprint, run_settings
 from quasistatic_ref.scenario.overrides import parsed
@@ -147,7 +146,7 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
 
     Examples
     --------
-    >>> from quasistatic_ref.lab.study.measuring.many import swept_values
+    >>> from quasistatic_ref.lab.sweep import swept_values
     >>> swept_values("contacts.grip.mu_omega=0:0.04:5")
     ('contacts.grip.mu_omega', [0.0, 0.01, 0.02, 0.03, 0.04])
     >>> swept_values("cone=pyramid,product")
@@ -189,7 +188,7 @@ def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
 def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor, int]]:
     """What runs several scenarios at once, and how many."""
     if scheduler is not None:
-        from quasistatic_ref.lab.study.measuring.cluster import executor_of
+        from quasistatic_ref.lab.cluster import executor_of
 
         with executor_of(scheduler) as there:
             yield there
@@ -236,10 +235,7 @@ def _file(name: str, digest: str, fields: Sequence[str]) -> str:
 
 
 def _check_folder(folder: Path, files: Set[str]) -> None:
-    """Refuse a folder that holds a study, or runs that are not of this sweep."""
-    if (folder / STORE).exists():
-        problem = "holds a study, or a sweep of an earlier version; choose another folder"
-        raise InputError(problem, file=folder)
+    """Refuse a folder that holds runs that are not of this sweep."""
     others = {f"{RUNS}/{path.name}" for path in (folder / RUNS).glob("*.npz")}
     if (table := folder / TABLE).exists():
         text = text_of(bytes_read(table), table)
