@@ -16,13 +16,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from flint import arb, ctx, fmpz
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import tight_rows
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.minimiser import RationalSolution, rational_solution
-from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import rounded_solution
+from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
+from quasistatic_ref.certify.minimiser import Solution, fraction_solution, rounded_quotients
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
@@ -31,7 +31,7 @@ from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
-from quasistatic_ref.step.groups import Group, group_steps
+from quasistatic_ref.step.groups import Group, groups
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -192,18 +192,20 @@ def verify(
     lam_exact = np.zeros(step.m)
     reason = ""
     solved = []
-    for group, group_step in group_steps(step):
-        form = exact_form(group_step)
-        working_rows = tuple(group.within(working))
+    for group in groups(step):
+        form = StepForm(step, group)
+        working_rows = group.within(working)
         try:
-            solution = rational_solution(form, working_rows)
+            exact = fraction_solution(form, working_rows)
         except ZeroDivisionError:
             return Verdict(False, "the rows of the working set are not independent")
-        x, lam_w, _, slack = rounded_solution(form, solution)
-        delta_q_exact[group.coordinates] = x
-        lam_exact[group.rows[list(working_rows)]] = lam_w
-        reason = reason or _wrong_sign(step, group, working_rows, solution)
-        solved.append((form, working_rows, solution, slack))
+        with ctx.workprec(EXACT):
+            slack = form.slacks(range(form.m), exact.z)  # times the denominator
+            times_h = exact.denominator * form.h
+        delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)
+        lam_exact[group.rows[working_rows]] = rounded_quotients(exact.multipliers, times_h)
+        reason = reason or _wrong_sign(step, group, working_rows, exact.y, slack)
+        solved.append((form, working_rows, exact, slack))
     reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
     if lam is not None and not reason:
         reason = wrong_bits("lam", lam, lam_exact)
@@ -213,31 +215,32 @@ def verify(
 
 
 def _wrong_sign(
-    step: StepData, group: Group, working: Sequence[int], solution: RationalSolution
+    step: StepData, group: Group, working: Sequence[int], y: Sequence[fmpz], slack: Sequence[arb]
 ) -> str:
-    for i, lam_i in zip(working, solution.lam, strict=True):
-        if lam_i <= 0:
-            sign = "negative" if lam_i < 0 else "zero"
+    for i, y_i in zip(working, y, strict=True):
+        if y_i <= 0:
+            sign = "negative" if y_i < 0 else "zero"
             return f"the multiplier of {_row_name(step, group.rows[i])} is {sign}"
-    for i, slack_i in zip(group.rows, solution.slack, strict=True):
+    for i, slack_i in zip(group.rows, slack, strict=True):
         if slack_i < 0:
             return f"{_row_name(step, i)} is violated by the minimiser on the working set"
     return ""
 
 
 def _wrong_claim(
-    solved: Sequence[tuple[ExactForm, tuple[int, ...], RationalSolution, Array]],
+    solved: Sequence[tuple[ExactForm, Sequence[int], Solution[fmpz], Sequence[arb]]],
     claims: Certificate,
     lam_w: Array,
 ) -> str:
     """What is wrong with the claims, from each group's form, working set and solution."""
     unique = smooth = True
     slacks: list[float] = []
-    for form, working, solution, slack in solved:
-        spanned, unspanned = tight_rows(form, working, solution.slack)
+    for form, working, exact, slack in solved:
+        spanned, unspanned = tight_rows(form, working, slack)
         smooth = smooth and differentiable(form, working, unspanned)
         unique = unique and multipliers_unique(form, working, spanned, unspanned)
-        slacks += [float(slack[i]) for i, s in enumerate(solution.slack) if s]
+        inactive = [s for s in slack if not s.is_zero()]
+        slacks += rounded_quotients(inactive, exact.denominator).tolist()
     right = {
         "error_bound": 0.0,
         "gap": None,

@@ -17,15 +17,14 @@ keep the dependence (all numbers of one contact), not along those that break it.
 
 from collections.abc import Sequence
 
-from flint import fmpq, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, Row
 
 
 def multipliers_unique(
-    form: ExactForm | StepForm,
+    form: ExactForm,
     working: Sequence[int],
     spanned: Sequence[int],
     unspanned: Sequence[int],
@@ -34,7 +33,7 @@ def multipliers_unique(
 
     Parameters
     ----------
-    form : ExactForm or StepForm
+    form : ExactForm
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
     spanned, unspanned : sequence of int
@@ -46,50 +45,44 @@ def multipliers_unique(
     """
     if spanned or len(unspanned) <= 1:
         return not spanned
-    return feasible(form, working, form.rows(unspanned), [1] * len(unspanned))
+    return feasible(form, working, form.exact_rows(unspanned), [1] * len(unspanned))
 
 
-def differentiable(
-    form: ExactForm | StepForm, working: Sequence[int], unspanned: Sequence[int]
-) -> bool:
+def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
     """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
-    rows = form.rows(unspanned)
+    rows = form.exact_rows(unspanned)
     # A_E v >= 0 is not zero iff the sum of its entries is positive, and then v can be scaled so
     # that the sum is at least 1.
-    total = [sum(column, fmpz(0)) for column in zip(*rows, strict=True)]
+    with ctx.workprec(EXACT):
+        total = [sum(column, arb(0)) for column in zip(*rows, strict=True)]
     return not feasible(form, working, [*rows, total], [0] * len(unspanned) + [1])
 
 
 def feasible(
-    form: ExactForm | StepForm, working: Sequence[int], bounded: list[list[fmpz]], least: list[int]
+    form: ExactForm, working: Sequence[int], bounded: Sequence[Row], least: Sequence[int]
 ) -> bool:
     """Whether some v has A_W v = 0 and B v >= least, by the active-set method.
 
     Parameters
     ----------
-    form : ExactForm or StepForm
+    form : ExactForm
     working : sequence of int
         W.
-    bounded : list of list of fmpz
-        The rows of B.
-    least : list of int
+    bounded : sequence of list of arb
+        Rows of B, each with a constant, which does not count.
+    least : sequence of int
         One for each row.
     """
     n = form.n
-    held = form.rows(working)
-    rows = held + [[-a for a in row] for row in held] + bounded
-    identity = [[int(i == j) for j in range(n)] for i in range(n)]
-    one = fmpq(1)
-    feasibility = ExactForm(
-        H=fmpz_mat(identity),
-        g=fmpz_mat(n, 1),
-        A=fmpz_mat(len(rows), n, [a for row in rows for a in row]),
-        b=fmpz_mat(len(rows), 1, [0] * (2 * len(held)) + least),
-        x_unit=one,
-        slack_unit=one,
-        lam_unit=one,
-        net_unit=one,
+    held = form.exact_rows(working)
+    with ctx.workprec(EXACT):
+        opposite = [[-a for a in row] for row in held]
+    sides = zip([*held, *opposite, *bounded], [*[0] * (2 * len(held)), *least], strict=True)
+    feasibility = MatrixForm(
+        H=arb_mat([[int(i == j) for j in range(n)] for i in range(n)]),
+        g=arb_mat(n, 1),
+        rows=arb_mat([[*row[:n], arb(-b)] for row, b in sides]),
     )
     return isinstance(dual_active_set(feasibility, range(len(held))), Optimum)

@@ -8,10 +8,9 @@ and another prime is taken if it was an accident.
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from flint import fmpq, fmpz, fmpz_mat, nmod_mat
+from flint import arb, fmpq, fmpz, fmpz_mat, nmod_mat
 
-from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import ExactForm
 
 PRIME: Final = (1 << 61) - 1
 """The first prime tried; an unlucky one costs a retry, never a wrong answer."""
@@ -24,12 +23,12 @@ Within a contact of the pyramid they are -1, 0 and 1."""
 Row = list[fmpz] | list[int]
 
 
-def independent_rows(form: ExactForm | StepForm, candidates: Sequence[int]) -> tuple[int, ...]:
+def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
     """An independent subset of some rows of A, maximal but for an unlucky prime.
 
     Parameters
     ----------
-    form : ExactForm or StepForm
+    form : ExactForm
     candidates : sequence of int
         Rows in order of preference: each is kept unless those before it span it.
 
@@ -42,7 +41,7 @@ def independent_rows(form: ExactForm | StepForm, candidates: Sequence[int]) -> t
 
 
 def tight_rows(
-    form: ExactForm, working: Sequence[int], slack: Sequence[fmpz]
+    form: ExactForm, working: Sequence[int], slack: Sequence[arb]
 ) -> tuple[list[int], list[int]]:
     """Rows outside of the working set whose slack is zero: those that it implies, and the others.
 
@@ -51,10 +50,10 @@ def tight_rows(
     form : ExactForm
     working : sequence of int
         Independent rows.
-    slack : sequence of fmpz, length m
-        Of the minimiser on them [any unit].
+    slack : sequence of arb, length m
+        Exact ones of the minimiser on them [any unit].
     """
-    tight = [i for i, s in enumerate(slack) if not s and i not in working]
+    tight = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
     spans = follow(form.equations(working), form.equations(tight)) if tight else []
     at = dict(zip(tight, spans, strict=True))
     return [i for i in tight if at[i]], [i for i in tight if not at[i]]
@@ -84,12 +83,12 @@ def _guesses(held: Sequence[Row], rows: Sequence[Row]) -> Iterator[list[bool]]:
             yield [not any(column[k : len(pivots)]) for column in echelon[k:]]
 
 
-def combination(form: ExactForm | StepForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
     """How a row of A is combined from the rows of a working set, decided exactly.
 
     Parameters
     ----------
-    form : ExactForm or StepForm
+    form : ExactForm
     working : sequence of int
         Independent rows.
     p : int
@@ -100,8 +99,7 @@ def combination(form: ExactForm | StepForm, working: Sequence[int], p: int) -> l
         c with a_p = sum_j c_j A[working[j]]; None if a_p is independent of them.
     """
     k = len(working)
-    held = form.rows(working)
-    target = form.row(p)
+    *held, target = form.rows([*working, p])
     for prime in _primes():
         pivots, echelon = _echelon([*held, target], prime)
         if pivots == list(range(k + 1)):

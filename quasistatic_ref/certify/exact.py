@@ -9,8 +9,9 @@ choices where the multipliers are not unique.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,21 +21,16 @@ from quasistatic_ref.certify.active_set import (
     Optimum,
     dual_active_set,
     most_violated,
-    step_minimiser,
 )
-from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.form import ExactForm, StepForm
+from quasistatic_ref.certify.minimiser import small_combinations
 from quasistatic_ref.certify.norm import energy_norm, single_loads
-from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_numbers
-from quasistatic_ref.certify.slacks import JoinedSlacks, KnownSlacks, Slacks, StepSlacks
-from quasistatic_ref.certify.step_minimiser import StepMinimiser, small_combinations
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group, group_steps
+from quasistatic_ref.step.groups import Group, group_steps, groups
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
@@ -54,8 +50,8 @@ class ExactOptimum:
         Basic multipliers [N s]: positive on the working set, zero elsewhere.
     net : ndarray, shape (n_v,)
         A'lam [N s, N m s].
-    slacks : Slacks
-        What forms `slack`, A delta_q - b [m], shape (m,), when it is read.
+    slacks : callable
+        Forms `slack`, which few steps read.
     working_set : tuple of int
         Rows in increasing order, independent, with positive multipliers.
     multipliers_unique : bool
@@ -73,7 +69,7 @@ class ExactOptimum:
     delta_q: Array
     lam: Array
     net: Array
-    slacks: Slacks
+    slacks: Callable[[], Array]
     working_set: tuple[int, ...]
     multipliers_unique: bool
     differentiable: bool
@@ -81,10 +77,10 @@ class ExactOptimum:
     smallest_active_multiplier: float | None
     walks: int
 
-    @property
+    @cached_property
     def slack(self) -> Array:
         """A delta_q - b, shape (m,) [m]."""
-        return self.slacks.values
+        return self.slacks()
 
 
 def form_optimum(
@@ -114,33 +110,27 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     """The optimum that the method ended with: what is unique at it, and its numbers, rounded."""
     minimiser = end.minimiser
     working = minimiser.working
-    signs = np.array(end.slack_signs, dtype=np.int64)
-    inactive = np.flatnonzero(signs)
-    tight = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
-    spanned = minimiser.spanned(tight)
-    others = set(tight) - set(spanned)
-    unspanned = [i for i in tight if i in others]
-    smooth = differentiable(form, working, unspanned)
-    unique = multipliers_unique(form, working, spanned, unspanned)
-
-    coordinates = range(form.n)
+    spanned = minimiser.spanned
+    unspanned = minimiser.unspanned
+    total = np.ones((1, len(unspanned)))
+    if len(unspanned) > 1 and small_combinations(form, working, unspanned, total)[0]:
+        # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
+        unique, smooth = False, True
+    else:
+        smooth = differentiable(form, working, unspanned)
+        unique = multipliers_unique(form, working, spanned, unspanned)
     lam = np.zeros(form.m)
-    slack = np.zeros(form.m)
-    lam_w = nearest_numbers(minimiser, "lam", form.lam_unit, range(len(working)))
+    lam_w = minimiser.rounded(lambda found: found.multipliers, form.h)
     lam[list(working)] = lam_w
-    slack[inactive] = nearest_numbers(minimiser, "slack", form.slack_unit, inactive)
-    least = float(slack[inactive].min()) if inactive.size else None
     return ExactOptimum(
-        delta_q=nearest_numbers(
-            minimiser, "x", form.x_unit, coordinates, minimiser.zero_coordinates
-        ),
+        delta_q=minimiser.rounded(lambda found: found.x),
         lam=lam,
-        net=nearest_numbers(minimiser, "net", form.net_unit, coordinates),
-        slacks=KnownSlacks(slack),
+        net=minimiser.rounded(minimiser.pull, form.h),
+        slacks=minimiser.rounded_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=unique,
         differentiable=smooth,
-        smallest_inactive_slack=least if smooth else 0.0,
+        smallest_inactive_slack=minimiser.smallest_slack() if smooth else 0.0,
         smallest_active_multiplier=float(lam_w.min()) if working else None,
         walks=end.walks,
     )
@@ -171,90 +161,60 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    divided = group_steps(step)
-    optima = [
-        group_optimum(step, group, group_step, group.within(warm)) for group, group_step in divided
-    ]
-    optimum = joined_optimum(step, [group for group, _ in divided], optima)
-    check_length(step, optimum.delta_q, divided)
+    found = groups(step)
+    optima = [group_optimum(step, group, group.within(warm)) for group in found]
+    optimum = joined_optimum(step, found, optima)
+    check_length(step, optimum.delta_q, found)
     return optimum
 
 
-def group_optimum(
-    step: StepData, group: Group, group_step: StepData, warm: Sequence[int]
-) -> ExactOptimum:
-    """The exact optimum of a group of a step, from the step of the group and its `warm` rows.
+def group_optimum(step: StepData, group: Group, warm: Sequence[int]) -> ExactOptimum:
+    """The exact optimum of a group of a step, from `warm` rows of the group.
 
     Raises
     ------
     StepInfeasible
         If no displacement satisfies the rows of the group, with the proof in the step's rows.
     """
-    check_arithmetic()
     whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
     form = StepForm(step, None if whole else group)
-    end = step_minimiser(form, warm)
-    if isinstance(end, Farkas):
-        proof = farkas_vector(step, exact_form(group_step), end, group.rows)
-        raise StepInfeasible(step, proof)
-    return _of_minimiser(*end)
-
-
-def _of_minimiser(minimiser: StepMinimiser, walks: int) -> ExactOptimum:
-    """The optimum at which the method ended: what is unique at it, and its numbers, rounded."""
-    form = minimiser.form
-    working = minimiser.working
-    spanned = minimiser.spanned
-    unspanned = [i for i, sign in minimiser.slack_signs.items() if sign == 0]
-    total = np.ones((1, len(unspanned)))
-    if len(unspanned) > 1 and small_combinations(form, working, unspanned, total)[0]:
-        # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
-        unique, smooth = False, True
-    else:
-        smooth = differentiable(form, working, unspanned)
-        unique = multipliers_unique(form, working, spanned, unspanned)
-    slacks = StepSlacks(minimiser)
-    lam = np.zeros(form.m)
-    lam_w = minimiser.rounded(lambda found: [form.h * v for v in found.lam])
-    lam[list(working)] = lam_w
-    return ExactOptimum(
-        delta_q=minimiser.rounded(lambda found: found.z.entries()[:-1]),
-        lam=lam,
-        net=minimiser.rounded(lambda found: [form.h * v for v in found.net]),
-        slacks=slacks,
-        working_set=tuple(sorted(working)),
-        multipliers_unique=unique,
-        differentiable=smooth,
-        smallest_inactive_slack=slacks.smallest if smooth else 0.0,
-        smallest_active_multiplier=float(lam_w.min()) if working else None,
-        walks=walks,
-    )
+    optimum = form_optimum(form, warm)
+    if isinstance(optimum, Farkas):
+        raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
+    return optimum
 
 
 def joined_optimum(
-    step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimum]
+    step: StepData, found: Sequence[Group], optima: Sequence[ExactOptimum]
 ) -> ExactOptimum:
-    """The optimum of a step from the `optima` of all of its groups."""
-    if len(groups) == 1 and len(groups[0].rows) == step.m:
+    """The optimum of a step from the `optima` of all of its groups, which were `found`."""
+    if len(found) == 1 and len(found[0].rows) == step.m:
         return optima[0]
+    pairs = list(zip(found, optima, strict=True))
     delta_q = np.zeros(step.n_v)
     net = np.zeros(step.n_v)
     lam = np.zeros(step.m)
     working: list[int] = []
-    for group, optimum in zip(groups, optima, strict=True):
+    for group, optimum in pairs:
         delta_q[group.coordinates] = optimum.delta_q
         net[group.coordinates] = optimum.net
         lam[group.rows] = optimum.lam
         working += group.rows[list(optimum.working_set)].tolist()
+
+    def joined_slacks() -> Array:
+        slack = np.zeros(step.m)
+        for group, optimum in pairs:
+            slack[group.rows] = optimum.slack
+        return slack
+
     # A row is strictly active, or spanned by others, within its group.
-    parts = [(group.rows, optimum.slacks) for group, optimum in zip(groups, optima, strict=True)]
     slacks = [optimum.smallest_inactive_slack for optimum in optima]
     multipliers = [optimum.smallest_active_multiplier for optimum in optima]
     return ExactOptimum(
         delta_q=delta_q,
         lam=lam,
         net=net,
-        slacks=JoinedSlacks(step.m, parts),
+        slacks=joined_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=all(optimum.multipliers_unique for optimum in optima),
         differentiable=all(optimum.differentiable for optimum in optima),
@@ -264,32 +224,30 @@ def joined_optimum(
     )
 
 
-def check_length(step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]]) -> None:
+def check_length(step: StepData, delta_q: Array, found: Sequence[Group]) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    divided : sequence of (Group, StepData)
-        Its :func:`~quasistatic_ref.step.groups.group_steps`.
+    found : sequence of Group
+        Those of the step.
 
     Raises
     ------
     StepIllPosed
     """
-    if all(surely_short(part, delta_q[group.coordinates]) for group, part in divided):
+    if surely_short(step, delta_q, found):
         return
-    lengths = [
-        relative_length(group_step, delta_q[group.coordinates]) for group, group_step in divided
-    ]
+    lengths = [relative_length(own, delta_q[group.coordinates]) for group, own in group_steps(step)]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
 
 
-def surely_short(step: StepData, delta_q: Array) -> bool:
-    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED``.
+def surely_short(step: StepData, delta_q: Array, found: Sequence[Group]) -> bool:
+    """Whether :func:`relative_length` is seen to be far below ``ILL_POSED`` in each group.
 
     With s_i = H_ii^1/2 the triangle inequality says ||v||_H <= sum_i |v_i| s_i, and Cauchy's, of
     e_i and H^-1 p, ||p||_H^-1 >= |p_i| / s_i. A tenth is for rounding. Numbers whose products might
@@ -299,13 +257,16 @@ def surely_short(step: StepData, delta_q: Array) -> bool:
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
+    found : sequence of Group
     """
     s = np.sqrt(np.diag(step.H))
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        least = (np.abs(single_loads(step)) / s).max(initial=0.0)
-        length = np.abs(delta_q) @ s
-    usual = MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]
-    return bool(usual and MIDDLE[0] < least and length <= 0.1 * ILL_POSED * least < MIDDLE[1])
+        least = (np.abs(single_loads(step)) / s).max(axis=0)
+        length = np.abs(delta_q) * s
+        if not MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]:
+            return False
+        lengths = [(length[own].sum(), least[own].max(initial=0.0)) for own, *_ in found]
+    return all(MIDDLE[0] < b and a <= 0.1 * ILL_POSED * b < MIDDLE[1] for a, b in lengths)
 
 
 def relative_length(step: StepData, delta_q: Array) -> float:

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpz, fmpz_mat
+from flint import arb_mat, ctx, fmpq, fmpz
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
 from quasistatic_ref.formats.plain import Plain
@@ -72,11 +72,12 @@ def farkas_vector(step: StepData, form: ExactForm, proof: Farkas, rows: Indices)
     y = [fmpq(0)] * step.m
     for i, y_i in proof.y.items():
         y[int(rows[i])] = y_i / largest
-    contradiction = sum((y_i * form.b[i, 0] for i, y_i in proof.y.items()), fmpq(0)) / largest
+    parts = (-y_i * fraction(form.exact_row(i)[-1]) for i, y_i in proof.y.items())
+    contradiction = sum(parts, fmpq(0)) / largest
     return FarkasVector(
         y=np.array([nearest_fraction(y_i) for y_i in y]),
         exact=tuple(str(y_i) for y_i in y),
-        contradiction=nearest_fraction(contradiction * form.slack_unit),
+        contradiction=nearest_fraction(contradiction),
         owners=row_owners(step, rows[sorted(proof.y)]),
     )
 
@@ -97,7 +98,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     """
     if not cone(step.cone).polyhedral:
         return "a Farkas vector proves nothing of a cone that is no polyhedron"
-    form = exact_form(step)
+    form = StepForm(step)
     if len(exact) != form.m:
         return f"the Farkas vector has {len(exact)} entries, the step {form.m} rows"
     # By pattern first: Fraction would read "1e999999999", and never return.
@@ -110,9 +111,10 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     common = fmpq(1)
     for y_i in y:
         common *= (y_i * common).q
-    row = fmpz_mat(1, form.m, [(y_i * common).p for y_i in y])
-    if any((row * form.A).entries()):
-        return "A'y is not zero"
-    if not (row * form.b)[0, 0] > 0:
-        return "b'y is not positive"
+    with ctx.workprec(EXACT):
+        row = arb_mat(1, form.m, [(y_i * common).p for y_i in y])
+        if any(not v.is_zero() for v in (row * form.A).entries()):
+            return "A'y is not zero"
+        if not (row * form.c)[0, 0] < 0:
+            return "b'y is not positive"
     return None

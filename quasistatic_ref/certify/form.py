@@ -1,4 +1,4 @@
-r"""The program of a step in exact numbers: H, g and rows, formed where they are needed.
+r"""A program in exact numbers: H, g and rows, those of a step formed where they are needed.
 
 A ball without radius is an exact number. A float64 is one, and sums and products of such numbers
 are, at a precision (``EXACT``) that no number of a step exhausts; conversions to integers refuse
@@ -7,25 +7,28 @@ split the ties between the rows of a sticking contact.
 
 .. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad a_i^T x + c_i \ge 0, \quad c = -b.
 
-H is block diagonal. With the forces f = lam / h of a working set W (Eq. :eq:`eq-13`, divided by h):
+H is block diagonal. Eq. :eq:`eq-13` is taken times h, because M_u / h is a quotient. So its
+multipliers are y = h lam, and on a working set W
 
-- of the springs, :math:`K_q x_a = \tau_k + \tau_a + A_a^T f`;
-- of what moves freely, :math:`M_u x_u = h^2 (\tau_u + A_u^T f)`.
+- of the springs, :math:`h^2 K_q x_a = h^2 (\tau_k + \tau_a) + A_a^T y`;
+- of what moves freely, :math:`M_u x_u = h^2 \tau_u + A_u^T y`.
 
-So no block needs a quotient. Rows, of Eqs. :eq:`eq-4`-:eq:`eq-8`, are formed one by one: a solution
-needs those of W, and a slack that float64 shows to be positive needs none.
+Rows, of Eqs. :eq:`eq-4`-:eq:`eq-8`, are formed one by one: a solution needs those of W, and a slack
+that float64 shows to be positive needs none.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpz
+from flint import arb, arb_mat, ctx, fmpq, fmpz
 
+from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group, split
@@ -58,18 +61,23 @@ def exact_matrix(array: Array) -> arb_mat:
     return arb_mat(rows, columns, array.ravel().tolist())
 
 
-def whole_numbers(row: Sequence[arb], least: int | None = None) -> list[fmpz]:
-    """Exact numbers times 2^-least, by default the power of two that leaves the shortest integers.
+def whole_numbers(numbers: Sequence[arb]) -> list[fmpz]:
+    """Exact numbers times one power of two: the one that leaves the shortest integers.
 
     Raises
     ------
     ValueError
         If a number is a ball with a radius.
     """
-    parts = [number.man_exp() for number in row]
-    if least is None:
-        least = min((int(e) for m, e in parts if m), default=0)
+    parts = [number.man_exp() for number in numbers]
+    least = min((int(e) for m, e in parts if m), default=0)
     return [m << int(e) - least if m else m for m, e in parts]
+
+
+def fraction(number: float | arb) -> fmpq:
+    """An exact number as a fraction [its unit]; ValueError as of :func:`whole_numbers`."""
+    m, e = arb(number).man_exp()
+    return m * fmpq(2) ** int(e)
 
 
 def columns(rows: Sequence[Row], of: slice) -> arb_mat:
@@ -79,30 +87,169 @@ def columns(rows: Sequence[Row], of: slice) -> arb_mat:
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """A diagonal block of the program: K x = w (load + A'f).
+    """A diagonal block of a program: H x = g + A'y.
 
     Parameters
     ----------
     of : slice
         Its coordinates, k of them.
-    K : arb_mat
+    H : arb_mat
         Exact, positive definite, shape (k, k).
     inverse : arb_mat
-        K^-1 in balls.
-    weight : arb
-        The exact number w > 0.
-    load : arb_mat
+        H^-1 in balls.
+    g : arb_mat
         Exact, shape (k, 1).
     """
 
     of: slice
-    K: arb_mat
+    H: arb_mat
     inverse: arb_mat
-    weight: arb
-    load: arb_mat
+    g: arb_mat
 
 
-class StepForm:
+class ExactForm(ABC):
+    """A program whose blocks and rows are exact.
+
+    Attributes
+    ----------
+    n, m : int
+        Numbers of coordinates and of rows.
+    blocks : list of Block
+    h : arb
+        y = h lam: what the program's cost was multiplied by.
+    """
+
+    n: int
+    m: int
+    blocks: list[Block]
+    h: arb
+
+    @abstractmethod
+    def exact_row(self, i: int) -> Row:
+        """One row [a, c]."""
+
+    @abstractmethod
+    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
+        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
+
+    @abstractmethod
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """The a of some rows in float64, shape (rows, n): a guess."""
+
+    @abstractmethod
+    def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
+        """All slacks in float64, and bounds of their errors, each shape (m,).
+
+        A slack s with bound e is proved to be positive by s > e, which is false where a number is
+        infinite or not a number.
+
+        Parameters
+        ----------
+        x : ndarray, shape (n,)
+            Each entry is off by at most UNIT times that of `most` from the point that is meant.
+        most : ndarray, shape (n,)
+            At least `|x|` [m, rad].
+        """
+
+    def exact_rows(self, some: Iterable[int]) -> list[Row]:
+        """Some rows [a, c]."""
+        return [self.exact_row(i) for i in some]
+
+    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """The a of some rows as integers, times a power of two that these rows have in common."""
+        rows = self.exact_rows(some)
+        numbers = whole_numbers([v for row in rows for v in row[:-1]])
+        return [numbers[k * self.n : (k + 1) * self.n] for k in range(len(rows))]
+
+    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Rows [a, c], each times a power of two of its own."""
+        return [whole_numbers(self.exact_row(i)) for i in some]
+
+    @cached_property
+    def free(self) -> list[arb_mat]:
+        """The minimiser without rows, block by block, in balls."""
+        with ctx.workprec(PRECISION):
+            return [block.inverse * block.g for block in self.blocks]
+
+    @cached_property
+    def H(self) -> arb_mat:
+        """All of H, shape (n, n)."""
+        return self._whole([block.H for block in self.blocks])
+
+    @cached_property
+    def H_inverse(self) -> arb_mat:
+        """All of H^-1 in balls, shape (n, n)."""
+        return self._whole([block.inverse for block in self.blocks])
+
+    def _whole(self, parts: Sequence[arb_mat]) -> arb_mat:
+        whole = arb_mat(self.n, self.n)
+        for block, part in zip(self.blocks, parts, strict=True):
+            for i, row in enumerate(part.tolist(), block.of.start):
+                for j, v in enumerate(row, block.of.start):
+                    whole[i, j] = v
+        return whole
+
+    @cached_property
+    def g(self) -> arb_mat:
+        """All of g, shape (n, 1)."""
+        return arb_mat(self.n, 1, [v for block in self.blocks for v in block.g.entries()])
+
+    @cached_property
+    def A(self) -> arb_mat:
+        """All rows a, shape (m, n)."""
+        return columns(self.exact_rows(range(self.m)), slice(0, self.n))
+
+    @cached_property
+    def c(self) -> arb_mat:
+        """All c, shape (m, 1)."""
+        return columns(self.exact_rows(range(self.m)), slice(self.n, self.n + 1))
+
+
+class MatrixForm(ExactForm):
+    """A program of any exact matrices, as one block.
+
+    Parameters
+    ----------
+    H : arb_mat
+        Positive definite, shape (n, n).
+    g : arb_mat
+        Shape (n, 1).
+    rows : arb_mat
+        [a, c] of each row, shape (m, n + 1).
+    """
+
+    def __init__(self, H: arb_mat, g: arb_mat, rows: arb_mat) -> None:
+        self.n = H.nrows()
+        self.m = rows.nrows()
+        self.h = arb(1)
+        self.blocks = [Block(slice(0, self.n), H, inverse(H), g)] if self.n else []
+        self._rows = rows.tolist()
+
+    def exact_row(self, i: int) -> Row:
+        """One row [a, c]."""
+        return self._rows[i]
+
+    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
+        """As of the base."""
+        rows = self.exact_rows(some)
+        return (columns(rows, slice(0, self.n + 1)) * z).entries()
+
+    @cached_property
+    def _floats(self) -> Array:
+        rows = [[float(v) for v in row] for row in self._rows]
+        return np.array(rows, dtype=np.float64).reshape(self.m, self.n + 1)
+
+    def float_rows(self, some: Sequence[int]) -> Array:
+        """As of the base; shape (rows, n)."""
+        floats: Array = self._floats[some, :-1]
+        return floats
+
+    def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
+        """As of the base, from `x` and `most`, shape (n,) [any unit]."""
+        return row_slacks(self._floats, x, most)
+
+
+class StepForm(ExactForm):
     """The program of a step, or of a group of one.
 
     Parameters
@@ -110,9 +257,15 @@ class StepForm:
     step : StepData
     group : Group, optional
         By default the whole step.
+
+    Raises
+    ------
+    InputError
+        If nothing can be proved in this thread.
     """
 
     def __init__(self, step: StepData, group: Group | None = None) -> None:
+        check_arithmetic()
         contacts = step.contacts
         at = slice(None) if group is None else group.contacts
         J = contacts.J if group is None else contacts.columns(group.contacts, group.coordinates)
@@ -132,12 +285,11 @@ class StepForm:
         self._frame[:, :3, :3] = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)[at]
         self._frame[:, 3, 3] = 1.0
         self._own = own
-        self._places = np.argwhere(self._mask).tolist()
+        self._contact, self._kind = np.nonzero(self._mask)
         self._motions: dict[int, arb_mat] = {}
-        self._exact_rows: dict[int, Row] = {}
-        n = len(a) + len(u)
-        self.n = n
-        self.m = len(self._places) + len(own)
+        self._rows: dict[int, list[Row]] = {}
+        self.n = len(a) + len(u)
+        self.m = len(self._contact) + len(own)
         self.h = arb(step.h)
         self.blocks = _blocks(step, a, u)
 
@@ -155,85 +307,45 @@ class StepForm:
                 self._motions[c] = arb_mat(4, 5, turn) * exact_matrix(J)
         return self._motions[c]
 
-    def exact_rows(self, some: Iterable[int]) -> list[Row]:
-        """Some rows [a, c], exact: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        return [self._exact_row(i) for i in some]
-
-    def _exact_row(self, i: int) -> Row:
-        if i not in self._exact_rows:
-            if i < len(self._places):
-                c, kind = self._places[i]
-                with ctx.workprec(EXACT):
-                    row = arb_mat(1, 4, self._cone[kind].tolist()) * self.motion(c)
-                self._exact_rows[i] = row.entries()
-            else:
-                own = self._own[i - len(self._places)].tolist()
-                self._exact_rows[i] = [arb(v) for v in own]
-        return self._exact_rows[i]
-
-    @cached_property
-    def least(self) -> int:
-        """An exponent that no entry of a row goes below: the sum of those of its factors."""
-        floats = (self._J, self._frame, self._mu, self._cone, self._own)
-        return sum(int(np.frexp(v[v != 0])[1].min(initial=0)) - 53 for v in floats)
-
-    def row(self, i: int) -> list[fmpz]:
-        """The a of a row as integers, times a power of two that all rows have in common."""
-        return whole_numbers(self._exact_row(i)[:-1], self.least)
-
-    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
-        """The same of some rows."""
-        return [self.row(i) for i in some]
-
-    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
-        """Rows [a, c], each times a power of two of its own."""
-        return [whole_numbers(self._exact_row(i)) for i in some]
-
-    @cached_property
-    def free(self) -> list[arb_mat]:
-        """The minimiser without rows, block by block, in balls: K^-1 w load."""
-        with ctx.workprec(PRECISION):
-            return [block.inverse * block.load * block.weight for block in self.blocks]
+    def exact_row(self, i: int) -> Row:
+        """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
+        if i >= len(self._contact):
+            return [arb(v) for v in self._own[i - len(self._contact)].tolist()]
+        c = int(self._contact[i])
+        if c not in self._rows:
+            with ctx.workprec(EXACT):
+                self._rows[c] = (exact_matrix(self._cone) * self.motion(c)).tolist()
+        return self._rows[c][self._kind[i]]
 
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
-        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
+        """As of the base."""
         matrix = exact_matrix(self._cone)
         of_contact: dict[int, list[arb]] = {}
         slacks = []
         for i in some:
-            if i < len(self._places):
-                c, kind = self._places[i]
-                if c not in of_contact:
-                    of_contact[c] = (matrix * (self.motion(c) * z)).entries()
-                slacks.append(of_contact[c][kind])
-            else:
-                slacks += (arb_mat(self.exact_rows([i])) * z).entries()
+            if i >= len(self._contact):
+                slacks += (arb_mat([self.exact_row(i)]) * z).entries()
+                continue
+            c = int(self._contact[i])
+            if c not in of_contact:
+                of_contact[c] = (matrix * (self.motion(c) * z)).entries()
+            slacks.append(of_contact[c][self._kind[i]])
         return slacks
 
     def float_rows(self, some: Sequence[int]) -> Array:
-        """The a of some rows in float64, shape (rows, n): a guess."""
-        rows = np.empty((len(some), self.n))
-        for k, i in enumerate(some):
-            if i < len(self._places):
-                c, kind = self._places[i]
-                weights = self._cone[kind] * [1.0, *self._mu[c]]
-                rows[k] = weights @ self._frame[c] @ self._J[c]
-            else:
-                rows[k] = self._own[i - len(self._places), :-1]
-        return rows
+        """As of the base; shape (rows, n)."""
+        rows = np.array(some, dtype=np.int64)
+        own = rows >= len(self._contact)
+        c = self._contact[rows[~own]]
+        weights = self._cone[self._kind[rows[~own]]]
+        weights[:, 1:] *= self._mu[c]
+        floats = np.empty((len(rows), self.n))
+        floats[~own] = (weights[:, None] @ self._frame[c] @ self._J[c])[:, 0]
+        floats[own] = self._own[rows[own] - len(self._contact), :-1]
+        return floats
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
-        """All slacks in float64, and bounds of their errors, each shape (m,).
-
-        A slack s with bound e is proved to be positive by s > e, which is false where a number is
-        infinite or not a number.
-
-        Parameters
-        ----------
-        x : ndarray, shape (n,)
-            Each entry is off by at most UNIT times that of `most` from the point that is meant.
-        most : ndarray, shape (n,)
-            At least `|x|` [m, rad].
+        """As of the base, from `x` and `most`, shape (n,) [m, rad].
 
         Notes
         -----
@@ -266,7 +378,7 @@ class StepForm:
 
 
 def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
-    """What :meth:`StepForm.float_slacks` returns, from rows [a, c] in float64, shape (m, n + 1).
+    """What :meth:`ExactForm.float_slacks` returns, from rows [a, c] in float64, shape (m, n + 1).
 
     Each entry of the rows may be off by 2 u of itself, and x by u `most`. With the size s of
     `|a|` `most` + `|c|`, the sum of n + 1 products has an error of at most (n + 1) u s, and both
@@ -287,32 +399,33 @@ def _blocks(step: StepData, a: Indices, u: Indices) -> list[Block]:
     """The blocks of some actuated and un-actuated coordinates, each counted from its first."""
     blocks = []
     with ctx.workprec(EXACT):
+        h2 = arb(step.h) * step.h
         if len(a):
-            K = _spring_block(np.ascontiguousarray(step.K_q[np.ix_(a, a)]).tobytes(), len(a))
+            H = _hessian(np.ascontiguousarray(step.K_q[np.ix_(a, a)]).tobytes(), len(a), step.h)
             target = exact_matrix(step.delta_q_bar_a[a, None])
-            load = K[0] * target + exact_matrix(step.tau_a[a, None])  # Eq. (1)
-            blocks.append(Block(slice(0, len(a)), *K, arb(1), load))
+            g = H[0] * target + exact_matrix(step.tau_a[a, None]) * h2  # Eq. (1)
+            blocks.append(Block(slice(0, len(a)), *H, g))
         if len(u):
-            M = _spring_block(np.ascontiguousarray(step.inertia(u)).tobytes(), len(u))
-            load = exact_matrix(step.tau_u[u, None])
-            h2 = arb(step.h) * step.h
-            blocks.append(Block(slice(len(a), len(a) + len(u)), *M, h2, load))
+            H = _hessian(np.ascontiguousarray(step.inertia(u)).tobytes(), len(u), 1.0)
+            g = exact_matrix(step.tau_u[u, None]) * h2
+            blocks.append(Block(slice(len(a), len(a) + len(u)), *H, g))
     return blocks
 
 
-@lru_cache(maxsize=16)
-def _spring_block(entries: bytes, n: int) -> tuple[arb_mat, arb_mat]:
-    """A positive definite matrix of float64 numbers, (n, n), and its inverse."""
-    K = exact_matrix(np.frombuffer(entries).reshape(n, n))
-    return K, inverse(K)
+@lru_cache(maxsize=32)
+def _hessian(entries: bytes, n: int, h: float) -> tuple[arb_mat, arb_mat]:
+    """A positive definite matrix of float64 numbers, (n, n), times h^2, and the inverse of that."""
+    with ctx.workprec(EXACT):
+        H = exact_matrix(np.frombuffer(entries).reshape(n, n)) * (arb(h) * h)
+    return H, inverse(H)
 
 
-def inverse(K: arb_mat) -> arb_mat:
+def inverse(H: arb_mat) -> arb_mat:
     """The inverse, in balls, of an exact matrix that is positive definite."""
     precision = PRECISION
-    while True:  # ends: K is regular, so some precision resolves it
+    while True:  # ends: H is regular, so some precision resolves it
         with ctx.workprec(precision):
             try:
-                return K.inv()
+                return H.inv()
             except ZeroDivisionError:
                 precision *= 2

@@ -11,22 +11,26 @@ is complementarity (Eq. :eq:`eq-12`): a force where nothing touches cannot hide 
 
 from collections.abc import Sequence
 
-from flint import fmpq, fmpq_mat
+from flint import arb, arb_mat, fmpq, fmpq_mat
 
-from quasistatic_ref.certify.rational import ExactForm, fraction
+from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.step.data import Array
 
 
-def fractions(values: Array, unit: fmpq) -> list[fmpq]:
-    """Float64 numbers in a unit, without rounding [-].
+def fractions(values: Array) -> list[fmpq]:
+    """Float64 numbers without rounding.
 
     Parameters
     ----------
     values : ndarray, shape (k,)
-        Finite [those of the unit].
-    unit : fmpq
+        Finite [any unit].
     """
-    return [fraction(v) / unit for v in values.tolist()]
+    return [fraction(v) for v in values.tolist()]
+
+
+def rational(M: arb_mat) -> fmpq_mat:
+    """A matrix of exact numbers in fractions [any unit]."""
+    return fmpq_mat(M.nrows(), M.ncols(), [fraction(v) for v in M.entries()])
 
 
 def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq:
@@ -36,35 +40,47 @@ def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq
     ----------
     form : ExactForm
     x : sequence of fmpq, length n_v
-        In the form's units.
+        [m, rad].
     lam : sequence of fmpq, length m
-        In the form's units.
+        [N s].
 
     Returns
     -------
     fmpq
-        In the form's units of energy, ``net_unit * x_unit`` [N m s].
+        [N m s].
     """
+    h = fraction(form.h)
     column = fmpq_mat(form.n, 1, list(x))
-    push = fmpq_mat(1, form.m, list(lam))
-    A = fmpq_mat(form.A)
-    off = fmpq_mat(form.H) * column - fmpq_mat(form.g) - A.transpose() * push.transpose()
-    work = push * (A * column - fmpq_mat(form.b))
-    return _squared(form, off) / 2 + sum(work.entries(), fmpq(0))
+    push = fmpq_mat(form.m, 1, list(lam))
+    A = rational(form.A)
+    off = rational(form.H) * column - rational(form.g) - h * A.transpose() * push  # times h
+    work = push.transpose() * (A * column + rational(form.c))
+    return _squared(form, off) / (2 * h) + sum(work.entries(), fmpq(0))
+
+
+def inner(u: arb_mat, v: arb_mat) -> arb:
+    """Inner product u'v of two columns (n, 1) [product of their units]."""
+    return (u.transpose() * v)[0, 0]
+
+
+def square_root(square: arb) -> arb:
+    """The square root of what is not negative, whatever a ball about it holds."""
+    return square.nonnegative_part().sqrt()
 
 
 def free_energy(form: ExactForm) -> fmpq:
-    """1/2 ||H^-1 g||_H^2, in the form's units of energy [N m s]."""
-    return _squared(form, fmpq_mat(form.g)) / 2
+    """1/2 ||H^-1 g||_H^2 [N m s]."""
+    return _squared(form, rational(form.g)) / (2 * fraction(form.h))
 
 
 def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
-    """1/2 ||x||_H^2, in the form's units of energy [N m s]."""
+    """1/2 ||x||_H^2 [N m s], x in [m, rad]."""
     column = fmpq_mat(form.n, 1, list(x))
-    return sum((column.transpose() * fmpq_mat(form.H) * column).entries(), fmpq(0)) / 2
+    product = column.transpose() * rational(form.H) * column
+    return sum(product.entries(), fmpq(0)) / (2 * fraction(form.h))
 
 
 def _squared(form: ExactForm, impulse: fmpq_mat) -> fmpq:
-    """Return ||p||^2 in the norm of H^-1."""
-    moved = fmpq_mat(form.H).solve(impulse)
+    """Return p'H^-1 p of the form's H."""
+    moved = rational(form.H).solve(impulse)
     return sum((impulse.transpose() * moved).entries(), fmpq(0))

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import ExactForm
+from quasistatic_ref.certify.minimiser import fraction_solution
 
 
 def decimal_strings(
@@ -24,8 +24,7 @@ def decimal_strings(
     -------
     tuple of str
     """
-    solution = rational_solution(form, tuple(working_set))
-    values = [form.x_unit * x / solution.denominator for x in solution.x]
+    values = fraction_solution(form, working_set).point
     return tuple(decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in values)
 
 

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.cli import options as shared
@@ -83,7 +83,7 @@ def decimals(solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
     working = flat_rows(step, solution.certificate.active)
     names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
     names += [f"delta_q_u[{i}]" for i in range(step.n_u)]
-    return list(zip(names, decimal_strings(exact_form(step), working, digits), strict=True))
+    return list(zip(names, decimal_strings(StepForm(step), working, digits), strict=True))
 
 
 def _write(output: Path | None, text: str) -> None:

@@ -23,7 +23,7 @@ from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import Enclosed, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.groups import group_steps
+from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
 FACTOR_LIMIT = 2.0**200
@@ -178,7 +178,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         optimum = curved.optimum(step, si_answer)
         if optimum is None:
             return _not_enclosed(both, solver, answer, statistics)
-        check_length(step, optimum.delta_q, group_steps(step))
+        check_length(step, optimum.delta_q, groups(step))
     else:
         optimum = solver.prover.optimum(both, answer)
     delta_q = optimum.delta_q

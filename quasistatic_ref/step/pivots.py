@@ -44,11 +44,17 @@ def positive_definite(key: str, S: Array) -> Array:
         if np.abs(S - S.mT).max() > SYMMETRIC * np.abs(S).max():
             raise StepDataError("must be symmetric", field=key, value=S.tolist())
         S = np.tril(S) + np.tril(S, -1).mT
-    if not positive_pivots(S):
+    if not _positive_pivots(S.tobytes(), S.shape):
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())
     S.setflags(write=False)
     return S
+
+
+@lru_cache(maxsize=16)
+def _positive_pivots(entries: bytes, shape: tuple[int, ...]) -> bool:
+    """The same as :func:`positive_pivots`: K_q, and mostly M_u, are those of all steps of a run."""
+    return positive_pivots(np.frombuffer(entries).reshape(shape))
 
 
 def positive_pivots(S: Array) -> bool:
@@ -59,13 +65,6 @@ def positive_pivots(S: Array) -> bool:
     S : ndarray, shape (..., n, n)
         Symmetric and finite [any unit].
     """
-    return _positive_pivots(S.tobytes(), S.shape)
-
-
-@lru_cache(maxsize=16)
-def _positive_pivots(entries: bytes, shape: tuple[int, ...]) -> bool:
-    """The same: K_q, and mostly M_u, are those of every step of a run."""
-    S = np.frombuffer(entries).reshape(shape)
     if _surely_positive(S):
         return True
     if S.ndim > 2:

@@ -12,11 +12,11 @@ UNLUCKY = 101
 
 
 def rows(*A, b=None):
-    """A form whose rows are integers: nothing is scaled."""
+    """A form whose rows are integers."""
     A = np.array(A, dtype=float)
     right = np.zeros(len(A)) if b is None else np.array(b, dtype=float)
     form = exact_form_of(np.eye(A.shape[1]), np.zeros(A.shape[1]), A, right)
-    assert [[int(a) for a in form.row(i)] for i in range(form.m)] == A.tolist()
+    assert [[float(a) for a in row] for row in form.A.tolist()] == A.tolist()
     return form
 
 

@@ -6,7 +6,7 @@ from quasistatic_ref import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.at_random import divided
 from tests.oracles.random_steps import mixed_step
@@ -30,7 +30,7 @@ def random_case(seed):
 
 def faults(step):
     """In what the optimum by group is not that of the whole; empty if it is."""
-    whole = form_optimum(exact_form(step))
+    whole = form_optimum(StepForm(step))
     try:
         grouped = step_optimum(step)
     except StepInfeasible as failure:

@@ -14,7 +14,7 @@ from flint import arb
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from tests.oracles.rational_kkt import exact, on_rows, proved_optimum, solution
@@ -146,14 +146,12 @@ class Judge:
     def _optimum(self, step, claims):
         if claims["kind"] == "enclosure":
             found = checked_pair(step, arb(2) ** -280, 1536)
-            unit = exact_form(step).x_unit
             assert found is not None
-            scaled = [v * unit for v in point(found)]
-            return exact([Fraction(int(v.p), int(v.q)) for v in scaled])
+            return exact([Fraction(int(v.p), int(v.q)) for v in point(found)])
         if claims["kind"] == "exact":  # where every loaded contact sticks
             working = [4 * j + i for j, i in claims["active"]]
             return on_rows(self.program, working)[0]
-        end = form_optimum(exact_form(step))
+        end = form_optimum(StepForm(step))
         working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
         return proved_optimum(self.program, working)[0]
 

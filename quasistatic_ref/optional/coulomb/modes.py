@@ -17,14 +17,14 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from flint import fmpq, fmpz, fmpz_mat
+from flint import fmpq, fmpz
 
-from quasistatic_ref.certify.rational import exact_form, matrix
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.between import COULOMB_COUNT
 from quasistatic_ref.optional.coulomb.cone_faces import Rows, faces
-from quasistatic_ref.optional.coulomb.systems import Integers, System
+from quasistatic_ref.optional.coulomb.systems import Integers, System, in_integers, matrix
 from quasistatic_ref.step.arrays import Array, Indices, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -183,8 +183,8 @@ class ModeSearch:
         self.step = step
         self.most = most
         self.systems = 0
-        self.form = form = exact_form(step)
-        self.H, self.g, self.A, self.b = map(_integers, (form.H, form.g, form.A, form.b))
+        self.form = form = StepForm(step)
+        self.H, self.g, self.A, self.b, self.x_unit = in_integers(form)
         bounds = [*step.offsets.tolist(), *range(int(step.offsets[-1]) + 1, step.m + 1)]
         self.rows = [tuple(range(*ends)) for ends in pairwise(bounds)]
         if max(map(len, self.rows), default=0) > MOST_ROWS:
@@ -288,7 +288,7 @@ class ModeSearch:
     def mode(self, piece: Piece, coordinates: Indices) -> CoulombMode:
         """A piece in words and in SI units."""
         step = self.step
-        delta_q = [float(Fraction(*_ratio(self.form.x_unit * x))) for x in piece.x]
+        delta_q = [float(Fraction(*_ratio(self.x_unit * x))) for x in piece.x]
         return CoulombMode(
             contacts=(*step.contacts.name, *step.extra.names),
             modes=tuple(self._word(j, piece) for j in range(len(self.rows))),
@@ -335,7 +335,7 @@ class ModeSearch:
         if any(b > 0 for b in self.b[:, 0]):
             return [False] * len(self.rows)
         by = matrix(np.column_stack([self.g[:, 0], *self.A_n]))
-        moved = self.form.H.solve(by)  # x_0, and H^-1 J_n' of each contact
+        moved = matrix(self.H).solve(by)  # x_0, and H^-1 J_n' of each contact
         half = [[moved[v, k] for v in range(self.form.n)] for k in range(len(self.rows) + 1)]
         square = _product(self.g[:, 0], half[0])
         far = []
@@ -365,11 +365,6 @@ class ModeSearch:
 def _in_words(mode: CoulombMode) -> str:
     words = ", ".join(f"{n} {m}" for n, m in zip(mode.contacts, mode.modes, strict=True))
     return words if mode.isolated else f"{words} (a set of solutions)"
-
-
-def _integers(M: fmpz_mat) -> Integers:
-    entries = np.array([int(entry) for entry in M.entries()], dtype=object)
-    return entries.reshape(M.nrows(), M.ncols())
 
 
 def _product(a: Integers, x: Sequence[fmpq]) -> fmpq:

@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from flint import fmpq, fmpz_mat
+from flint import arb_mat, fmpq, fmpz_mat
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.rational import ExactForm, matrix
+from quasistatic_ref.certify.form import ExactForm, MatrixForm, whole_numbers
 from quasistatic_ref.step.arrays import Indices, Mask
 from quasistatic_ref.tolerances import FEASIBLE
 
@@ -86,19 +86,13 @@ class System:
         w = C.shape[1]
         weights = (1 << 2 * int(self.scale.max() - e) for e in self.scale)
         lengths = np.diag(np.array([*weights], dtype=object))
-        one = fmpq(1)
-        form = ExactForm(
-            H=matrix(lengths),
-            g=fmpz_mat(w, 1),
-            A=matrix(C),
-            b=matrix(d[:, None]),
-            x_unit=one,
-            slack_unit=one,
-            lam_unit=one,
-            net_unit=one,
+        form = MatrixForm(
+            H=arb_mat(matrix(lengths)),
+            g=arb_mat(w, 1),
+            rows=arb_mat(matrix(np.column_stack([C, -d]))),
         )
         end = dual_active_set(form, self.guess[1])
-        return None if isinstance(end, Farkas) else end.minimiser.rational.point
+        return None if isinstance(end, Farkas) else end.minimiser.fractions.point
 
     def moves(self, point: Sequence[fmpq], n: int) -> bool:
         """Whether the first n entries of some solution are not those of `point`, a solution."""
@@ -128,3 +122,38 @@ class System:
         rank = matrix(equations).rank()
         of_others = matrix(equations[:, n:]).rank() if equations.shape[1] > n else 0
         return bool(rank - of_others == n)
+
+
+def in_integers(form: ExactForm) -> tuple[Integers, Integers, Integers, Integers, fmpq]:
+    """H, g, A and b of a program in integers, each times a positive factor.
+
+    Returns
+    -------
+    ndarray, shapes (n, n), (n, 1), (m, n) and (m, 1)
+    fmpq
+        The unit of x in which they belong together [m, rad].
+    """
+    H, e_H = _integers(form.H)
+    A, e_A = _integers(form.A)
+    g, e_g = _integers(form.g)
+    c, e_b = _integers(form.c)
+    b = -c
+    needed = [e - of for v, e, of in ((g, e_g, e_H), (b, e_b, e_A)) if v.any()]
+    e = min(needed, default=0)
+    shift = np.vectorize(lambda v, by: v << by if v else v, otypes=[object])
+    g = shift(g, e_g - e_H - e) if g.any() else g
+    b = shift(b, e_b - e_A - e) if b.any() else b
+    return H, g, A, b, fmpq(2) ** e
+
+
+def _integers(M: arb_mat) -> tuple[Integers, int]:
+    """Exact numbers as integers times a power of two, whose exponent is the second."""
+    numbers = M.entries()
+    least = min((int(v.man_exp()[1]) for v in numbers if not v.is_zero()), default=0)
+    whole = [int(v) for v in whole_numbers(numbers)]
+    return np.array(whole, dtype=object).reshape(M.nrows(), M.ncols()), least
+
+
+def matrix(m: Integers) -> fmpz_mat:
+    """The same integers, of any unit [-], shape (rows, columns)."""
+    return fmpz_mat(m.shape[0], m.shape[1], m.ravel().tolist())

@@ -12,12 +12,12 @@ decided in rational numbers: by convexity nothing else has to be checked.
 
 from collections.abc import Sequence
 
-from flint import fmpq, fmpq_mat, fmpz_mat
+from flint import ctx, fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
-from quasistatic_ref.certify.gap import fractions
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
+from quasistatic_ref.certify.gap import fractions, rational
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.step.data import Array, StepData
 
@@ -67,12 +67,14 @@ def apex_refutation(
     str or None
     """
     try:
-        solution = rational_solution(form, tuple(working))
+        minimiser = Minimiser(form, tuple(working))
+        solution = minimiser.fractions
     except ZeroDivisionError:
         return "the rows of the working set are not independent"
-    slack = [fmpq(v) for v in solution.slack]  # over a denominator that no sign below needs
-    net = [fmpq(v) / solution.denominator for v in solution.net]
-    impulse = _balanced(form, working, fractions(lam, form.lam_unit), net)
+    with ctx.workprec(EXACT):
+        slack = solution.in_fractions(form.slacks(range(form.m), solution.z))
+        pull = solution.in_fractions(minimiser.pull(solution))
+    impulse = _balanced(form, working, fractions(lam), [v / fraction(form.h) for v in pull])
     if impulse is None:
         return "no multipliers on the working set balance the step"
     for name, rows, c in cone_blocks(step):
@@ -88,11 +90,12 @@ def _balanced(
     form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
 ) -> list[fmpq] | None:
     """Return lam changed on the working rows so that A'lam = net; None if that does not do."""
-    A = fmpq_mat(form.A)
+    A = rational(form.A)
     short = fmpq_mat(form.n, 1, net) - A.transpose() * fmpq_mat(form.m, 1, lam)
     if not working:
         return None if any(short.entries()) else lam
-    W = fmpq_mat(fmpz_mat([form.row(i) for i in working]))
+    table = A.tolist()
+    W = fmpq_mat([table[i] for i in working])
     change = (W * W.transpose()).solve(W * short)
     if any((W.transpose() * change - short).entries()):
         return None

@@ -12,11 +12,10 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
 from quasistatic_ref.certify.residuals import largest
-from quasistatic_ref.certify.rounding import rounded_solution
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
@@ -29,7 +28,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     point,
 )
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
-from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
+from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import CURVED_CONE, ELLIPSOID, CurvedCone, Judge, Rows, Violations
@@ -156,7 +155,7 @@ class EllipsoidCone(CurvedCone):
             return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing")
         if lam is None:
             return Verdict(False, "in the ellipsoid nothing is proved without lam")
-        form = exact_form(step)
+        form = StepForm(step)
         if delta_q.shape != (form.n,) or lam.shape != (form.m,):
             return Verdict(False, "delta_q or lam has another shape than the step wants")
         if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
@@ -207,14 +206,14 @@ def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
 def _not_exact(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
-    """Return the rational optimum in the form's units, and what is wrong with the claim of it."""
+    """Return the rational optimum [m, rad], and what is wrong with the claim of it."""
     working = apex_rows(step, form, lam)
     reason = apex_refutation(step, form, working, lam) or ""
     if reason:
         return [], reason
-    solution = rational_solution(form, working)
+    solution = fraction_solution(form, working)
     reason = (
-        wrong_bits("delta_q", delta_q, rounded_solution(form, solution)[0])
+        wrong_bits("delta_q", delta_q, rounded_quotients(solution.x, solution.denominator))
         or wrong_claim("active", active, contact_rows(step, working))
         or wrong_claim("error_bound", claims.error_bound, 0.0)
     )
@@ -224,7 +223,7 @@ def _not_exact(
 def _not_enclosed(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
-    """Return a point next to the optimum in the form's units, and what is wrong with the claim."""
+    """Return a point next to the optimum [m, rad], and what is wrong with the claim."""
     found = checked_pair(step)
     if found is None:
         return [], "no displacement strictly inside of all cones was found"
@@ -249,19 +248,18 @@ def _not_multipliers(
         outside = "" if largest(pull) <= allowed else "its cone"
         lam = raised(step, lam)
     else:
-        outside = outside_of_cones(step, fractions(lam, form.lam_unit))
+        outside = outside_of_cones(step, fractions(lam))
     if outside:
         return f"lam is outside of its cone at {outside}"
-    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
+    gap = duality_gap(form, x, fractions(lam))
     if not negligible(form, x, gap):
         return (
             "lam does not hold the step: it does not balance it, or presses where nothing touches"
         )
     if claimed is None:
         return ""
-    if not (proved := in_joules(form, gap)) <= claimed:
+    if not (proved := rounded_up(gap)) <= claimed:
         return f"gap is claimed to be {claimed!r}; {proved!r} is proved"
-    stated = fractions(np.array([min(claimed, LARGEST)]), form.net_unit * form.x_unit)
-    if not negligible(form, x, *stated):
+    if not negligible(form, x, fraction(min(claimed, LARGEST))):
         return f"gap is {claimed!r}, which is more than rounding"
     return ""

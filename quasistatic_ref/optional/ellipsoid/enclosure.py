@@ -17,13 +17,13 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.minimiser import inner, rational_solution, square_root
-from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_above, nearest_in, rounded_solution
+from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
+from quasistatic_ref.certify.gap import duality_gap, fractions, inner, square_root
+from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
+from quasistatic_ref.certify.rounding import nearest_above, nearest_in
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
-from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
+from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import raised
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
@@ -102,20 +102,20 @@ class Enclosure:
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """A pair that was checked in balls, in the units of its form.
+    """A pair that was checked in balls.
 
     Parameters
     ----------
     x : arb_mat
-        Without radius.
-    lam : list of arb
-        Impulses.
+        Without radius [m, rad].
+    y : list of arb
+        Impulses times h.
     gap, free : arb
-        An upper bound of 1/2 ||x - x*||_H^2, and ||H^-1 g||_H.
+        An upper bound of 1/2 ||x - x*||_H^2, and ||H^-1 g||_H, in the form's H and g.
     """
 
     x: arb_mat
-    lam: list[arb]
+    y: list[arb]
     gap: arb
     free: arb
 
@@ -136,7 +136,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     -------
     Enclosure or None
     """
-    form = exact_form(step)
+    form = StepForm(step)
     unloaded = _at_apex(step, form, np.zeros(form.m))
     if unloaded is not None:
         return unloaded
@@ -151,12 +151,15 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
     working = apex_rows(step, form, lam)
     if apex_refutation(step, form, working, lam):
         return None
-    solution = rational_solution(form, working)
-    delta_q, _, net, _ = rounded_solution(form, solution)
-    gap = duality_gap(form, solution.point, fractions(lam, form.lam_unit))
-    if not negligible(form, solution.point, gap):
+    minimiser = Minimiser(form, working)
+    exact = minimiser.fractions
+    gap = duality_gap(form, exact.point, fractions(lam))
+    if not negligible(form, exact.point, gap):
         return None
-    return Enclosure(delta_q, lam, net, working, 0.0, in_joules(form, gap))
+    delta_q = rounded_quotients(exact.x, exact.denominator)
+    with ctx.workprec(EXACT):
+        net = rounded_quotients(minimiser.pull(exact), exact.denominator * form.h)
+    return Enclosure(delta_q, lam, net, working, 0.0, rounded_up(gap))
 
 
 def _enclosed(
@@ -175,10 +178,10 @@ def _enclosed(
     delta_q = rounded_displacement(frame, found)
     error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
     x = point(found)
-    gap = fraction(reserve.upper()) + duality_gap(form, x, fractions(lam, form.lam_unit))
+    gap = fraction((reserve / form.h).upper()) + duality_gap(form, x, fractions(lam))
     if not (error < ENCLOSED and negligible(form, x, gap)):
         return None
-    return Enclosure(delta_q, lam, _net(form, found), None, error, in_joules(form, gap))
+    return Enclosure(delta_q, lam, _net(form, found), None, error, rounded_up(gap))
 
 
 def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | None:
@@ -193,27 +196,21 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
         Precision, five times as many as the gap has.
     """
     with ctx.workprec(bits):
-        frame = scaled_blocks(step, exact_form(step))
+        frame = scaled_blocks(step, StepForm(step))
         pair = interior_point(frame.problem, gap)
         return None if pair is None else checked(frame, pair)
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
-    off = arb_mat([[arb(float(v)) / form.x_unit] for v in delta_q]) - found.x
-    length = square_root(inner(off, arb_mat(form.H) * off)) + square_root(2 * found.gap)
+    off = exact_matrix(delta_q[:, None]) - found.x
+    length = square_root(inner(off, form.H * off)) + square_root(2 * found.gap)
     return nearest_above(length / found.free) if found.free > 0 else float("inf")
 
 
 def point(found: Checked) -> list[fmpq]:
-    """The x of a checked pair, without rounding, in the units of its form [-]."""
+    """The x of a checked pair, without rounding [m, rad]."""
     return [fraction(v) for v in found.x.entries()]
-
-
-def fraction(v: arb) -> fmpq:
-    """A number without radius as a fraction [of its unit]."""
-    m, e = v.man_exp()
-    return m * fmpq(2) ** int(e)
 
 
 def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
@@ -244,24 +241,22 @@ def _by_newton(problem: Blocks, pair: Pair) -> Iterator[Guess]:
 def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
     """A pair of the program with its gap, if its s and y surely lie inside of all cones."""
     form = frame.form
-    balls = frame.balls
     x, y = frame.in_form(pair)
     mu = diagonal(frame.mu)
-    motion = balls.A * x - balls.b
+    motion = form.A * x + form.c
     s = mu * motion + diagonal(frame.give) * y
     for first, *others in frame.problem.split(s) + frame.problem.split(y):
         if not (first > 0 and first * first > sum((v * v for v in others), arb(0))):
             return None
-    lam = mu * y
-    H = arb_mat(form.H)
-    off = x - balls.x_free - balls.H_inv * (balls.A.transpose() * lam)
-    gap = inner(off, H * off) / 2 + inner(s, y)
-    return Checked(x, lam.entries(), gap, frame.free)
+    impulses = mu * y
+    off = x - form.H_inverse * (form.g + form.A.transpose() * impulses)
+    gap = inner(off, form.H * off) / 2 + inner(s, y)
+    return Checked(x, impulses.entries(), gap, frame.free)
 
 
 def _impulses(step: StepData, frame: ScaledBlocks, found: Checked, states: list[int]) -> Array:
     """Return lam in float64, zero where a contact is open, inside of its cones."""
-    lam = np.array([float(v * frame.form.lam_unit) for v in found.lam])
+    lam = np.array([float(v / frame.form.h) for v in found.y])
     for rows, state in zip(frame.problem.rows, states, strict=True):
         if state == OPEN:
             lam[rows.start : rows.stop] = 0.0
@@ -280,11 +275,11 @@ def rounded_displacement(frame: ScaledBlocks, found: Checked) -> Array:
     """The x of a pair in float64, shape (n_v,) [m, rad]; an entry that may be zero is zero."""
     values = []
     for v, middle in enumerate(found.x.entries()):
-        radius = square_root(2 * found.gap * frame.balls.H_inv[v, v])
-        values.append(rounded((middle + arb(0, radius.upper())) * frame.form.x_unit))
+        radius = square_root(2 * found.gap * frame.form.H_inverse[v, v])
+        values.append(rounded(middle + arb(0, radius.upper())))
     return np.array(values)
 
 
 def _net(form: ExactForm, found: Checked) -> Array:
-    net = arb_mat(form.H) * found.x - arb_mat(form.g)
-    return np.array([float(v * form.net_unit) for v in net.entries()]) + 0.0
+    net = form.H * found.x - form.g
+    return np.array([float(v / form.h) for v in net.entries()]) + 0.0

@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
-from quasistatic_ref.certify.minimiser import square_root
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.gap import square_root
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -61,7 +61,7 @@ def compliant_forces(
         If no enclosure is found.
     """
     n_c = step.contacts.n_c
-    form = exact_form(step)
+    form = StepForm(step)
     delta_q, wrench = near
     own = np.zeros(len(step.extra.b))
     start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
@@ -74,7 +74,7 @@ def compliant_forces(
             forces = np.zeros(4 * n_c)
             for i in range(4 * n_c):
                 off = frame.mu[i] * square_root(2 * found.gap / frame.give[i])
-                impulse = (found.lam[i] + arb(0, off.upper())) * form.lam_unit
+                impulse = (found.y[i] + arb(0, off.upper())) / form.h
                 forces[i] = rounded(impulse / step.h)
             x = rounded_displacement(frame, found)
             return forces.reshape(-1, 4)[:, np.argsort(P_OF_WRENCH)], x

@@ -5,17 +5,16 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
+from quasistatic_ref.certify.form import ExactForm, fraction
 from quasistatic_ref.certify.gap import energy, free_energy
-from quasistatic_ref.certify.rational import ExactForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.tolerances import IMPULSES
 
 
-def in_joules(form: ExactForm, gap: fmpq) -> float:
-    """A gap in the form's units as the smallest float64 that is not below it [N m s]."""
-    exact = gap * form.net_unit * form.x_unit
-    value = nearest_fraction(exact)
-    below = math.isfinite(value) and fraction(value) < exact
+def rounded_up(gap: fmpq) -> float:
+    """A gap as the smallest float64 that is not below it [N m s]."""
+    value = nearest_fraction(gap)
+    below = math.isfinite(value) and fraction(value) < gap
     return math.nextafter(value, math.inf) if below else value
 
 

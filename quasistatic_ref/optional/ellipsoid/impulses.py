@@ -17,7 +17,7 @@ def cone_blocks(step: StepData) -> Iterator[tuple[str, range, list[fmpq]]]:
     The coefficients are (mu_v, mu_v, mu_omega) without rounding; a row of the user's own has none.
     """
     names = [*step.contacts.name, *step.extra.names]
-    mu = [fractions(row, ONE) for row in step.contacts.mu] + [[] for _ in step.extra.names]
+    mu = [fractions(row) for row in step.contacts.mu] + [[] for _ in step.extra.names]
     start = 0
     for name, c in zip(names, mu, strict=True):
         rows = range(start, start + 1 + len(c))

@@ -176,7 +176,8 @@ class _Energy:
 def _floats(name: str, count: int, rows: Rows) -> Array:
     """The numbers of a face in float64, shape (R + 4, 4)."""
     exact = face(name, count, rows)
-    return np.array(exact.integers / exact.denominator, dtype=np.float64)
+    numbers = [float(v) for v in exact.linear.entries()]
+    return np.array(numbers).reshape(-1, 4) / exact.denominator
 
 
 def nearest_rows(C: Array, z: Array) -> Rows:

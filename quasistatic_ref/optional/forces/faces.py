@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from flint import fmpq, fmpq_mat
+from flint import arb_mat, ctx, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.rational import Dyadic, Integers, dyadic, fraction, in_integers
+from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix, fraction
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -26,13 +26,14 @@ class Face:
 
     Parameters
     ----------
-    integers : ndarray of int, shape (R + 4, 4)
-        Times z and over the denominator: R numbers that are >= 0 if the nearest point lies on this
-        face (the multipliers of its rows, and the slacks of z + s in the others); and s.
+    linear : arb_mat
+        Whole numbers, shape (R + 4, 4). Times z and over the denominator they are R numbers that
+        are >= 0 if the nearest point lies on this face (the multipliers of its rows, and the slacks
+        of z + s in the others); and s.
     denominator : int
     """
 
-    integers: Integers
+    linear: arb_mat
     denominator: int
 
 
@@ -70,11 +71,10 @@ def face(name: str, count: int, rows: Rows) -> Face:
     for i, multiplier in zip(rows, multipliers.tolist(), strict=True):
         conditions[i] = multiplier
     numerators, denominator = fmpq_mat(conditions + s.tolist()).numer_denom()
-    integers = np.array([int(x) for x in numerators.entries()], dtype=object).reshape(-1, 4)
-    return Face(integers, int(denominator))
+    return Face(arb_mat(numerators), int(denominator))
 
 
-def nearest_face(name: str, count: int, z: Dyadic) -> Rows:
+def nearest_face(name: str, count: int, z: arb_mat) -> Rows:
     """The face on which the point nearest to -z lies, of a contact that has `count` rows.
 
     That point is the shortest s with C (z + s) >= 0, C being the rows of the contact's cone: the
@@ -85,30 +85,18 @@ def nearest_face(name: str, count: int, z: Dyadic) -> Rows:
     name : str
         A polyhedral cone.
     count : int
-    z : Dyadic
-        Shape (4,) [m, or times any positive number].
+    z : arb_mat
+        Exact, shape (4, 1) [m, or times any positive number].
 
     Returns
     -------
     tuple of int
         Independent rows, in increasing order; their multipliers are positive.
     """
-    C = dyadic(rows_of(name, count))
-    form = in_integers(dyadic(np.eye(4)), dyadic(np.zeros(4)), C, -(C @ z), fmpq(1))
-    end = dual_active_set(form)
+    C = exact_matrix(rows_of(name, count))
+    with ctx.workprec(EXACT):
+        constants = (C * z).entries()
+    rows = [[*row, c] for row, c in zip(C.tolist(), constants, strict=True)]
+    end = dual_active_set(MatrixForm(exact_matrix(np.eye(4)), arb_mat(4, 1), arb_mat(rows)))
     assert isinstance(end, Optimum)
     return tuple(sorted(end.minimiser.working))
-
-
-def face_of_rows(name: str, count: int, rows: Rows) -> tuple[Integers, int] | None:
-    """What a :class:`Face` holds; None of rows that are dependent.
-
-    Returns
-    -------
-    (ndarray, int) or None
-        Integers, shape (R + 4, 4), and their denominator.
-    """
-    if rows and np.linalg.matrix_rank(rows_of(name, count)[list(rows)]) < len(rows):
-        return None  # older NumPys know no rank of no rows
-    found = face(name, count, rows)
-    return found.integers, found.denominator

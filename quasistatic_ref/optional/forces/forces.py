@@ -26,25 +26,15 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from flint import fmpq
+from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
-from quasistatic_ref.certify.gap import fractions
+from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.certify.rational import (
-    Dyadic,
-    ExactForm,
-    block_diagonal,
-    concatenated,
-    dyadic,
-    fraction,
-    in_integers,
-)
-from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import InputError, StepInfeasible, StepNotSolved
-from quasistatic_ref.optional.forces.eliminated import EliminatedStep, eliminated_optimum
+from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
@@ -178,7 +168,7 @@ def _left(step: StepData, wrench: Array, off: Array) -> float:
     return norm.of_displacement(off) / load if load else float("inf")
 
 
-def compliant_form(step: StepData, compliance: float) -> ExactForm:
+def compliant_form(step: StepData, compliance: float) -> MatrixForm:
     """The step with compliance: its coordinates are [delta_q; s], s of four lengths a contact [m].
 
     Parameters
@@ -190,22 +180,24 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
 
     Returns
     -------
-    ExactForm
-        Rows as of :func:`~quasistatic_ref.certify.rational.exact_form`.
+    MatrixForm
+        Rows as of :class:`~quasistatic_ref.certify.form.StepForm`; multipliers are h c lam.
     """
-    program = EliminatedStep(step, compliance)
-    h = program.h
+    form = StepForm(step)
     n = step.n_v
     lengths = 4 * step.contacts.n_c
-    # Eq. (13) with the energy |s|^2 / (2c), times h c
-    H = block_diagonal(program.H, h * h * dyadic(np.eye(lengths)))
-    g = concatenated([program.g, dyadic(np.zeros(lengths))])
-    gives = dyadic(cone_rows(step))
-    z = Dyadic(program.z.m.reshape(lengths, n + 1), program.z.e)
-    rows = concatenated([gives @ z, program.own])  # times [delta_q; 1]
-    of_s = concatenated([gives, dyadic(np.zeros((len(step.extra.b), lengths)))])
-    A = concatenated([rows[:, :n], of_s], axis=1)
-    return in_integers(H, g, A, -rows[:, n], program.compliance * fraction(step.h))
+    gives = np.zeros((step.m, lengths))
+    gives[: step.offsets[-1]] = cone_rows(step)
+    every = zip(form.exact_rows(range(step.m)), exact_matrix(gives).tolist(), strict=True)
+    rows = [[*row[:n], *of_s, row[n]] for row, of_s in every]
+    with ctx.workprec(EXACT):  # Eq. (13) with the energy |s|^2 / (2c), times h c
+        H = exact_matrix(np.eye(n + lengths)) * (form.h * form.h)
+        for i, row in enumerate((form.H * arb(compliance)).tolist()):
+            for j, v in enumerate(row):
+                H[i, j] = v
+        g = [v * compliance for v in form.g.entries()] + [arb(0)] * lengths
+    size = n + lengths + 1
+    return MatrixForm(H, arb_mat(size - 1, 1, g), columns(rows, slice(0, size)))
 
 
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
@@ -228,14 +220,14 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     ndarray, shape (n_v,)
         delta_q.
     """
-    form = compliant_form(step, compliance)
-    end = dual_active_set(form)
+    end = dual_active_set(compliant_form(step, compliance))
     assert isinstance(end, Optimum)
-    of_s = fractions(scaled_by(step.contacts).ravel(), fraction(compliance))
-    units = [form.x_unit * unit for unit in [fmpq(1)] * step.n_v + of_s]
-    rounded = [nearest_numbers(end.minimiser, "x", unit, [i]) for i, unit in enumerate(units)]
-    numbers = np.concatenate(rounded)
-    return numbers[step.n_v :].reshape(-1, 4), numbers[: step.n_v]
+    mu = [arb(v) for v in scaled_by(step.contacts).ravel().tolist()]
+    n = step.n_v
+    p = end.minimiser.rounded(
+        lambda found: [m * s for m, s in zip(mu, found.x[n:], strict=True)], arb(compliance)
+    )
+    return p.reshape(-1, 4), end.minimiser.rounded(lambda found: found.x[:n])
 
 
 CONTACT_FORCES.fill(lambda step, near: contact_forces(step, near=near))

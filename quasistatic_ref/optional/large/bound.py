@@ -17,17 +17,11 @@ digits. The exact method shows all of them.
 import math
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, ctx
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.minimiser import (
-    PRECISION,
-    BallForm,
-    form_in_balls,
-    inner,
-    square_root,
-)
-from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.form import PRECISION, StepForm, exact_matrix
+from quasistatic_ref.certify.gap import inner, square_root
 from quasistatic_ref.certify.rounding import nearest_above
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.solve.backends import ERROR_BOUND
@@ -54,39 +48,39 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> float:
         return math.inf  # what follows is about rows
     if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
         return math.inf
-    form = exact_form(step)
-    balls = form_in_balls(form)
+    form = StepForm(step)
     with ctx.workprec(PRECISION):
-        x = _column(delta_q, form.x_unit)
-        y = _column(np.maximum(lam, 0.0), form.lam_unit)
-        moved = _feasible(step, form, balls, x)
-        return math.inf if moved is None else _error(form, balls, x, moved, y)
+        x = exact_matrix(delta_q[:, None])
+        y = exact_matrix(np.maximum(lam, 0.0)[:, None]) * form.h
+        moved = _feasible(step, form, x)
+        return math.inf if moved is None else _error(form, x, moved, y)
 
 
-def _error(form: ExactForm, balls: BallForm, x: arb_mat, moved: arb_mat, y: arb_mat) -> float:
+def _error(form: StepForm, x: arb_mat, moved: arb_mat, y: arb_mat) -> float:
     """The bound from a feasible point that x is moved to, and y >= 0."""
-    H = arb_mat(form.H)
+    H = form.H
+    free = form.H_inverse * form.g
     way = moved - x
-    off = moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
-    gap = inner(off, H * off) / 2 + inner(y, balls.A * moved - balls.b)
+    off = moved - (free + form.H_inverse * (form.A.transpose() * y))
+    gap = inner(off, H * off) / 2 + inner(y, form.A * moved + form.c)
     length = square_root(inner(way, H * way)) + square_root(2 * gap)
-    free = square_root(inner(balls.x_free, H * balls.x_free))
-    return nearest_above(length / free) if free > 0 else math.inf
+    unconstrained = square_root(inner(free, H * free))
+    return nearest_above(length / unconstrained) if unconstrained > 0 else math.inf
 
 
-def _feasible(step: StepData, form: ExactForm, balls: BallForm, x: arb_mat) -> arb_mat | None:
+def _feasible(step: StepData, form: StepForm, x: arb_mat) -> arb_mat | None:
     """Return a point x + t v near x that surely satisfies all rows, or None."""
-    slack = (balls.A * x - balls.b).entries()
+    slack = (form.A * x + form.c).entries()
     if all(s >= 0 for s in slack):
         return x
     direction = opening_direction(step)
     if direction is None:
         return None
-    d = _column(direction, form.x_unit)  # v above
-    opening = (balls.A * d).entries()
+    d = exact_matrix(direction[:, None])  # v above
+    opening = (form.A * d).entries()
     size = max((-s / o).upper() for s, o in zip(slack, opening, strict=True))
     moved = x + d * size * (1 + arb(2) ** -60)
-    return moved if all(s >= 0 for s in (balls.A * moved - balls.b).entries()) else None
+    return moved if all(s >= 0 for s in (form.A * moved + form.c).entries()) else None
 
 
 def opening_direction(step: StepData) -> Array | None:
@@ -95,10 +89,6 @@ def opening_direction(step: StepData) -> Array | None:
     unit = 1 / np.sqrt(np.diag(form.H))
     d = opening(csc_matrix(form.A * unit), np.zeros(len(form.A)), RIDGE)
     return None if d is None else d * unit
-
-
-def _column(values: Array, unit: fmpq) -> arb_mat:
-    return arb_mat([[arb(float(v)) / unit] for v in values]) if len(values) else arb_mat(0, 1)
 
 
 ERROR_BOUND.fill(error_bound)

@@ -12,14 +12,13 @@ multipliers alone. Where the optimum is not known,
 import math
 
 import numpy as np
-from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.certificate import BOUND_VERDICT
 from quasistatic_ref.certify.exact import form_optimum
+from quasistatic_ref.certify.form import StepForm, fraction
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -45,7 +44,7 @@ def bound_verdict(
     """
     if claimed is None or lam is None or not cone(step.cone).polyhedral:
         return Verdict(False, "a certificate of kind 'residual' without a bound proves nothing")
-    form = exact_form(step)
+    form = StepForm(step)
     if delta_q.shape != (form.n,) or lam.shape != (form.m,):
         return Verdict(False, "delta_q or lam has another shape than the step wants")
     if not (np.isfinite(delta_q).all() and np.isfinite(lam).all() and math.isfinite(claimed)):
@@ -57,11 +56,10 @@ def bound_verdict(
     optimum = form_optimum(form, np.argsort(-lam, kind="stable")[: int((lam > 0).sum())].tolist())
     if isinstance(optimum, Farkas):
         return Verdict(False, "the step has no solution")
-    solution = rational_solution(form, optimum.working_set)
-    x = solution.point
-    off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), x, strict=True)]
-    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
-    (bound,) = fractions(np.array([claimed]), fmpq(1))
+    x = fraction_solution(form, optimum.working_set).point
+    off = [a - b for a, b in zip(fractions(delta_q), x, strict=True)]
+    gap = duality_gap(form, x, fractions(lam))
+    bound = fraction(claimed)
     if energy(form, off) + gap <= bound * bound * free_energy(form):
         return Verdict(True)
     return Verdict(False, f"error_bound is claimed to be {claimed!r}; the error is larger")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
@@ -25,8 +25,8 @@ def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
 )
 def test_directions_without_friction_hold_nothing(mu_v, mu_omega, rows):
     step = body_on_one_place((0.0, 0.0, -2.0), [mu_v], mu_omega)
-    assert apex_rows(step, exact_form(step), np.array([1.0, 0, 0, 0])) == rows
-    assert apex_rows(step, exact_form(step), np.zeros(4)) == ()
+    assert apex_rows(step, StepForm(step), np.array([1.0, 0, 0, 0])) == rows
+    assert apex_rows(step, StepForm(step), np.zeros(4)) == ()
 
 
 def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
@@ -35,7 +35,7 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
     Of that the first contact can hold |t| <= 0.1 n and the second |t| <= n.
     """
     step = body_on_one_place((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
-    form = exact_form(step)
+    form = StepForm(step)
     lam = np.array([1.0, -0.05, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0])
     working = apex_rows(step, form, lam)
     assert working == (0, 1, 2)

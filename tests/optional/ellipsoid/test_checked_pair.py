@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm, exact_matrix
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,
@@ -31,19 +31,13 @@ def forms_of(step=None):
     """A step in the ellipsoid, its exact form, and the scaled program."""
     step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
     step = step.replace(cone="ellipsoid")
-    form = exact_form(step)
+    form = StepForm(step)
     return step, form, scaled_blocks(step, form)
 
 
-def units(values, unit):
-    """Numbers in SI units, in those of a form."""
-    return [arb(v) / unit for v in np.asarray(values, float).tolist()]
-
-
-def point_at(form, delta_q):
-    """A displacement [m] without a duality gap, in the units of a form."""
-    x = arb_mat(form.n, 1, units(delta_q, form.x_unit))
-    return Checked(x, [], arb(0), arb(1))
+def point_at(delta_q):
+    """A displacement [m] without a duality gap."""
+    return Checked(exact_matrix(np.array(delta_q)[:, None]), [], arb(0), arb(1))
 
 
 @pytest.mark.parametrize("k", [1, 2, 3])
@@ -65,7 +59,7 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
     off = x - H_STEP**2 * FORCE / M - H_STEP / M * lam[:3] @ axes
     s = np.array([PHI, 0.0, 0.0]) + axes @ x
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
-    gap = checked(frame, frame.start(x, lam)).gap * form.net_unit * form.x_unit
+    gap = checked(frame, frame.start(x, lam)).gap / form.h
     assert_relative(float(gap), expected, ROUNDING)
 
 
@@ -73,7 +67,7 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
     _, form, _ = forms_of(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
     x = np.array([3e-3, 0.0, 5e-3])
-    found = point_at(form, x)
+    found = point_at(x)
     found.x[1, 0] = -(arb(2) ** -1200)
     net = _net(form, found)
     expected = M * x / H_STEP - H_STEP * np.array([4.0, 0.0, -1.0])
@@ -84,8 +78,8 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
 def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
     step, form, frame = forms_of()
     lam = np.array([0.02, -3e-3, 0.0, -1e-3])
-    found = SimpleNamespace(lam=units(lam, form.lam_unit))
-    found.lam[2] = -(arb(2) ** -1200)
+    found = SimpleNamespace(y=[v * form.h for v in map(arb, lam.tolist())])
+    found.y[2] = -(arb(2) ** -1200)
     none = _impulses(step, frame, found, [OPEN])
     assert none.tobytes() == np.zeros(4).tobytes()
     some = _impulses(step, frame, found, [STICKS])
@@ -99,9 +93,9 @@ def test_an_answer_in_si_units_is_one_of_the_program_and_back():
     delta_q = np.array([3e-3, -2e-3, 5e-3])
     lam = np.array([0.02, -3e-3, 4e-3, 7.0])
     x, y = frame.in_form(frame.start(delta_q, lam))
-    found_x = [float(v * form.x_unit) for v in x.entries()]
+    found_x = [float(v) for v in x.entries()]
     assert_relative(found_x, delta_q, ROUNDING)
-    found_lam = [float(m * v * form.lam_unit) for m, v in zip(frame.mu, y.entries(), strict=True)]
+    found_lam = [float(m * v / form.h) for m, v in zip(frame.mu, y.entries(), strict=True)]
     assert_relative(found_lam, [*lam[:3], 0.0], ROUNDING)
 
 
@@ -113,10 +107,7 @@ def test_what_gives_way_moves_by_the_compliance_times_the_force():
     lam = np.array([0.02, -3e-3, 4e-3, 0.0])
     pair = frame.start(np.array([1e-3, 2e-3, 5e-3]), lam)
     slacks = frame.problem.slacks(*pair).entries()
-    s = [
-        float(v * ell * frame.size * form.slack_unit)
-        for v, ell in zip(slacks, frame.length, strict=True)
-    ]
+    s = [float(v * ell * frame.size) for v, ell in zip(slacks, frame.length, strict=True)]
     axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
     motion = axes @ np.array([1e-3, 2e-3, 5e-3]) + [PHI, 0.0, 0.0]
     mu = np.array([1.0, MU, MU])
@@ -130,7 +121,7 @@ def test_the_unit_of_a_block_is_its_largest_entry():
     axes = {"n": np.eye(3)[[0, 0]], "d1": np.eye(3)[[1, 1]], "d2": np.eye(3)[[2, 2]]}
     J = walls.J * np.array([1.0, 2.0])[:, None, None]
     _, _, frame = forms_of(step.replace(contacts=changed(walls, **axes, J=J)))
-    first = float(frame.balls.A[0, 0] * frame.root[0])
+    first = float(frame.form.A[0, 0] * frame.root[0])
     found = [float(ell) for ell in frame.length]
     assert_relative(found, [first] * 4 + [2 * first] * 4, ROUNDING)
 

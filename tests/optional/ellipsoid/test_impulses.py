@@ -44,7 +44,7 @@ GOOD = [[1.5, 0.3, 0.4, 0.125], [4.0, 0.25, 0.75, 0.0]]
 def test_the_contact_or_row_whose_impulse_is_outside_is_named(place, value, name):
     lam = np.array([*GOOD[0], *GOOD[1], 1.0])
     lam[4 * place[0] + place[1]] = value
-    assert outside_of_cones(step_of(), fractions(lam, ONE)) == name
+    assert outside_of_cones(step_of(), fractions(lam)) == name
 
 
 def test_a_ball_s_boundary_is_inside_and_what_is_beyond_it_is_not():
@@ -64,11 +64,11 @@ def test_only_normal_parts_are_raised_and_only_by_rounding():
     tangential = np.ones(9, dtype=bool)
     tangential[[0, 4]] = False
     assert (up[tangential] == lam[tangential]).all()
-    assert outside_of_cones(step, fractions(up, ONE)) == ""
+    assert outside_of_cones(step, fractions(up)) == ""
     for i, name in ((0, "c0"), (4, "c1")):
         lower = up.copy()
         lower[i] = up[i] * (1 - 4 * np.finfo(float).eps)
-        assert outside_of_cones(step, fractions(lower, ONE)) == name
+        assert outside_of_cones(step, fractions(lower)) == name
 
 
 def test_what_is_inside_is_left_as_it_is():

@@ -5,11 +5,11 @@ import pytest
 from scipy.optimize import nnls
 
 from quasistatic_ref import contact_forces, solve_step
-from quasistatic_ref.certify.rational import dyadic
+from quasistatic_ref.certify.form import exact_matrix
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
 from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
-from quasistatic_ref.optional.forces.faces import face, face_of_rows, nearest_face, rows_of
+from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.step.cones import cone_matrix
 from tests.closeness import assert_within
@@ -39,19 +39,13 @@ def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
     rng = np.random.default_rng(0)
     C = rows_of(cone, len(cone_matrix(cone)))
     for z in rng.integers(-3, 4, (200, 4)):
-        found = face(cone, len(C), nearest_face(cone, len(C), dyadic(z)))
-        assert min(found.integers[:-4] @ z) >= 0
-        s = (found.integers[-4:] @ z / found.denominator).astype(float)
+        rows = nearest_face(cone, len(C), exact_matrix(z[:, None].astype(float)))
+        found = face(cone, len(C), rows)
+        lengths = (found.linear * exact_matrix(z[:, None].astype(float))).entries()
+        *conditions, s_0, s_1, s_2, s_3 = lengths
+        assert all(v >= 0 for v in conditions)
+        s = np.array([float(v) for v in (s_0, s_1, s_2, s_3)]) / found.denominator
         assert_within(s, C.T @ nnls(C.T, -z)[0], ROUNDING)
-
-
-def test_rows_have_a_face_unless_they_are_dependent():
-    """The four rows of the pyramid without torsion are dependent: two sums of two are equal."""
-    for rows in ((), (0,), (0, 2)):
-        integers, denominator = face_of_rows("pyramid", 4, rows)
-        assert (integers == face("pyramid", 4, rows).integers).all()
-        assert denominator == face("pyramid", 4, rows).denominator
-    assert face_of_rows("pyramid", 4, (0, 1, 2, 3)) is None
 
 
 def wrong_guess(step, wrench):

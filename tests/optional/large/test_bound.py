@@ -5,9 +5,9 @@ from flint import fmpq
 
 from quasistatic_ref import Extra, StepNotSolved, standard_form
 from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.large.bound import error_bound, opening_direction
 from quasistatic_ref.tolerances import CLOSED_FORM
@@ -86,14 +86,13 @@ def within(step, exact, delta_q, bound, lam=None):
     """
     if bound == np.inf:
         return True
-    form = exact_form(step)
-    solution = rational_solution(form, exact.working_set)
-    best = solution.point
-    off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
+    form = StepForm(step)
+    best = fraction_solution(form, exact.working_set).point
+    off = [a - b for a, b in zip(fractions(delta_q), best, strict=True)]
     gap = fmpq(0)
     if lam is not None:
-        gap = duality_gap(form, best, fractions(np.maximum(lam, 0.0), form.lam_unit))
-    (most,) = fractions(np.array([bound]), fmpq(1))
+        gap = duality_gap(form, best, fractions(np.maximum(lam, 0.0)))
+    (most,) = fractions(np.array([bound]))
     return energy(form, off) + gap <= most * most * free_energy(form)
 
 

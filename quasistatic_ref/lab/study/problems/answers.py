@@ -8,7 +8,7 @@ from quasistatic_ref.certify.exact import group_optimum, joined_optimum
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
-from quasistatic_ref.step.groups import group_steps
+from quasistatic_ref.step.groups import groups
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -28,12 +28,12 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
         one of 150 takes 12 s.
     """
     step = program_step(*form)
-    parts = group_steps(step)
+    parts = groups(step)
     try:
-        optima = [group_optimum(step, group, part, group.within(warm)) for group, part in parts]
+        optima = [group_optimum(step, group, group.within(warm)) for group in parts]
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
-    found = joined_optimum(step, [group for group, _ in parts], optima)
+    found = joined_optimum(step, parts, optima)
     return Answer(EXACT, 0.0, found.delta_q, found.net, found.slack, found.lam, {},
                   found.walks, found.multipliers_unique, found.differentiable)  # fmt: skip

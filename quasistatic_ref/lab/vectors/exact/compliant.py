@@ -18,7 +18,6 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.lab.program.forces import compliances, compliant_program, forces_of
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, Errors
@@ -55,9 +54,7 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     form = exact_form_of(*given)
     end = dual_active_set(form, np.flatnonzero(lam).tolist())
     assert isinstance(end, Optimum)
-    found = rational_solution(form, end.minimiser.working)
-    lengths = found.x[len(program[1]) :]
-    s = np.array([form.x_unit * length / found.denominator for length in lengths])
+    s = np.array(end.minimiser.fractions.point[len(program[1]) :])
     return rounded_results(lambda: forces_of(s, [number(own) for own in c], entries))
 
 

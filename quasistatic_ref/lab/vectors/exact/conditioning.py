@@ -28,8 +28,8 @@ from typing import Any
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import ExactForm, fraction
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
 ROUNDINGS = 8
@@ -79,6 +79,7 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     Parameters
     ----------
     form : ExactForm
+        In which y is lam.
     working : sequence of int
         Independent rows that the optimum follows from.
     errors : Errors
@@ -86,17 +87,19 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     """
     n = form.n
     size = form.n + len(working)
-    H, A, g, b = (rationals(M) for M in (form.H, form.A, form.g.entries(), form.b.entries()))
-    solution = rational_solution(form, tuple(working))
+    H, A, g, c = map(rationals, (form.H, form.A, form.g, form.c))
+    g, b = g[:, 0], -c[:, 0]
+    solution = fraction_solution(form, working)
     rows = list(working)
-    x, lam = (np.abs(rationals(v)) / solution.denominator for v in (solution.x, solution.lam))
+    numbers = (solution.x, solution.multipliers)
+    x, lam = (np.abs(rationals(solution.in_fractions(v))) for v in numbers)
     K = np.block([[H, -A[rows].T], [A[rows], np.zeros((len(rows),) * 2, dtype=int)]])
     share = fmpq(ROUNDINGS * size, UNIT.denominator)
     of_H, of_g, of_A, of_b = (fmpq(e.numerator, e.denominator) for e in astuple(errors))
-    x_sum, lam_sum = (unit * sum(v) for unit, v in ((form.x_unit, x), (form.lam_unit, lam)))
+    x_sum, lam_sum = sum(x), sum(lam)
     residual = share * (np.abs(K) @ np.append(x, lam) + np.abs(np.append(g, b[rows])))
-    residual[:n] += (of_H * x_sum + of_A * lam_sum + of_g) / form.net_unit
-    shift = (of_A * x_sum + of_b) / form.slack_unit
+    residual[:n] += of_H * x_sum + of_A * lam_sum + of_g
+    shift = of_A * x_sum + of_b
     residual[n:] += shift
     away = np.abs(inverse(K)) @ residual
 
@@ -104,16 +107,16 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
         """Error of M x - v: from that of x, and from the rounding of its own sum."""
         return share * (np.abs(M) @ x + np.abs(v)) + np.abs(M) @ away[:n]
 
-    net = largest(image(H, g), form.net_unit) + largest([of_H * x_sum + of_g])
+    net = largest(image(H, g)) + largest([of_H * x_sum + of_g])
     x_floor, net_floor, slack_floor = floors(form)
     net = max(net, net_floor)
     # Multipliers that change A'lam by no more than that are as good.
-    steepest = largest(A, form.slack_unit / form.x_unit)
+    steepest = largest(A)
     return Bounds(
-        x=max(largest(away[:n], form.x_unit), x_floor),
-        lam=max(largest(away[n:], form.lam_unit), net / steepest if steepest else Fraction(0)),
+        x=max(largest(away[:n]), x_floor),
+        lam=max(largest(away[n:]), net / steepest if steepest else Fraction(0)),
         net=net,
-        slack=max(largest(image(A, b) + shift, form.slack_unit), slack_floor),
+        slack=max(largest(image(A, b) + shift), slack_floor),
     )
 
 
@@ -124,16 +127,13 @@ def floors(form: ExactForm) -> tuple[Fraction, Fraction, Fraction]:
     ----------
     form : ExactForm
     """
-    H, A, g = (rationals(M) for M in (form.H, form.A, form.g.entries()))
+    H, A, g = map(rationals, (form.H, form.A, form.g))
+    h = fraction(form.h)
     H_inverse = inverse(H)
-    energy = ROUNDINGS**2 * (g @ H_inverse @ g)
+    energy = ROUNDINGS**2 * (g[:, 0] @ H_inverse @ g[:, 0])
     slacks = np.sum((A @ H_inverse) * A, axis=1)
-    squares = (
-        (np.diag(H_inverse), form.x_unit),
-        (np.diag(H), form.net_unit),
-        (slacks, form.slack_unit),
-    )
-    x, net, slack = (UNIT * _root(largest(v * energy, unit * unit)) for v, unit in squares)
+    squares = (np.diag(H_inverse), np.diag(H) / h**2, slacks)
+    x, net, slack = (UNIT * _root(largest(v * energy)) for v in squares)
     return x, net, slack
 
 

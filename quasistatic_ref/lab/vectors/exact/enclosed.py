@@ -4,10 +4,10 @@ from fractions import Fraction
 from math import inf
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.certify.minimiser import square_root
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.gap import square_root
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
@@ -37,23 +37,21 @@ def enclosed_optimum(step: StepData) -> Expected:
     InputError
         If no displacement strictly inside of all cones is found: there is no such case.
     """
-    form = exact_form(step)
+    form = StepForm(step)
     found = checked_pair(step, GAP, BITS)
     if found is None:
         raise InputError("has no displacement strictly inside of all cones", field="second_order")
     with ctx.workprec(BITS):
-        H = arb_mat(form.H)
-        A = arb_mat(form.A)
-        inverse = H.inv()
+        inverse = form.H.inv()
         # Where no cone bears load, the gap is a ball about zero.
         radius = [square_root(2 * found.gap * inverse[v, v]).upper() for v in range(form.n)]
         x = arb_mat(form.n, 1, [found.x[v, 0] + arb(0, radius[v]) for v in range(form.n)])
         balls = {
-            "delta_q": _in_units(x, form.x_unit),
-            "A_lam": _in_units(H * x - arb_mat(form.g), form.net_unit),
-            "slack": _in_units(A * x - arb_mat(form.b), form.slack_unit),
+            "delta_q": x.entries(),
+            "A_lam": ((form.H * x - form.g) * (1 / form.h)).entries(),
+            "slack": (form.A * x + form.c).entries(),
         }
-        lam = [float(v * form.lam_unit) + 0.0 for v in found.lam]
+        lam = [float(v / form.h) + 0.0 for v in found.y]
         output = {name: [_nearest(v) for v in values] for name, values in balls.items()}
     with ctx.workprec(PROVED):  # what `verify` proves, in the precision that it works in
         again = checked_pair(step)
@@ -72,10 +70,6 @@ def enclosed_optimum(step: StepData) -> Expected:
         flags={"infeasible": False, "unique_multipliers": False},
         tolerance={name: tolerance(size, why) for name, size in reach.items()},
     )
-
-
-def _in_units(column: arb_mat, unit: fmpq) -> list[arb]:
-    return [v * unit for v in column.entries()]
 
 
 def _nearest(ball: arb) -> float:

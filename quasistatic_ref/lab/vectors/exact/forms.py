@@ -1,16 +1,15 @@
 """A quadratic program of float64 numbers without rounding."""
 
 import numpy as np
-from flint import fmpq
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.rational import ExactForm, dyadic, in_integers
+from quasistatic_ref.certify.form import MatrixForm, exact_matrix
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.pivots import exact_factor
 
 
-def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
+def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> MatrixForm:
     """H, g, A, b taken as they are given.
 
     Parameters
@@ -23,7 +22,7 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
 
     Returns
     -------
-    ExactForm
+    MatrixForm
 
     Raises
     ------
@@ -40,4 +39,5 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
         raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
     if exact_factor(H, 0.0) is None:
         raise StepDataError("must be positive definite without rounding", field="H")
-    return in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
+    column = np.asarray(g, dtype=np.float64)[:, None]
+    return MatrixForm(*map(exact_matrix, (H, column, np.column_stack([A, -b]))))

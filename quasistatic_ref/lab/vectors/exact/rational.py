@@ -5,13 +5,13 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import fmpq, fmpq_mat, fmpz_mat
+from flint import arb_mat, fmpq, fmpq_mat, fmpz_mat
 
+from quasistatic_ref.certify.form import fraction as fraction_of
 from quasistatic_ref.lab.vectors.expected import Tolerance
 
 UNIT = Fraction(1, 2**53)
 """Relative error of one rounding in float64."""
-UNITY = fmpq(1)
 
 
 def fraction(value: fmpq) -> Fraction:
@@ -20,7 +20,10 @@ def fraction(value: fmpq) -> Fraction:
 
 
 def rationals(values: Any) -> Any:
-    """An array of rational numbers, of the shape of a matrix or a list of whole ones."""
+    """An array of rational numbers, of the shape of a matrix or a list of exact ones."""
+    if isinstance(values, arb_mat):
+        shape = values.nrows(), values.ncols()
+        return rationals(map(fraction_of, values.entries())).reshape(shape)
     if isinstance(values, fmpz_mat):
         return rationals(values.entries()).reshape(values.nrows(), values.ncols())
     return np.array([fmpq(v) for v in values], dtype=object)
@@ -31,9 +34,9 @@ def inverse(M: Any) -> Any:
     return np.array(fmpq_mat(len(M), len(M), M.ravel().tolist()).inv().tolist()).reshape(M.shape)
 
 
-def largest(values: Any, unit: fmpq = UNITY) -> Fraction:
-    """The largest size in an array, in SI units; 0 of none."""
-    sizes = np.abs(unit * np.array(values, dtype=object)).ravel()
+def largest(values: Any) -> Fraction:
+    """The largest size in an array; 0 of none."""
+    sizes = np.abs(np.array(values, dtype=object)).ravel()
     return fraction(max(sizes, default=fmpq(0)))
 
 

@@ -4,10 +4,11 @@ Nothing is rounded from the mechanism to q+, as ``lab/vectors/unrounded`` has it
 differences of such steps, each proved to 15 digits by a second difference.
 """
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq
 
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.lab.vectors.exact.precision import Vector
+from quasistatic_ref.lab.vectors.exact.rational import inverse, largest, rationals
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.unrounded.derivatives import Derivatives, derivatives
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, base
@@ -92,14 +93,10 @@ def _why(largest: float, free: float) -> str:
 
 def free_sizes(one: Base) -> dict[str, float]:
     """The largest entry, roughly, of each derivative of the step without contacts, as FIELDS."""
-    form = one.step.form
     case = one.at.case
-    inverse = fmpq_mat(form.H).inv()
-    step = inverse * fmpq_mat(form.g)
-    x = float(max((abs(v) for v in step.entries()), default=fmpq(0)) * form.x_unit)
-    # lam = lam_unit y with H in other units: H^-1 in SI is x_unit / net_unit of the form's.
-    unit = form.x_unit / form.net_unit
-    flexible = float(max((abs(v) for v in inverse.entries()), default=fmpq(0)) * unit)
+    inverse_H = inverse(rationals(one.step.H.ravel()).reshape(one.step.H.shape))
+    x = float(largest(inverse_H @ one.step.g))
+    flexible = float(largest(inverse_H))
     K: Vector = [row[j] for j, row in enumerate(case["K_q"])]
     masses = [body["mass"] for body in case["mechanism"]["bodies"] if body.get("mass")]
     pairs = case["pairs"]

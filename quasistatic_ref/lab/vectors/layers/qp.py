@@ -9,13 +9,13 @@ balls.
 from collections.abc import Sequence
 
 import numpy as np
-from flint import fmpq
+from flint import ctx, fmpq
 
 from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
-from quasistatic_ref.certify.minimiser import rational_solution
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import EXACT, MatrixForm
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
@@ -99,8 +99,8 @@ def matrices(case_input: Json) -> tuple[Array, Array, Array, Array]:
     return H, g, np.array(case_input["A"], dtype=np.float64).reshape(len(b), len(g)), b
 
 
-def form_of(case_input: Json) -> ExactForm:
-    """The program of a case in integers."""
+def form_of(case_input: Json) -> MatrixForm:
+    """The program of a case without rounding."""
     return exact_form_of(*matrices(case_input))
 
 
@@ -146,18 +146,14 @@ def tolerances(bound: Bounds) -> dict[str, Tolerance]:
 
 
 def _checked_optimum(
-    case_input: Json, form: ExactForm, working: Sequence[int]
+    case_input: Json, form: MatrixForm, working: Sequence[int]
 ) -> dict[str, list[fmpq]]:
     """delta_q and A'lam of a working set, after the plain program looked at their conditions."""
-    found = rational_solution(form, tuple(working))
-    x, net, lam = (
-        [unit * v / found.denominator for v in values]
-        for unit, values in (
-            (form.x_unit, found.x),
-            (form.net_unit, found.net),
-            (form.lam_unit, found.lam),
-        )
-    )
+    found = Minimiser(form, tuple(working))
+    exact = found.fractions
+    with ctx.workprec(EXACT):
+        numbers = (exact.x, found.pull(exact), exact.multipliers)
+    x, net, lam = map(exact.in_fractions, numbers)
     every = [fmpq(0)] * form.m
     for row, value in zip(working, lam, strict=True):
         every[row] = value
@@ -190,7 +186,7 @@ def flags_of(optimum: ExactOptimum, bound: Bounds) -> dict[str, bool]:
     }
 
 
-def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
+def _infeasible(form: MatrixForm, proof: Farkas) -> Expected:
     """A combination y >= 0 of the rows with A'y = 0 and b'y > 0, its largest entry being 1."""
     largest_y = max(proof.y.values())
     why = "any y >= 0 whose A'y is that small beside |A|'y and b'y proves the same"

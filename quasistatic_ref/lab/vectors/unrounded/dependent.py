@@ -34,10 +34,11 @@ def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
         Along single coordinates and parameters. A contact that another candidate replaces
         in a step nearby is compared with nothing.
     """
-    tight = [i for i, sign in enumerate(one.step.optimum.slack_signs) if sign == 0]
+    found_at = one.step.optimum.minimiser
+    tight = sorted([*found_at.working, *found_at.spanned, *found_at.unspanned])
     if not tight:
         return False
-    A = fmpz_mat([one.step.form.row(i) for i in tight])
+    A = fmpz_mat(one.step.form.rows(tight))
     moves = _null(A)
     together = _null(A.transpose()) if moves else []
     if not together:
@@ -61,9 +62,7 @@ def _null(A: fmpz_mat) -> list[Vector]:
 
 def _blocks(one: Base, contacts: Sequence[Contact], step: Solved) -> list[Matrix]:
     """The rows of each contact."""
-    form = step.form
-    A = rationals(form.A) * (form.slack_unit / form.x_unit)
-    return [A[block] for block in blocks(one.at.case, contacts)]
+    return [step.A[block] for block in blocks(one.at.case, contacts)]
 
 
 def _rates(

@@ -65,9 +65,10 @@ def blocks(case: Json, contacts: Iterable[Contact]) -> list[range]:
 
 def _tight_contacts(one: Base) -> list[int]:
     """Numbers of the contacts that have a row without slack."""
-    signs = one.step.optimum.slack_signs
+    found = one.step.optimum.minimiser
+    tight = {*found.working, *found.spanned, *found.unspanned}
     every = enumerate(blocks(one.at.case, one.contacts))
-    return [k for k, block in every if any(signs[i] == 0 for i in block)]
+    return [k for k, block in every if tight.intersection(block)]
 
 
 def _rows(one: Base) -> list[Json]:
@@ -84,10 +85,7 @@ def _rows(one: Base) -> list[Json]:
 def weak_rows(one: Base) -> list[int]:
     """Rows without slack whose multiplier is 0 in every optimal lam."""
     minimiser = one.step.optimum.minimiser
-    signs = one.step.optimum.slack_signs
-    idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in minimiser.working]
-    spanned = minimiser.spanned(idle)
-    unspanned = [i for i in idle if i not in spanned]
+    unspanned = minimiser.unspanned
     strict = strictly_active(one.step.form, minimiser.working, unspanned)
     return [i for i in unspanned if i not in strict]
 

@@ -1,7 +1,7 @@
 """One step from the mechanism to q+ in numbers of the grid.
 
 H, g, A and b are those of the layer ``step``, but none of them is rounded to float64; the quadratic
-program is solved by the exact method in integers, from the working set of a step nearby.
+program is solved by the exact method, from the working set of a step nearby.
 """
 
 from collections.abc import Sequence
@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from math import lcm
 
 import numpy as np
-from flint import fmpq, fmpz_mat
+from flint import arb_mat, fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import MatrixForm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program import candidates
 from quasistatic_ref.lab.program.integration import integrate
@@ -54,13 +54,19 @@ class Solved:
 
     Parameters
     ----------
-    form : ExactForm
+    H, g, A : ndarray
+        Of the program [SI].
+    form : MatrixForm
+        Its cost and its rows times a number each.
     optimum : Optimum
     delta_q : vector
         On the grid [m, rad].
     """
 
-    form: ExactForm
+    H: Matrix
+    g: Vector
+    A: Matrix
+    form: MatrixForm
     optimum: Optimum
     delta_q: Vector
 
@@ -106,44 +112,31 @@ def step_solution(at: World, contacts: Sequence[Contact], warm: Sequence[int] = 
     """
     with working_precision():
         H, g = map(on_grid, objective(at.case, *at.loads))
-    form = form_of(H, g, *rows(at.case, contacts))
+    rows_of, limits = rows(at.case, contacts)
+    A = np.array(rows_of, dtype=object).reshape(len(limits), len(g))
+    form = form_of(H, g, A, np.array(limits, dtype=object))
     optimum = dual_active_set(form, warm)
     if isinstance(optimum, Farkas):
         raise InputError("the step has no solution", field="pairs")
-    return Solved(form, optimum, delta_q(form, optimum))
+    return Solved(H, g, A, form, optimum, delta_q(optimum))
 
 
-def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
+def delta_q(optimum: Optimum) -> Vector:
     """The displacement of an optimum, on the grid [m, rad]."""
-    found = optimum.minimiser.rational
-    return on_grid(form.x_unit * rationals(found.x) / found.denominator)
+    return on_grid(rationals(optimum.minimiser.fractions.point))
 
 
-def form_of(H: Matrix, g: Vector, A: Sequence[Vector], b: Sequence[Real]) -> ExactForm:
-    """The program min 1/2 x'Hx - g'x s.t. A x >= b in integers."""
-    rows = np.array(A, dtype=object).reshape(len(A), len(g))
-    limits = np.array(b, dtype=object)
-    dH = _denominator(H)
-    dA = _denominator(rows)
-    D = _denominator(np.append(g * dH, limits * dA))
-    return ExactForm(
-        H=_integers(H, dH),
-        g=_integers(g[:, None], dH * D),
-        A=_integers(rows, dA),
-        b=_integers(limits[:, None], dA * D),
-        x_unit=fmpq(1, D),
-        slack_unit=fmpq(1, dA * D),
-        lam_unit=fmpq(dA, dH * D),
-        net_unit=fmpq(1, dH * D),
-    )
+def form_of(H: Matrix, g: Vector, A: Matrix, b: Vector) -> MatrixForm:
+    """The program min 1/2 x'Hx - g'x s.t. A x >= b, its cost and its rows times a number each."""
+    cost = _integers(np.column_stack([H, g])).tolist()
+    quadratic = arb_mat([row[:-1] for row in cost])
+    linear = arb_mat([row[-1:] for row in cost])
+    return MatrixForm(quadratic, linear, arb_mat(_integers(np.column_stack([A, -b]))))
 
 
-def _denominator(values: Matrix) -> int:
-    return lcm(*(int(x.q) for x in values.ravel()))
-
-
-def _integers(A: Matrix, factor: int) -> fmpz_mat:
-    return fmpz_mat(len(A), A.shape[1], [int((x * factor).p) for x in A.ravel()])
+def _integers(A: Matrix) -> fmpz_mat:
+    factor = lcm(*(int(x.q) for x in map(fmpq, A.ravel())))
+    return fmpz_mat(len(A), A.shape[1], [int((x * factor).p) for x in map(fmpq, A.ravel())])
 
 
 def after(at: World, step: Sequence[Real]) -> Vector:

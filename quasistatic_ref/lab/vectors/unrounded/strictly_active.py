@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from quasistatic_ref.certify.degeneracy import feasible
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import ExactForm
 
 
 def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> list[int]:
@@ -26,7 +26,7 @@ def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence
     """
     if len(unspanned) <= 1:
         return []
-    moves = form.rows(unspanned)
+    moves = form.exact_rows(unspanned)
     alone = [[int(i == e) for i in unspanned] for e in unspanned]
     return [e for e, least in zip(unspanned, alone, strict=True)
             if not feasible(form, working, moves, least)]  # fmt: skip

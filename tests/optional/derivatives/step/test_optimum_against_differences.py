@@ -9,11 +9,11 @@ from math import lcm
 from types import SimpleNamespace
 
 import numpy as np
-from flint import fmpq, fmpz_mat
+from flint import arb_mat, fmpz_mat
 
 from quasistatic_ref import StepNotSolved, solve_step, standard_form
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.form import MatrixForm
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
@@ -110,12 +110,11 @@ def optimum(step):
     H, g, A, b = program(step)
     H, g = whole(H, g, step.n_v)
     A, b = whole(A, b, step.n_v)
-    end = dual_active_set(ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1)), [])
+    rows = arb_mat([[*a, -b_i] for a, b_i in zip(A.tolist(), b.entries(), strict=True)])
+    end = dual_active_set(MatrixForm(arb_mat(H), arb_mat(g), rows), [])
     if isinstance(end, Farkas):
         return None
-    solution = end.minimiser.rational
-    d = int(solution.denominator)
-    return [F(int(v), d) for v in solution.x]
+    return [F(int(v.p), int(v.q)) for v in end.minimiser.fractions.point]
 
 
 def whole(matrix, column, n):

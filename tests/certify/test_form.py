@@ -4,9 +4,11 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+from flint import arb
 
 from quasistatic_ref import Extra, StepDataError
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.form import StepForm, whole_numbers
+from quasistatic_ref.certify.form import fraction as exact
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.random_steps import any_step
@@ -18,15 +20,18 @@ def fraction(q):
 
 
 def in_si(form):
-    """H, g, A, b of a form in SI units, as fractions."""
-    x, s, net = (fraction(u) for u in (form.x_unit, form.slack_unit, form.net_unit))
-    n = range(form.n)
-    m = range(form.m)
-    H = [[int(form.H[i, j]) * net / x for j in n] for i in n]
-    g = [int(form.g[i, 0]) * net for i in n]
-    A = [[int(form.A[i, j]) * s / x for j in n] for i in m]
-    b = [int(form.b[i, 0]) * s for i in m]
-    return H, g, A, b
+    """H, g, A, b of a form, as fractions."""
+    H, g, A, c = (
+        [[fraction(exact(v)) for v in row] for row in M.tolist()]
+        for M in (form.H, form.g, form.A, form.c)
+    )
+    h = fraction(exact(form.h))
+    return (
+        [[v / h for v in row] for row in H],
+        [v / h for (v,) in g],
+        A,
+        [-v for (v,) in c],
+    )
 
 
 def with_extra(step, rng):
@@ -42,18 +47,31 @@ def test_step_is_formed_without_rounding(seed):
     step = with_extra(any_step(rng, n_a, n_u, 3 * (seed % 3), 1e9), rng)
     expected = tuple(part.tolist() for part in program(step))
     for cone in ("pyramid", "facets-4"):  # two words for one cone
-        assert in_si(exact_form(step.replace(cone=cone))) == expected
+        assert in_si(StepForm(step.replace(cone=cone))) == expected
 
 
 def test_grasp_step_has_the_size_of_the_paper():
-    form = exact_form(grasp_step(np.random.default_rng(0)))
+    form = StepForm(grasp_step(np.random.default_rng(0)))
     assert (form.m, form.n) == (80, 13)
 
 
-def test_multipliers_and_slacks_have_consistent_units():
-    """A'lam is lam_unit times the rows in SI: net = (slack / x) * lam."""
-    form = exact_form(grasp_step(np.random.default_rng(1)))
-    assert form.net_unit == form.lam_unit * form.slack_unit / form.x_unit
+def test_rows_in_integers_have_one_factor_in_common_and_equations_have_their_own():
+    form = StepForm(grasp_step(np.random.default_rng(1)))
+    A = np.array([[exact(v) for v in row] for row in form.A.tolist()])
+    some = [3, 0, 17, 79]
+    rows = np.array(form.rows(some))
+    assert len({v / w for v, w in zip(rows.ravel(), A[some].ravel(), strict=True) if w}) == 1
+    assert not any(v for v, w in zip(rows.ravel(), A[some].ravel(), strict=True) if not w)
+    for i, equation in zip(some, form.equations(some), strict=True):
+        row = [*A[i], exact(form.c[i, 0])]
+        assert len({v / w for v, w in zip(equation, row, strict=True) if w}) == 1
+
+
+def test_a_ball_with_a_radius_is_no_exact_number():
+    with pytest.raises(ValueError, match="exact"):
+        whole_numbers([arb(1) / 3])
+    with pytest.raises(ValueError, match="exact"):
+        exact(arb(0, 1e-300))
 
 
 def test_matrices_that_are_not_symmetric_or_finite_are_refused():
