@@ -4,16 +4,14 @@ from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
-from validation.programs.engines.reproduce import of_cell, red_cells
 
 MARK = {"holds": "{}", "differs": "**{}** ✗", "-": "({})"}
 
 
 def phenomena_page(records: dict[str, Any]) -> str:
-    """Engine, setting and phenomenon; what is asked; which reproduction shows which cell."""
+    """Engine, setting and phenomenon; what is asked; causes that were tried."""
     head = [f"{p['title']} [{p['unit']}]" for p in PHENOMENA.values()]
     table = [("*the answer*", "", *map(answer, PHENOMENA.values()))]
-    shown = {}
     for record in records.values():
         for setting, cells in record["settings"].items():
             words = [
@@ -23,17 +21,9 @@ def phenomena_page(records: dict[str, Any]) -> str:
                 for cell in cells
             ]
             table.append((record["version"], setting, *words))
-    for name, setting, cell in red_cells(records):
-        file = of_cell(name, setting, cell["phenomenon"])
-        what = file, records[name]["version"], PHENOMENA[cell["phenomenon"]]["title"]
-        shown.setdefault(what, []).append(setting)
     asked = [
         (p["title"], p["answer"].strip(), f"{p['tolerance']:g}", p["reason"].strip())
         for p in PHENOMENA.values()
-    ]
-    programs = [
-        (f"`{file}`", version, title, "; ".join(settings))
-        for (file, version, title), settings in sorted(shown.items())
     ]
     return "\n".join([
         "<!-- Written by python -m validation.make.engines. -->", "",
@@ -41,10 +31,6 @@ def phenomena_page(records: dict[str, Any]) -> str:
         *cells_of(range(SLIDING, len(head)), head, table), "",
         "## What is asked", "",
         *markdown_table(("phenomenon", "the answer", "tolerance", "its reason"), asked), "",
-        "## Reproductions", "",
-        "Programs in `validation/programs/reproductions/`, each of at most fifteen lines, and the "
-        "red cells whose numbers they print.", "",
-        *markdown_table(("program", "engine", "phenomenon", "settings"), programs), "",
         "## Causes, tried", "",
         "One setting of a row above is changed in what may be the cause, and its phenomenon asked "
         "again.", "",

@@ -1,7 +1,7 @@
 """The planar hand of quasistatic_simulator as a scene of ours, against runs of its own.
 
 Its shapes and masses are those of its model ``planar_hand_ball`` (MIT licence), its runs those of
-``validation/results/peer.json``, which ``python -m validation.make.peer`` makes.
+``validation/results/peer.json``, made once with Drake's wheel.
 """
 
 from typing import Any
