@@ -84,7 +84,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(abc|argparse|collections|concurrent|contextlib|enum|fractions|json)\..*"),
     (r"py:.*", r"(pathlib|subprocess|types|typing)\..*"),
     (r"py:(class|exc|obj)", r"(object|Exception|ValueError|TypeError|ImportError|RuntimeError)"),
-    (r"py:obj", r"quasistatic_ref\..*\.T"),  # any type, of a generic class
+    (r"py:obj", r"quasistatic_ref\..*\.(T|Number)"),  # any type, of a generic class
 ]
 
 # -- Figures and literature ----------------------------------------------------------------------

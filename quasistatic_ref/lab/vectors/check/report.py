@@ -271,7 +271,7 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """The last line: what was passed, or which layers are not right.
+        """What was passed, or which layers are not right, in one last line.
 
         Examples
         --------
