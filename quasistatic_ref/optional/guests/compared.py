@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -136,24 +136,25 @@ class Body:
 
 
 class Touch(NamedTuple):
-    """A contact of an engine's.
+    """A contact of an engine's: one point, or all points of two geometries.
 
     Parameters
     ----------
     name : str
-        As of the step.
     bodies : tuple of str
         Alpha's and beta's; ``"world"`` for what cannot move.
     depth : float
         [m].
     mu_v, mu_omega : float
         [-, m].
-    J : ndarray, shape (4, nv)
-        Of Eq. :eq:`eq-3`, along the engine's velocities.
-    tangents : ndarray, shape (2, 3)
-        d1 and d2 [-].
+    of_step : tuple of str
+        The step's contacts that it stands for, by their names.
+    J : ndarray, shape (k, 4, nv)
+        Of Eq. :eq:`eq-3`, along the engine's velocities, where it is closed.
+    tangents : ndarray, shape (k, 2, 3)
+        d1 and d2 there [-].
     wrench : ndarray, shape (4,)
-        The engine's own (f_d1, f_d2, f_n, tau_n) [N, N m].
+        The engine's own (f_d1, f_d2, f_n, tau_n), in the first of these frames [N, N m].
     """
 
     name: str
@@ -161,6 +162,7 @@ class Touch(NamedTuple):
     depth: float
     mu_v: float
     mu_omega: float
+    of_step: tuple[str, ...]
     J: Array
     tangents: Array
     wrench: Array
@@ -248,30 +250,30 @@ class Compared:
 
     def contacts(self) -> Iterator[Contact]:
         """All contacts that the engine has."""
-        exact = dict(zip(self.answer.step.contacts.name, self.forces, strict=True))
+        number = {name: j for j, name in enumerate(self.answer.step.contacts.name)}
         for touch in self.said.touches:
-            mine = exact.get(touch.name)
+            mine = [number[name] for name in touch.of_step if name in number]
             yield Contact(
                 touch.name, touch.bodies, touch.depth, touch.mu_v, touch.mu_omega,
-                theirs=self._bearing(touch, touch.wrench, self.said.mean),
-                exact=None if mine is None else self._bearing(touch, mine, self.exact),
+                theirs=self._bearing(touch, touch.wrench[None], self.said.mean),
+                exact=self._together(touch, mine) if mine else None,
             )  # fmt: skip
 
     def bodies(self) -> Iterator[Body]:
         """All bodies that touch and can move."""
-        touches = {touch.name: touch for touch in self.said.touches}
-        moved = {name for touch in touches.values() for name in touch.bodies}
+        of_step = {name: touch.bodies for touch in self.said.touches for name in touch.of_step}
+        moved = {name for touch in self.said.touches for name in touch.bodies}
         contacts = self.answer.step.contacts
+        rubs = np.einsum("jt,tjc->jc", self.forces[:, :2], np.array([contacts.d1, contacts.d2]))
         for mover in self.said.movers:
             if mover.name not in moved:
                 continue
             friction = np.zeros(3)
             bears = 0.0
-            for name, mu_v, wrench in zip(contacts.name, contacts.mu_v, self.forces, strict=True):
-                if name in touches and mover.name in touches[name].bodies:
-                    side = 1.0 if touches[name].bodies[1] == mover.name else -1.0
-                    friction += side * wrench[:2] @ touches[name].tangents
-                    bears += float(mu_v * wrench[2])
+            for j, name in enumerate(contacts.name):
+                if name in of_step and mover.name in of_step[name]:
+                    friction += rubs[j] if of_step[name][1] == mover.name else -rubs[j]
+                    bears += float(contacts.mu_v[j] * self.forces[j, 2])
             yield self._body(mover, friction, bears)
 
     def _body(self, mover: Mover, friction: Array, bears: float) -> Body:
@@ -306,20 +308,38 @@ class Compared:
         down = self.said.gravity / (np.linalg.norm(self.said.gravity) or 1.0)
         return Motion(float(np.linalg.norm(v)), float(np.linalg.norm(omega)), float(v @ down))
 
-    def _bearing(self, touch: Touch, wrench: Array, v: Array) -> Bearing:
-        """What a contact bears and how it moves, from (f_d1, f_d2, f_n, tau_n) and v, (nv,)."""
-        f_n = float(wrench[2])
-        moves = touch.J @ v
-        mus = (touch.mu_v, touch.mu_v, touch.mu_omega)
-        along = zip(mus, wrench[[0, 1, 3]], strict=True)
-        of_limits = [abs(f) / mu if mu else 0.0 for mu, f in along]
+    def _together(self, touch: Touch, mine: list[int]) -> Bearing:
+        """What the step's contacts of these numbers bear together: friction is their resultant."""
+        contacts = self.answer.step.contacts
+        both = np.array([contacts.d1[mine], contacts.d2[mine]])
+        rubs = np.einsum("jt,tjc->c", self.forces[mine][:, :2], both)
+        each = self._bearing(touch, self.forces[mine], self.exact)
+        return replace(each, friction=float(np.linalg.norm(rubs)))
+
+    def _bearing(self, touch: Touch, wrenches: Array, v: Array) -> Bearing:
+        """What contacts bear and how fast they move.
+
+        Parameters
+        ----------
+        touch : Touch
+        wrenches : ndarray, shape (k, 4)
+            (f_d1, f_d2, f_n, tau_n) of each [N, N m].
+        v : ndarray, shape (nv,)
+            [m/s, rad/s].
+        """
+        f_n = wrenches[:, 2]
+        mus = np.array([touch.mu_v, touch.mu_v, touch.mu_omega])
+        of_limits = np.abs(wrenches[:, [0, 1, 3]]) / np.where(mus > 0, mus, np.inf)
         pyramid = self.answer.cone == PYRAMID
-        used = sum(of_limits) if pyramid else np.linalg.norm(of_limits)
+        used = of_limits.sum(axis=1) if pyramid else np.linalg.norm(of_limits, axis=1)
+        moves = touch.J @ v
+        slips = np.einsum("ktc,kc->kt", touch.tangents, moves[:, :3])
+        normal = float(f_n.sum())
         return Bearing(
-            normal=f_n,
-            friction=float(np.hypot(*wrench[:2])),
-            torque=float(abs(wrench[3])),
-            share=float(used / f_n) if f_n > 0 else 0.0,
-            slip=float(np.linalg.norm(touch.tangents @ moves[:3])),
-            spin=float(abs(moves[3])),
+            normal=normal,
+            friction=float(np.hypot(*wrenches[:, :2].sum(axis=0))),
+            torque=float(abs(wrenches[:, 3].sum())),
+            share=float(used.sum() / normal) if normal > 0 else 0.0,
+            slip=float(np.linalg.norm(slips, axis=1).max()),
+            spin=float(np.abs(moves[:, 3]).max()),
         )

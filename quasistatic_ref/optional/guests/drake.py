@@ -7,30 +7,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.optional.guests.drake_pairs import (
+    STICTION,
+    Contact,
+    contact_words,
+    contacts,
+    drake_contacts,
+)
 from quasistatic_ref.optional.guests.mujoco import DEPTHS, Coordinates, step_from, velocity_words
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.tolerances import DEEP
 
 if TYPE_CHECKING:
     from pydrake.all import (
         Context,
         ForceElement,
-        GeometryId,
         Joint,
         MultibodyPlant,
-        QueryObject,
-        RigidBody,
-        SignedDistancePair,
     )
 
 FATES = {
@@ -59,11 +58,7 @@ FATES = {
 SPRINGS = ("RevoluteSpring", "PrismaticSpring")
 GRAVITY = "UniformGravityFieldElement"
 MARGIN = 0.1
-"""Gap up to which Drake looks for contacts, by default [m]."""
-HULLS = ("Convex", "Mesh")
-FLAT = ("Box", *HULLS)
-"""Shapes between two of which Drake's gap is exact to rounding, as with a sphere; between others
-its documentation observes errors of 3e-6 to 5e-5 m, from 2 mm apart."""
+"""Gap up to which two geometries have contacts, by default [m]."""
 
 
 def drake_step(
@@ -74,6 +69,7 @@ def drake_step(
     targets: Mapping[str, float] | None = None,
     margin: float = MARGIN,
     depth: str = "closed",
+    stiction_tolerance: float = STICTION,
 ) -> tuple[StepData, Coordinates]:
     """The step that begins in a state of a Drake plant, at rest.
 
@@ -91,10 +87,16 @@ def drake_step(
     targets : mapping of str to float, optional
         Their targets [m, rad]; by default where they are.
     margin : float
-        Gap up to which Drake looks for contacts [m]: one of each pair of geometries.
+        Gap up to which two geometries have contacts [m].
     depth : str
-        ``"closed"``: contacts and limits that are violated count as closed. ``"as is"``: one step
-        closes them.
+        ``"closed"``: contacts and limits that are violated count as closed, and with a contact the
+        corners of the same two geometries that are off by less than a thousandth of the smaller
+        one's size: Drake has one contact of them, on which they rock. ``"as is"``: one step closes
+        what is violated.
+    stiction_tolerance : float
+        Slip up to which friction is static in a continuous plant [m/s]: that of its
+        ``set_stiction_tolerance``, which Drake does not hand out. A discrete plant knows dynamic
+        friction alone.
 
     Returns
     -------
@@ -105,7 +107,9 @@ def drake_step(
     Raises
     ------
     InputError
-        If `depth` is another word.
+        If `depth` is another word, or `stiction_tolerance` is no speed.
+    ContactError
+        Naming a pair of geometries without a normal.
     ModelError
         Naming what no step can say.
 
@@ -131,6 +135,9 @@ def drake_step(
     drake = needed_package("pydrake.all", "drake", "drake_step")
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
+    if not 0 < stiction_tolerance < np.inf:
+        problem = "must be a positive speed [m/s]"
+        raise InputError(problem, field="stiction_tolerance", value=stiction_tolerance)
     check(plant)
     own = at_rest(plant, context)
     joints = {
@@ -145,7 +152,8 @@ def drake_step(
     M = plant.CalcMassMatrix(own)[np.ix_(dofs[n_a:], dofs[n_a:])]
     tau = (loads(drake, plant, context, own) - passive(drake, plant, own))[dofs]
     K_q = np.diag(K[dofs[:n_a]])
-    found = [pair for pair in pairs(drake, plant, context, own, margin) if (pair.J @ T).any()]
+    every = drake_contacts(drake, plant, context, own, margin, stiction_tolerance)
+    found = [contact for contact in every if (contact.J @ T).any()]
     closed = depth == "closed"
     extra = limits(plant, own, joints, dofs, closed)
     of_contacts = contacts(found, T, closed)
@@ -154,7 +162,7 @@ def drake_step(
     v = plant.GetVelocities(context)
     left_out = (*velocity_words(v), *words(plant, found))
     g = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
-    slides = max((pair.slides(v) for pair in found), default=0.0)
+    slides = max((contact.slides(v) for contact in found), default=0.0)
     number = slides / (g * h) if slides and g else np.inf if slides else 0.0
     return step, Coordinates(names, dofs, T, left_out, number)
 
@@ -268,161 +276,6 @@ def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, own: Conte
     return tau
 
 
-class Pair(NamedTuple):
-    """The closest points of two geometries.
-
-    Parameters
-    ----------
-    name : str
-        Those of the geometries, alpha's first; with a number where another pair has the same.
-    geometries : tuple
-        Drake's ids of them.
-    bodies : tuple
-        Drake's bodies.
-    phi : float
-        [m].
-    n : ndarray, shape (3,)
-    J : ndarray, shape (4, nv)
-        Of Eq. :eq:`eq-3`, along Drake's velocities.
-    mu_v : float
-        [-].
-    iterated : bool
-        Whether Drake iterates the closest points.
-    """
-
-    name: str
-    geometries: tuple[GeometryId, GeometryId]
-    bodies: tuple[RigidBody, RigidBody]
-    phi: float
-    n: Array
-    J: Array
-    mu_v: float
-    iterated: bool
-
-    def slides(self, v: Array) -> float:
-        """The slip rate over mu_v [m/s] of a contact that is closed, at a velocity v, (nv,)."""
-        slip = self.J[:3] @ v
-        speed = float(np.linalg.norm(slip - (self.n @ slip) * self.n))
-        if self.phi > 0 or not speed or not self.mu_v:
-            return 0.0
-        return speed / self.mu_v
-
-
-def pairs(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context, margin: float
-) -> list[Pair]:
-    """One pair of closest points of each pair of geometries that is nearer than the margin [m].
-
-    Parameters
-    ----------
-    drake : module
-    plant, context, own : object
-        Drake's.
-    margin : float
-        [m].
-
-    Raises
-    ------
-    ModelError
-        Naming a pair whose normal is not known, or saying that Drake has none of two shapes.
-    """
-    query = plant.get_geometry_query_input_port().Eval(context)
-    inspector = query.inspector()
-    world = plant.world_frame()
-    try:
-        closest = query.ComputeSignedDistancePairwiseClosestPoints(margin)
-    except RuntimeError as error:
-        said = str(error).splitlines()[0]
-        problem = f"cannot be had from Drake: {said}; take other shapes, or filter the pair"
-        raise ModelError(problem, field="signed distances") from error
-    found = []
-    for pair in sorted(closest, key=lambda pair: (pair.id_A.get_value(), pair.id_B.get_value())):
-        name = f"{inspector.GetName(pair.id_B)}/{inspector.GetName(pair.id_A)}"
-        kinds = {type(inspector.GetShape(i)).__name__ for i in (pair.id_A, pair.id_B)}
-        at = {pair.id_A: pair.p_ACa, pair.id_B: pair.p_BCb}
-        phi, n = float(pair.distance), np.asarray(pair.nhat_BA_W)
-        if "Sphere" in kinds and kinds & {*HULLS}:
-            phi, n, at = sphere_and_hull(query, pair)
-        if not np.isfinite(n).all():
-            problem = "has no normal at this distance: move the two apart"
-            raise ModelError(problem, field=f"pair {name}")
-        relative = np.zeros((6, plant.num_velocities()))
-        frictions = []
-        bodies = []
-        for id_, side in ((pair.id_A, 1.0), (pair.id_B, -1.0)):
-            body = plant.GetBodyFromFrameId(inspector.GetFrameId(id_))
-            bodies.append(body)
-            point = inspector.GetPoseInFrame(id_) @ at[id_]
-            relative += side * plant.CalcJacobianSpatialVelocity(
-                own, drake.JacobianWrtVariable.kV, body.body_frame(), point, world, world
-            )
-            of_side = inspector.GetProximityProperties(id_)
-            frictions.append(of_side.GetProperty("material", "coulomb_friction"))
-        iterated = not (kinds <= {*FLAT} or ("Sphere" in kinds and "Ellipsoid" not in kinds))
-        mu_v = drake.CalcContactFrictionFromSurfaceProperties(*frictions).static_friction()
-        J = np.vstack([relative[3:], n @ relative[:3]])
-        ids, of = (pair.id_B, pair.id_A), (bodies[1], bodies[0])
-        found.append(Pair(name, ids, of, phi, n, J, mu_v, iterated))
-    names = [pair.name for pair in found]
-    return [
-        pair._replace(name=f"{k}: {pair.name}") if names.count(pair.name) > 1 else pair
-        for k, pair in enumerate(found)
-    ]
-
-
-def sphere_and_hull(
-    query: QueryObject, pair: SignedDistancePair
-) -> tuple[float, Array, dict[GeometryId, Array]]:
-    """Gap, normal and points of a sphere and a hull, which Drake iterates to some 1e-6 m.
-
-    Parameters
-    ----------
-    query, pair : object
-        Drake's.
-
-    Returns
-    -------
-    phi : float
-        [m].
-    n : ndarray, shape (3,)
-        From B to A, world frame.
-    at : dict of object to ndarray, shape (3,)
-        The points by geometry, in its frame [m].
-    """
-    inspector = query.inspector()
-    ball, hull = pair.id_A, pair.id_B
-    if type(inspector.GetShape(hull)).__name__ == "Sphere":
-        ball, hull = hull, ball
-    mesh = inspector.GetConvexHull(hull)
-    corners = np.array([mesh.vertex(i) for i in range(mesh.num_vertices())])
-    X_B, X_H = query.GetPoseInWorld(ball), query.GetPoseInWorld(hull)
-    centre = X_H.inverse() @ X_B.translation()
-    (height,), (outward,) = convex_hull(corners).signed_distance(centre[None])
-    radius = inspector.GetShape(ball).radius()
-    of_world = X_H.rotation() @ outward
-    inward = X_B.rotation().inverse() @ -of_world
-    at = {ball: radius * inward, hull: centre - height * outward}
-    return float(height - radius), of_world if ball == pair.id_A else -of_world, at
-
-
-def contacts(found: list[Pair], T: Array, closed: bool) -> Contacts:
-    """Pairs of closest points as contacts, T (nv, n_v) [-]; no gap below zero if `closed`."""
-    n = np.array([pair.n for pair in found]).reshape(-1, 3)
-    phi = np.array([pair.phi for pair in found])
-    d1, d2 = tangents(n)
-    return Contacts(
-        name=tuple(pair.name for pair in found),
-        phi=np.maximum(phi, 0.0) if closed else phi,
-        n=n,
-        d1=d1,
-        d2=d2,
-        J=np.array([pair.J @ T for pair in found]).reshape(-1, 4, T.shape[1]),
-        mu_v=np.array([pair.mu_v for pair in found]),
-        mu_omega=np.zeros(len(found)),
-        rows=np.full(len(found), 4),
-    )
-
-
 def limits(
     plant: MultibodyPlant, own: Context, joints: Mapping[str, Joint], dofs: Array, closed: bool
 ) -> Extra:
@@ -464,14 +317,9 @@ def limits(
     return Extra(tuple(names), np.array(A).reshape(-1, len(dofs)), np.array(b))
 
 
-def words(plant: MultibodyPlant, found: list[Pair]) -> Iterator[str]:
-    """What a step leaves out, or has as Drake iterates it."""
-    for pair in found:
-        if pair.iterated:
-            error = "Drake iterates its closest points, and its gap may be off by up to 5e-5 m"
-            yield f"contact[{pair.name}]: {error}"
-        if pair.phi < -DEEP:
-            yield f"contact[{pair.name}]: its bodies penetrate by {-1e3 * pair.phi:.3g} mm"
+def words(plant: MultibodyPlant, found: list[Contact]) -> Iterator[str]:
+    """What a step leaves out."""
+    yield from contact_words(found)
     for index in plant.GetJointActuatorIndices():
         actuator = plant.get_joint_actuator(index)
         if actuator.has_controller():

@@ -12,7 +12,13 @@ import numpy as np
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.compared import WINDOW, Mover, Said, Touch
-from quasistatic_ref.optional.guests.drake import MARGIN, at_rest, drake_step, pairs
+from quasistatic_ref.optional.guests.drake import MARGIN, at_rest, drake_step
+from quasistatic_ref.optional.guests.drake_pairs import (
+    STICTION,
+    Contact,
+    drake_contacts,
+    jacobian,
+)
 from quasistatic_ref.optional.guests.findings import Words
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
 from quasistatic_ref.parts import needed_package
@@ -20,7 +26,14 @@ from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import CREEP
 
 if TYPE_CHECKING:
-    from pydrake.all import Context, Diagram, MultibodyPlant, RigidBody
+    from pydrake.all import (
+        ContactResults,
+        Context,
+        Diagram,
+        GeometryId,
+        MultibodyPlant,
+        RigidBody,
+    )
 
 CONTINUOUS = 1e-3
 """Time step of the exact answer where a plant has none [s]."""
@@ -33,6 +46,7 @@ def drake_opinion(
     targets: Mapping[str, float] | None = None,
     tolerance: float = CREEP,
     margin: float = MARGIN,
+    stiction_tolerance: float = STICTION,
 ) -> Opinion:
     """What Drake says of the contacts of a state, and what rigid bodies with that friction do.
 
@@ -47,20 +61,24 @@ def drake_opinion(
     tolerance : float
         Speed up to which a contact holds [m/s].
     margin : float
-        Gap up to which Drake looks for contacts [m].
+        Gap up to which two geometries have contacts [m].
+    stiction_tolerance : float
+        As of ``drake_step`` [m/s].
 
     Returns
     -------
     Opinion
-        It prints as tables and sentences. Gaps that are violated count as closed.
+        It prints as tables and sentences. Gaps that are violated count as closed. A contact is
+        that of two geometries: Drake's force on them, and the sum of the exact ones at the corners
+        of their faces. Drake's forces are those of a step from the state itself: those that its
+        output port keeps are of the step before, whatever has been set since.
 
     Raises
     ------
     InputError
         If `tolerance` is not positive.
     ModelError
-        As of ``drake_step``, and if there is another number of plants, a contact is a surface, or
-        Drake cannot go on.
+        As of ``drake_step``, and if there is another number of plants, or Drake cannot go on.
 
     Examples
     --------
@@ -92,21 +110,24 @@ def drake_opinion(
     (plant,) = plants
     step_of = partial(
         drake_step, plant, plant.GetMyContextFromRoot(context), stiffness=stiffness or {},
-        targets=targets, margin=margin,
+        targets=targets, margin=margin, stiction_tolerance=stiction_tolerance,
     )  # fmt: skip
     h = float(plant.time_step()) or CONTINUOUS
     step_of(h)  # refuses what no step can say
     of_plant = plant.GetMyContextFromRoot(context)
     own = at_rest(plant, of_plant)
+    copied = context.Clone()  # it must outlive the plant's context in it
+    evaluated = after_step(plant, copied)
+    contacts = drake_contacts(drake, plant, of_plant, own, margin, stiction_tolerance)
     mean, later = velocities(drake, diagram, plant, context)
     gravity = np.array(plant.gravity_field().gravity_vector())
     said = Said(
-        touches=tuple(touches(drake, plant, of_plant, own, margin)),
+        touches=tuple(touches(drake, plant, evaluated, own, contacts)),
         movers=tuple(movers(drake, plant, of_plant, own)),
         M=plant.CalcMassMatrix(own),
         gravity=gravity,
         v=plant.GetVelocities(of_plant),
-        acceleration=plant.get_generalized_acceleration_output_port().Eval(of_plant),
+        acceleration=plant.get_generalized_acceleration_output_port().Eval(evaluated),
         mean=mean,
         later=later,
     )
@@ -150,52 +171,101 @@ def velocities(
         try:
             simulator.AdvanceTo(began + WINDOW)
         except RuntimeError as error:
-            said = str(error).splitlines()[0]
-            problem = f"cannot go on: {said}; take a smaller time_step or another state"
-            raise ModelError(problem, field="context") from error
+            raise stopped(error) from error
         rate = (plant.GetPositions(now) - start) / WINDOW
         means.append(np.array(plant.MapQDotToVelocity(now, rate)))
     return means[0], means[1]
 
 
-def touches(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context, margin: float
-) -> Iterator[Touch]:
-    """Drake's contacts: pairs that are closed, or that it presses.
+def stopped(error: RuntimeError) -> ModelError:
+    """The refusal of a state from which Drake cannot go on."""
+    reason = str(error).splitlines()[0]
+    problem = f"cannot go on: {reason}; take a smaller time_step or another state"
+    return ModelError(problem, field="context")
 
-    Parameters
-    ----------
-    drake : module
-    plant, context, own : object
-        Drake's.
-    margin : float
-        [m].
+
+def after_step(plant: MultibodyPlant, root: Context) -> Context:
+    """The plant's context in a copy of the diagram's, `root`, with outputs of its own state.
+
+    The outputs of a discrete plant are sampled: they are those of the step that ends in a state.
+    One step of the copy makes those of the step that begins in it.
 
     Raises
     ------
     ModelError
-        If one is a surface, for which the step has one point.
+        If Drake cannot take that step.
     """
-    results = plant.get_contact_results_output_port().Eval(context)
-    if results.num_hydroelastic_contacts():
-        problem = "has surfaces of contact, for each of which a step has one point; take kPoint"
-        raise ModelError(problem, field="plant contact_model")
-    forces = {}
+    of_plant = plant.GetMyMutableContextFromRoot(root)
+    if plant.time_step():
+        try:
+            plant.ExecuteForcedEvents(of_plant)
+        except RuntimeError as error:
+            raise stopped(error) from error
+    return of_plant
+
+
+def forces(results: ContactResults) -> dict[tuple[GeometryId, GeometryId], tuple[Array, Array]]:
+    """The force on the second of two geometries, (3,) [N], and where it acts, (3,) [m]."""
+    found = {}
     for i in range(results.num_point_pair_contacts()):
         info = results.point_pair_contact_info(i)
         A, B = info.point_pair().id_A, info.point_pair().id_B
-        forces[B, A], forces[A, B] = -info.contact_force(), info.contact_force()  # on the second
-    for pair in pairs(drake, plant, context, own, margin):
-        force = forces.get(pair.geometries)
-        if pair.phi > 0 and force is None:
+        found[A, B] = np.asarray(info.contact_force()), np.asarray(info.contact_point())
+    for i in range(results.num_hydroelastic_contacts()):
+        of_surface = results.hydroelastic_contact_info(i)
+        surface = of_surface.contact_surface()
+        on_first = np.asarray(of_surface.F_Ac_W().translational())
+        found[surface.id_M(), surface.id_N()] = -on_first, np.asarray(surface.centroid())
+    return found
+
+
+def touches(
+    drake: ModuleType, plant: MultibodyPlant, evaluated: Context, own: Context,
+    contacts: list[Contact],
+) -> Iterator[Touch]:  # fmt: skip
+    """Pairs of geometries that are closed, or that Drake presses on each other.
+
+    Parameters
+    ----------
+    drake : module
+    plant, evaluated, own : object
+        Drake's; `evaluated` has the outputs of the state, `own` its configuration.
+    contacts : list of Contact
+    """
+    known = forces(plant.get_contact_results_output_port().Eval(evaluated))
+    for alpha, beta in dict.fromkeys(contact.geometries for contact in contacts):
+        of_pair = [contact for contact in contacts if contact.geometries == (alpha, beta)]
+        nearest = min(of_pair, key=lambda contact: contact.phi)
+        force, at = np.zeros(3), None
+        if (alpha, beta) in known:
+            force, at = known[alpha, beta]
+        elif (beta, alpha) in known:
+            opposite, at = known[beta, alpha]
+            force = -opposite
+        elif nearest.phi > 0:
             continue
-        frame = np.array(tangents(pair.n[None]))[:, 0]
-        f = np.zeros(3) if force is None else np.asarray(force)
-        alpha, beta = (called(plant, body) for body in pair.bodies)
+        closed = [contact for contact in of_pair if contact.flat] or [nearest]
+        frames = np.array(tangents(np.array([one.n for one in closed]))).transpose(1, 0, 2)
+        J = np.array([one.J for one in closed])
+        if at is not None:  # its slip is that where its force acts
+            own_J = jacobian(drake, plant, own, list(nearest.bodies), (at, at), nearest.n)
+            J = np.concatenate([own_J[None], J])
+            frames = np.concatenate(
+                [np.array(tangents(nearest.n[None])).transpose(1, 0, 2), frames]
+            )
+        first = frames[0]
+        n = np.cross(first[0], first[1])
         yield Touch(
-            pair.name, (alpha, beta), -pair.phi, pair.mu_v, 0.0, pair.J, frame,
-            np.array([*(frame @ f), pair.n @ f, 0.0]),
-        )  # fmt: skip
+            name=nearest.pair,
+            bodies=(called(plant, nearest.bodies[0]), called(plant, nearest.bodies[1])),
+            depth=max(0.0, -nearest.phi),
+            mu_v=nearest.mu_v,
+            mu_omega=0.0,
+            of_step=tuple(contact.name for contact in of_pair),
+            J=J,
+            tangents=frames,
+            wrench=np.array([*(first @ force), n @ force, 0.0]),
+        )
 
 
 def called(plant: MultibodyPlant, body: RigidBody) -> str:

@@ -105,8 +105,9 @@ def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
         depth=-touches.gap(touch),
         mu_v=float(touch.friction[0]) if touch.dim > 1 else 0.0,
         mu_omega=float(touch.friction[2]) if touch.dim > 3 else 0.0,
-        J=touches.jacobian(state, touch),
-        tangents=touch.frame[3:].reshape(2, 3),
+        of_step=(name,),
+        J=touches.jacobian(state, touch)[None],
+        tangents=touch.frame[3:].reshape(1, 2, 3),
         wrench=touches.forces(state, data)[touches.number(name)],
     )
 

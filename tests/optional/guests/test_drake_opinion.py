@@ -20,7 +20,7 @@ GRAVITY = 9.81
 SLOPE = np.radians(15)
 
 
-def block_on_floor(change=lambda drake, plant, body: None, mu=0.5, slope=0.0, free=True, feet=True):
+def block_on_floor(change=lambda drake, plant, body: None, mu=0.5, slope=0.0, free=True):
     """A block of 1 kg on four feet on a floor, or on a rail above it: diagram, plant, context."""
     drake = import_module("pydrake.all")
     builder = drake.DiagramBuilder()
@@ -31,8 +31,7 @@ def block_on_floor(change=lambda drake, plant, body: None, mu=0.5, slope=0.0, fr
     rubs = drake.CoulombFriction(mu, mu)
     for i, (x, y) in enumerate([(-0.1, -0.1), (-0.1, 0.1), (0.1, -0.1), (0.1, 0.1)]):
         at = drake.RigidTransform([x, y, -0.04])
-        shape = drake.Sphere(0.01) if feet else drake.Cylinder(0.01, 0.02)
-        plant.RegisterCollisionGeometry(body, at, shape, f"foot{i}", rubs)
+        plant.RegisterCollisionGeometry(body, at, drake.Sphere(0.01), f"foot{i}", rubs)
     here = drake.RigidTransform()
     world = plant.world_body()
     plant.RegisterCollisionGeometry(world, here, drake.HalfSpace(), "floor", rubs)
@@ -203,7 +202,6 @@ REFUSED = {
     "applied_spatial_force": ({"change": push_body}, "applied_spatial_force"),
     "LinearSpringDamper": ({"change": sprung}, "LinearSpringDamper"),
     "constraints": ({"change": hold_body}, "constraints"),
-    "shapes": ({"feet": False}, "cannot be had from Drake"),
 }
 
 
