@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.residuals import Residuals
     from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.solve.solver import NaturalAnswer
     from quasistatic_ref.step.data import Array, StepData
 
 
@@ -186,6 +187,11 @@ class StepNotSolved(QuasistaticError):
     residuals : Residuals, optional
         Residuals of the refused answer, where there was one.
 
+    Attributes
+    ----------
+    unclaimed : NaturalAnswer or None
+        The backend's last answer, which it does not call a full solution.
+
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
@@ -210,6 +216,7 @@ class StepNotSolved(QuasistaticError):
         self.step = step
         self.accuracy = accuracy
         self.residuals = residuals
+        self.unclaimed: NaturalAnswer | None = None
         super().__init__(
             f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
             "try another backend, or check the step"

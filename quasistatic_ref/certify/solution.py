@@ -38,6 +38,8 @@ class SolverStatistics(NamedTuple):
         ``"none"`` without a backend.
     proof_time : float
         Wall time of the proof, or of the bound of the error [s]; 0 where nothing is claimed.
+    unanswered : bool
+        Whether the backend was wanted, and gave no answer: it has no digits then.
     """
 
     backend: str
@@ -48,6 +50,7 @@ class SolverStatistics(NamedTuple):
     digits: float | None = None
     interface: str = "cvxpy"
     proof_time: float = 0.0
+    unanswered: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)

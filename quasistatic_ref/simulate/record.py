@@ -101,6 +101,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     for i, table in enumerate(top.sequence("findings", [])):
         finding_read(table, f"findings[{i}]")
     top.boolean("alone", True)
+    top.sequence("unanswered", [])
     top.take("scene", None)  # the account reads it
     top.close()
 

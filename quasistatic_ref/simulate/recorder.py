@@ -106,6 +106,7 @@ class Recorder(Shown):
         self.tracks: Sequence[JointTrack] = ()
         self.extra: tuple[str, ...] = ()
         self.alone = True
+        self.unanswered: list[int] = []
         self.parts: list[StepArrays] = []
         self._latest: list[StepResult] = []
         self._targets: list[Array] = []
@@ -131,6 +132,8 @@ class Recorder(Shown):
             of the step before.
         """
         self._check(result)
+        if result.solution.statistics.unanswered:
+            self.unanswered.append(self.steps)
         self.q = read_only(result.q)  # a function of (t, q) cannot change where it starts
         self._latest.append(result)
         self._targets.append(q_bar_a)
@@ -269,6 +272,8 @@ class Recorder(Shown):
             "contacts": [list(names(p)) for p in arrays["point"]] if full else [],
             "findings": [],
         } | ({} if self.alone else {"alone": False})
+        if unanswered := [step for step in self.unanswered if step < self.steps]:
+            header["unanswered"] = unanswered
         if self.simulator.law != CONVEX:
             header["law"] = self.simulator.law
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}

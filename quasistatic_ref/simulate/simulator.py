@@ -402,7 +402,7 @@ class Simulator(Settings, Shown):
     def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:
         """A step that the backend failed, by the next one that solves it, or exactly.
 
-        Its ``statistics.digits`` are 0, by which such steps are counted. A backend that was asked
+        Its ``statistics.unanswered`` counts such steps. A backend that was asked
         for by name is replaced with ``"residual"`` only: ``"full"`` needs none, and ``"off"`` is a
         question to that backend.
 
@@ -430,5 +430,5 @@ class Simulator(Settings, Shown):
                 if type(another) is not StepNotSolved:  # a proof
                     raise
                 continue
-            return replace(solution, statistics=solution.statistics._replace(digits=0.0))
+            return replace(solution, statistics=solution.statistics._replace(unanswered=True))
         raise failure

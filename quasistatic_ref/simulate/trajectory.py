@@ -401,6 +401,6 @@ def certified(trajectory: Trajectory) -> str:
     exact = kinds.count("exact")
     enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
-    failed = np.count_nonzero(trajectory["digits"] == 0) if kinds else 0
+    failed = len(trajectory.header.get("unanswered", ()))
     failures = f" (the backend failed in {failed} of them)" if failed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}{failures}"

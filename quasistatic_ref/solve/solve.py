@@ -17,7 +17,7 @@ from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import Enclosed, cone
@@ -166,11 +166,11 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     step = both.si_step
     units = both.units
     curved = cone(step.cone).curved
-    answer, statistics = _answer_and_statistics(both, solver, accuracy)
+    answer, unclaimed, statistics = _answer_and_statistics(both, solver, accuracy)
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
     si_answer = None
-    digits = statistics.digits
+    digits = None
     if answer is not None:
         si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
     optimum: Enclosed | ExactOptimum | None
@@ -183,12 +183,14 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         optimum = solver.prover.optimum(both, answer)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    if si_answer is not None:
+    to_measure = answer or unclaimed
+    if to_measure is not None:
+        own, _ = in_si(to_measure.natural_delta_q, to_measure.natural_lam, units)
         norm = solver.prover.norm(both)
         form = both.si_form
         loads = load_length(norm, single_loads(step))
         length = error_length(norm, form.H.diagonal(), form.g, delta_q, loads)
-        digits = relative_digits(norm.of_displacement(si_answer[0] - delta_q), length)
+        digits = relative_digits(norm.of_displacement(own - delta_q), length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):
@@ -213,20 +215,32 @@ def _not_enclosed(
 
 def _answer_and_statistics(
     both: StepInBothUnits, solver: Solver, accuracy: float
-) -> tuple[NaturalAnswer | None, SolverStatistics]:
-    """A backend's answer, or None, and what it said and cost."""
+) -> tuple[NaturalAnswer | None, NaturalAnswer | None, SolverStatistics]:
+    """A backend's answer, or one that it does not call a solution, and what it said and cost."""
+    unclaimed = None
+    unanswered = False
     status = "not called"
-    digits = None
-    if solver.name != NONE:
+    if not both.si_form.b.size:
+        status = FREE
+    elif solver.name != NONE:
         try:
             answer = solver.answer(both, accuracy)
         except StepNotSolved as failure:
             status = f"failed: {failure.status}"
-            digits = 0.0
+            unclaimed = failure.unclaimed
+            unanswered = unclaimed is None
         else:
-            return answer, answer.statistics
-    name = solver.name
-    return None, SolverStatistics(name, status, None, None, accuracy, digits, solver.interface)
+            return answer, None, answer.statistics
+    statistics = SolverStatistics(
+        solver.name,
+        status,
+        None,
+        None,
+        accuracy,
+        interface=solver.interface,
+        unanswered=unanswered,
+    )
+    return None, unclaimed, statistics
 
 
 def uncertified(

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import Slot, compiled
@@ -37,6 +39,10 @@ RELAXED = (1.0, 1e2, 1e4)
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
+
+
+FREE = "not called: the step has no rows"
+"""Status of a step that is H delta_q = g."""
 
 
 @dataclass(eq=False)
@@ -169,13 +175,14 @@ class BackendSolver(Solver):
     def write(self, both: StepInBothUnits) -> Mask | None:
         """Write a step into the problem, in natural units.
 
-        Gaps of contacts out of reach are written smaller than they are: numbers of very different
-        size cost solvers digits. Such rows are inactive, and their multipliers are set to zero.
+        Gaps of contacts, and ends of a user's own rows, that are out of reach are written nearer
+        than they are: numbers of very different size cost solvers digits. Such rows are inactive,
+        and their multipliers are set to zero.
 
         Returns
         -------
         ndarray of bool, shape (m,), or None
-            Whether each row is of such a contact; None if none is.
+            Which rows these are; None if none is.
         """
 
     @abstractmethod
@@ -201,8 +208,11 @@ class BackendSolver(Solver):
         Raises
         ------
         StepNotSolved
-            If none does; or, before any call, if the backend may not return from such rows.
+            If none does, with its last answer that claims less; or, before any call, if the backend
+            may not return from such rows.
         """
+        if not both.si_form.b.size:
+            return self.free(both, accuracy)
         if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.row_ratio <= ALIKE:
             status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
@@ -212,6 +222,7 @@ class BackendSolver(Solver):
             status = f"not called: {error}"
             raise StepNotSolved(self.name, status, both.si_step, accuracy) from error
         cause: Exception | None = None
+        unclaimed: NaturalAnswer | None = None
         for option_set in self.option_sets(accuracy):
             tried = option_set.accuracy
             status = "an answer that is not finite"
@@ -222,24 +233,35 @@ class BackendSolver(Solver):
                 cause = error
                 continue
             cause = None
-            if not reply.solved:
-                status = reply.status
-            elif reply.x is None or reply.lam is None:
-                status = "an answer without multipliers"
+            if reply.x is None or reply.lam is None:
+                status = "an answer without multipliers" if reply.solved else reply.status
             elif finite(reply.x) and finite(reply.lam):
                 if out_of_reach is not None:
                     # Residuals are those of the true gap.
-                    reply.lam[: out_of_reach.size][out_of_reach] = 0.0
+                    reply.lam[out_of_reach] = 0.0
                 statistics = SolverStatistics(
                     self.name,
-                    "optimal",
+                    "optimal" if reply.solved else reply.status,
                     reply.iterations,
                     reply.seconds,
                     tried,
                     interface=self.interface,
                 )
-                return NaturalAnswer(reply.x, reply.lam, statistics)
-        raise StepNotSolved(self.name, status, both.si_step, tried) from cause
+                answer = NaturalAnswer(reply.x, reply.lam, statistics)
+                if reply.solved:
+                    return answer
+                status = reply.status
+                unclaimed = answer
+        failure = StepNotSolved(self.name, status, both.si_step, tried)
+        failure.unclaimed = unclaimed
+        raise failure from cause
+
+    def free(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+        """The answer to a step without rows, H delta_q = g: no backend is asked."""
+        form = both.natural_form
+        statistics = SolverStatistics(self.name, FREE, None, None, accuracy, None, self.interface)
+        delta_q: Array = np.linalg.solve(form.H, form.g).astype(np.float64)
+        return NaturalAnswer(delta_q, np.zeros(0), statistics)
 
 
 class NoSolver(Solver):

@@ -6,7 +6,6 @@ from typing import Protocol
 
 import cvxpy as cp
 import cvxpy.settings as words
-import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, Options
@@ -14,7 +13,7 @@ from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, problem_dat
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, phi_within_reach
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 MOST_CONTACTS = 2000
@@ -64,11 +63,9 @@ class CvxpySolver(BackendSolver):
     def write(self, both: StepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         assert isinstance(both, DenseStepInBothUnits)
-        natural = both.natural_step
-        near = phi_within_reach(natural)
-        self.problem.fill(natural)
-        self.problem.parameters["phi"].save_value(near)
-        return np.repeat(near < natural.contacts.phi, natural.counts)
+        near, out_of_reach = within_reach(both.natural_step)
+        self.problem.fill(near)
+        return out_of_reach
 
     def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start.

@@ -23,15 +23,13 @@ from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.step.arrays import finite, read_only
+from quasistatic_ref.step.arrays import Mask, finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.tolerances import FAR
+from quasistatic_ref.tolerances import FAR, UNMOVED
 
-STANDSTILL = 2.0**-100
-"""Size of a step that nothing drives [(N m s)^0.5]."""
 SMALLEST = 2.0**-960
 """Least size of a step [(N m s)^0.5]: its inverse, times a coordinate's unit, is a float64."""
 VANISHING = 2.0**-800
@@ -128,6 +126,12 @@ def coordinate_units(diagonal: Array) -> Array:
     return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
 
 
+def driven(step: StepData) -> bool:
+    """Whether a load, or penetration, drives a step; if not, its optimum is zero."""
+    form = standard_form(step)
+    return bool(form.g.any() or (form.b > 0).any())
+
+
 def natural_units(step: StepData) -> Units:
     """Units in which the diagonal of H, the rows of A and the unconstrained step are about one.
 
@@ -200,8 +204,8 @@ def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) 
     length = _power_of_two(_median_length(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
     size = max(free_length, push_out)
-    if size == 0:  # no load, no penetration: the optimum is zero, and the largest gap the size
-        size = -float(b.min(initial=0.0)) / length or STANDSTILL
+    if size == 0:  # no load, no penetration: the optimum is zero
+        size = UNMOVED / float(coordinate.max(initial=0.0)) if coordinate.size else UNMOVED
     if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
     return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
@@ -258,17 +262,46 @@ def natural_step(step: StepData, units: Units) -> StepData:
     return StepData.unchecked(**(field_values(step) | of_step | parts))
 
 
-def phi_within_reach(natural: StepData) -> Array:
-    """The phi of each contact, shape (n_c,) [-]; at most :func:`reach`, as solvers need it."""
-    return np.minimum(natural.contacts.phi, reach(natural.contacts.J))
+def within_reach(natural: StepData) -> tuple[StepData, Mask]:
+    """A step in natural units whose rows are all within reach, as solvers need it.
 
-
-def reach(J: Array) -> Array:
-    """How far a contact may be before it is out of reach, shape (n_c,), in natural units [-].
+    Contacts, and rows of a user's own, that are farther are nearer in it: they bear nothing.
 
     Parameters
     ----------
-    J : ndarray, shape (n_c, 4, n_v)
+    natural : StepData
+
+    Returns
+    -------
+    StepData
+    ndarray of bool, shape (m,)
+        Which rows were out of reach.
+    """
+    contacts = natural.contacts
+    extra = natural.extra
+    phi = np.minimum(contacts.phi, reach(contacts.J))
+    b = np.maximum(extra.b, -reach(extra.A[:, None]))
+    out_of_reach = np.concatenate([np.repeat(phi < contacts.phi, natural.counts), b > extra.b])
+    if not out_of_reach.any():
+        return natural, out_of_reach
+    near = {
+        "contacts": Contacts.unchecked(**(field_values(contacts) | {"phi": read_only(phi)})),
+        "extra": Extra.unchecked(**(field_values(extra) | {"b": read_only(b)})),
+    }
+    return StepData.unchecked(**(field_values(natural) | near)), out_of_reach
+
+
+def reach(J: Array) -> Array:
+    """How far contacts or rows may be before they are out of reach, in natural units [-].
+
+    Parameters
+    ----------
+    J : ndarray, shape (n_c, rows, n_v)
+        The rows of each.
+
+    Returns
+    -------
+    ndarray, shape (n_c,)
     """
     return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
 

@@ -5,12 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepDataError, solve_step, standard_form
+from quasistatic_ref import Extra, StepDataError, standard_form
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.units import (
     SMALLEST,
-    STANDSTILL,
     DenseStepInBothUnits,
     Units,
     check_units,
@@ -18,11 +17,11 @@ from quasistatic_ref.solve.units import (
     natural_form,
     natural_step,
     natural_units,
-    phi_within_reach,
     units_from,
+    within_reach,
 )
 from quasistatic_ref.tolerances import FAR
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_relative
 from tests.helpers import (
     free_displacement,
     hessian,
@@ -119,14 +118,6 @@ def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
     assert natural_step(other, two) == natural_step(step, one)
 
 
-def test_a_step_without_force_or_gap_has_units_too(rng):
-    still = random_step(rng, rows=()).replace(
-        tau_a=np.zeros(3), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(3)
-    )
-    assert natural_units(still).size == STANDSTILL
-    assert_within(solve_step(still).delta_q, 0.0, ROUNDING)
-
-
 def with_own_rows(rows, b, load=0.0):
     """A step with H = M / h = 1, so that rows are as long as they look."""
     own = Extra(tuple(map(str, range(len(rows)))), np.array(rows), np.array(b))
@@ -142,10 +133,14 @@ def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
     assert DenseStepInBothUnits(step).row_ratio == 1.0
 
 
-def test_without_load_and_penetration_the_largest_gap_is_the_size():
-    # Rows are 64 long, so that a gap b of 1/2 and 32 takes a step of 1/128 and of 1/2.
+def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmoved():
+    """Of the softest coordinate, however far the rows are: one micrometre, to a power of two."""
     step = with_own_rows([[64, 0], [0, 64]], [-0.5, -32.0])
-    assert natural_units(step) == (pytest.approx(1), 64.0, 0.5)
+    coordinate, length, size = natural_units(step)
+    assert (coordinate.tolist(), length) == ([1.0, 1.0], 64.0)
+    assert size == 2.0**-20
+    still = step.replace(extra=Extra((), np.zeros((0, 2)), []))
+    assert natural_units(still).size == size
 
 
 def test_tiny_and_huge_steps_have_the_least_size_or_none():
@@ -165,13 +160,24 @@ def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
 
 
-def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
-    step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
+def test_contacts_and_rows_out_of_reach_are_moved_nearer_and_the_others_are_not():
+    walls = Extra(("near", "far"), np.eye(6)[[0, 2]], np.array([-1e-3, -1e-3]))
+    step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0)).replace(extra=walls)
     natural = natural_step(step, natural_units(step))
-    assert (phi_within_reach(natural) == natural.contacts.phi).all()
-    far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
-    reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
-    assert_relative(phi_within_reach(far), [reach], ROUNDING)
+    near, out_of_reach = within_reach(natural)
+    assert near is natural
+    assert not out_of_reach.any()
+    extra = natural.extra
+    far = natural.replace(
+        contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])),
+        extra=Extra(extra.names, extra.A, np.array([extra.b[0], -1e9])),
+    )
+    near, out_of_reach = within_reach(far)
+    J = natural.contacts.J[0]
+    assert_relative(near.contacts.phi, [FAR * max(1.0, np.linalg.norm(J))], ROUNDING)
+    own = FAR * max(1.0, np.linalg.norm(extra.A[1]))
+    assert_relative(near.extra.b, [extra.b[0], -own], ROUNDING)
+    assert out_of_reach.tolist() == [*[True] * natural.counts[0], False, True]
 
 
 @every_step

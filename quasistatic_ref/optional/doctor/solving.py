@@ -25,15 +25,17 @@ def backend_failures(run: Run) -> Iterator[Said]:
     root of twice the gap.
     """
     simulator = run.simulator
-    digits = run["digits"]  # NaN where the backend was not asked, or the optimum is not known
+    digits = run["digits"]  # NaN without an answer, or where the optimum is not known
+    unanswered = np.zeros(run.steps, dtype=bool)
+    unanswered[run.trajectory.header.get("unanswered", [])] = True
     asked = -log10(simulator.accuracy) / 2
     if not cone(simulator.cone).polyhedral:
         asked = 0.0  # an enclosure may be no nearer than the answer
-    failed = int((digits == 0).sum())
-    short = int(((digits > 0) & (digits < asked)).sum())
+    failed = int(unanswered.sum())
+    short = int((digits < asked).sum())
     if simulator.backend == NONE or not failed + short:
         return
-    missed = (digits == 0) | (digits < asked)
+    missed = unanswered | (digits < asked)
     first = int(np.flatnonzero(missed)[0])
     exact = (run["certificate"][missed] == "exact").all()
     other = "the exact method" if exact else "another backend or the exact method"

@@ -27,7 +27,7 @@ from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, Own
 from quasistatic_ref.solve.solve import EXTENDED_STEP, solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
-from quasistatic_ref.solve.units import STANDSTILL, Units, in_si, natural_step, natural_units
+from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData, no_rows
 from quasistatic_ref.step.extension import Extension, Symbols, none
@@ -182,7 +182,7 @@ def extended_solution(
     """
     check_takes_cones(name, "an extension with nonlinear constraints or costs")
     units = natural_units(step)
-    if units.size <= STANDSTILL:  # nothing but the extension drives the step
+    if not driven(step):  # nothing but the extension drives it
         units = units._replace(size=1.0)
     natural = natural_step(step, units)
     problem = CvxpyProblem(natural, *_own_terms(extension, step, units))

@@ -73,7 +73,7 @@ class NativeSolver(BackendSolver):
         return alike or super().fits(step)
 
     def write(self, both: StepInBothUnits) -> Mask | None:
-        """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
+        """Write the program in natural units; tell which rows, (m,), are out of reach."""
         self.write_program(both)
         program = self.program
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
@@ -117,9 +117,9 @@ class NativeSolver(BackendSolver):
 
 
 def reach_of_rows(step: StepData, units: Units) -> Array:
-    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
+    """How far each row may be in natural units before it is out of reach, shape (m,)."""
     of_contacts = reach(step.contacts.J * (units.coordinate / units.length))
-    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
+    own = reach((step.extra.A * (units.coordinate / units.length))[:, None])
     return np.concatenate([np.repeat(of_contacts, step.counts), own])
 
 

@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Callable
-from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -11,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.solve.backends import AVAILABLE, QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import QPSOLVERS_SOLVER, BackendSolver, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, phi_within_reach
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -38,11 +37,9 @@ class QpsolversSolver(BackendSolver):
     def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         assert isinstance(both, DenseStepInBothUnits)
-        natural = both.natural_step
-        contacts = natural.contacts
-        near = replace(contacts, phi=phi_within_reach(natural))
-        self.form = standard_form(natural.replace(contacts=near))
-        return np.repeat(near.phi < contacts.phi, natural.counts)
+        near, out_of_reach = within_reach(both.natural_step)
+        self.form = standard_form(near)
+        return out_of_reach
 
     def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""

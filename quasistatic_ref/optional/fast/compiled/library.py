@@ -40,7 +40,7 @@ CONSTANTS = {
         name: getattr(tolerances, name)
         for name in (
             "FILLED", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE", "OVER_FACE", "REPEATED",
-            "SAME_NORMAL", "SKEW", "TIED_FACES", "UNSEEN", "UPRIGHT",
+            "SAME_NORMAL", "SKEW", "TIED_FACES", "UNMOVED", "UNSEEN", "UPRIGHT",
         )
     },
     "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,

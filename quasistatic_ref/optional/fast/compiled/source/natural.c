@@ -97,7 +97,7 @@ static double length_unit(const Natural *s)
 /* Of the longer of the unconstrained step and the push out of penetration; 0 where that is open. */
 static double size_unit(const Natural *s, double length)
 {
-    double energy = 0.0, off = 0.0, least = 0.0, most = 0.0, load = 0.0;
+    double energy = 0.0, off = 0.0, most = 0.0, load = 0.0;
     for (int64_t i = 0; i < s->n; i++) {
         double sum = 0.0, size = 0.0;
         for (int64_t j = 0; j < s->n; j++) {
@@ -112,7 +112,6 @@ static double size_unit(const Natural *s, double length)
     for (int64_t r = 0; r < s->m; r++) {
         if (!(fabs(s->b[r]) < LARGEST))
             return 0.0;
-        least = s->b[r] < least ? s->b[r] : least;
         most = s->b[r] > most ? s->b[r] : most;
     }
     off *= OFF;
@@ -122,8 +121,12 @@ static double size_unit(const Natural *s, double length)
         return 0.0;
     low = push_out > low ? push_out : low;
     high = push_out > high ? push_out : high;
-    if (off == 0.0 && high == 0.0)
-        low = high = least < 0.0 ? -least / length : 0x1p-100; /* STANDSTILL */
+    if (off == 0.0 && high == 0.0) {
+        double softest = 0.0;
+        for (int64_t i = 0; i < s->n; i++)
+            softest = s->coordinate[i] > softest ? s->coordinate[i] : softest;
+        low = high = UNMOVED / softest;
+    }
     return power_of_two(low, high);
 }
 
