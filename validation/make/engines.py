@@ -1,44 +1,102 @@
-"""Engines that we did not write, judged: ``python -m validation.make.engines [NAME ...]``.
+"""Engines side by side: ``python -m validation.make.engines [NAME ...]``.
 
-For each engine of engines.toml, or those named: makes an environment with its pinned versions in a
-temporary folder (``--environments`` keeps them in a folder of yours, and takes what is there), asks
-its adapter for the phenomena, and writes ``NAME.json`` in the folder ``--out``
-(validation/results/engines unless it is said). At the end the page, phenomena.md, is written again
-from all results that are there: with ``--tables`` only that. ``--resume`` keeps settings that have
-results.
-
-Settings that are named as causes of a red cell are changed, and the cell is measured again
-(``tried``).
+Makes one environment of Python 3.11 with the pinned engines and this project (in a temporary
+folder; ``--environment`` keeps it in a folder of yours, and takes what is there), asks each engine,
+or those named, in a process of its own, and writes ``NAME.json``, the page phenomena.md and the
+picture. ``--tables`` only writes page and picture, from the committed results. An engine that is
+missing, or ends in the middle, is named in a sentence; the others are asked, and the exit status
+is 2.
 """
 
 import json
+import subprocess
+import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from quasistatic_ref.formats.files import text_written
-from validation.programs.engines.judge import ENGINES, RECORDED, RESULTS, write_answers
-from validation.programs.engines.tables import phenomena_page
-from validation.tools.scripts import script_options
+from validation.programs.engines.table import page, picture
+from validation.tools.scripts import RESULTS, ROOT, environment, record_written, script_options
+
+ENGINES = ("quasistatic", "bullet", "dart", "drake", "mujoco")
+"""Modules of validation/programs/engines, the slowest first."""
+COMMITTED = ("newton", "pinocchio")
+"""Engines whose results were measured once; their adapters are gone."""
+REQUIREMENTS = ROOT / "validation" / "programs" / "engines" / "requirements.txt"
+PYTHON = (3, 11)
+"""The only one for which pybullet has wheels and that this project runs on."""
+TIMEOUT = 900.0
+"""For one engine [s]."""
+
+
+def answers(name: str, python: Path | str) -> dict[str, Any]:
+    """What an engine answered.
+
+    Raises
+    ------
+    RuntimeError
+        If it is missing or ended before its last answer; the sentence says which.
+    """
+    command = [str(python), "-m", "validation.programs.engines.ask", name]
+    print(f"{name}: asked", file=sys.stderr, flush=True)
+    try:
+        process = subprocess.run(
+            command, cwd=ROOT, text=True, capture_output=True, timeout=TIMEOUT, check=False
+        )
+    except subprocess.TimeoutExpired:
+        raise RuntimeError(f"{name}: no answer within {TIMEOUT:g} s") from None
+    lines = [json.loads(line) for line in process.stdout.splitlines()]
+    if not lines or process.returncode:
+        missing = lines[0].get("missing") if lines else None
+        end = f"is not installed ({missing})" if missing else f"ended with {process.returncode}"
+        raise RuntimeError(f"{name}: {end}")
+    head, *cells = lines
+    return {**head, "cells": cells}
+
+
+def asked(names: tuple[str, ...], python: Path | str, results: Path) -> int:
+    """Ask engines, two at a time, and write what they answered; how many did not."""
+    failures = 0
+    with ThreadPoolExecutor(2) as pool:
+        replies = {name: pool.submit(answers, name, python) for name in names}
+        for name, reply in replies.items():
+            try:
+                record_written(results / f"{name}.json", reply.result())
+            except RuntimeError as error:
+                failures += 1
+                print(error, file=sys.stderr)
+    return failures
+
+
+def records(results: Path) -> dict[str, dict[str, Any]]:
+    """Results that are there, by engine."""
+    return {
+        name: json.loads(path.read_text("utf-8"))
+        for name in (*ENGINES, *COMMITTED)
+        if (path := results / f"{name}.json").exists()
+    }
 
 
 def main() -> int:
-    """Judge, and write the page."""
-    given = script_options(
-        __doc__, ENGINES, out=RESULTS, environments=Path, tables=False, resume=False
+    """Ask, and write page and picture."""
+    options = script_options(
+        __doc__, ENGINES, out=RESULTS / "engines", environment=Path, tables=False
     )
-    results = given.out
-    results.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = (given.environments or Path(temporary)).absolute()
-        for name in () if given.tables else given.names or ENGINES:
-            write_answers(name, folder, results, given.resume)
-    records = {
-        name: json.loads(path.read_text("utf-8"))
-        for name in (*ENGINES, *RECORDED)
-        if (path := results / f"{name}.json").exists()
-    }
-    text_written(results / "phenomena.md", phenomena_page(records))
-    return 0
+    if not options.tables and sys.version_info[:2] != PYTHON:
+        print("engines: needs Python 3.11, for which pybullet has wheels", file=sys.stderr)
+        return 2
+    options.out.mkdir(parents=True, exist_ok=True)
+    failures = 0
+    if not options.tables:
+        with tempfile.TemporaryDirectory() as temporary:
+            home = (options.environment or Path(temporary) / "engines").absolute()
+            python = environment(home, "-r", str(REQUIREMENTS), "-e", str(ROOT))
+            failures = asked(tuple(options.names or ENGINES), python, options.out)
+    text_written(options.out / "phenomena.md", page(records(options.out)))
+    picture(records(options.out)).savefig(options.out / "phenomena.png", dpi=150)
+    return 2 if failures else 0
 
 
 if __name__ == "__main__":

@@ -1,219 +1,248 @@
-"""Phenomena that test any engine by its own simulation, and what its answers are worth.
+"""Phenomena with closed forms: scene, formula, tolerance and its reason, and how it is measured."""
 
-``phenomena.toml`` has scenes, loads and what is expected, as plain data. An engine is a function of
-a scene that returns poses; :func:`cells` asks it everything. To ask your own, write such a
-function, or a program that reads and writes lines, and run::
-
-    python -m validation.programs.engines.phenomena --command "./my_engine" --h 0.001
-
-The program gets ``{"id", "layer": "phenomena", "input": {"scene", "setting": {"h"}}}`` a line and
-answers ``{"id", "output": {"poses": {body: [[x, y, z, qx, qy, qz, qw], ...]}}}``, a pose at each of
-the scene's ``times``; docs/engines.md says the rest.
-"""
-
-import argparse
-import tomllib
-from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-Simulate = Callable[[dict[str, Any]], dict[str, Any]]
-DATA = tomllib.loads((Path(__file__).parent / "phenomena.toml").read_text("utf-8"))
-PHENOMENA = {p["name"]: p for p in DATA["phenomenon"]}
+from validation.programs.engines.scenes import (
+    GRAVITY,
+    TIME_STEP,
+    Body,
+    Load,
+    Motion,
+    Scene,
+    Shape,
+    times,
+)
+
+MU_V = 0.5
+MU_OMEGA = 0.01
+WEIGHT = 0.3 * GRAVITY
+"""Of the sled and of the ball [N]."""
+START = 0.5
+"""When loads begin, on a body that has settled [s]."""
+EVERY = 0.02
+"""Between the times at which poses are read [s]."""
 
 
 @dataclass(frozen=True)
-class Cell:
-    """What an engine answered to one phenomenon.
+class Phenomenon:
+    """A question whose answer is known.
 
     Parameters
     ----------
-    phenomenon : str
-    value : float or None
-        Measured, in the phenomenon's unit; None where nothing was.
-    holds : bool
-        Whether that is the answer.
-    words : str
-        How it is printed.
+    title, unit : str
+    scenes : tuple of Scene
+    measure : callable
+        Motions of the scenes -> the value.
+    answer : float
+    formula : str
+        Where the answer comes from.
+    tolerance : float
+        Absolute; infinite where no closed form exists, and nothing is judged.
+    reason : str
+        Of the tolerance.
+    torsion : bool
+        Whether an engine needs a coefficient of torsional friction.
     """
 
-    phenomenon: str
-    value: float | None
-    holds: bool
-    words: str
+    title: str
+    unit: str
+    scenes: tuple[Scene, ...]
+    measure: Callable[[list[Motion]], float]
+    answer: float
+    formula: str
+    tolerance: float
+    reason: str
+    torsion: bool = False
+
+    def holds(self, value: float) -> bool:
+        """Whether a value is the answer."""
+        return abs(value - self.answer) <= self.tolerance
+
+    def with_friction(self, scale: float) -> "Phenomenon":
+        """The same question to an engine whose coefficients are wrong by a factor."""
+        wrong = [
+            replace(scene, mu_v=scale * scene.mu_v, mu_omega=scale * scene.mu_omega)
+            for scene in self.scenes
+        ]
+        return replace(self, scenes=tuple(wrong))
 
 
-def scenes(phenomenon: dict[str, Any]) -> Iterator[tuple[float, dict[str, Any]]]:
-    """The scenes of a phenomenon, whole, each with its x: a slope, a share of the limit, a grip."""
-    grid = phenomenon["times"]
-    count = round((grid["last"] - grid["first"]) / grid["every"])
-    times = [round(grid["first"] + k * grid["every"], 9) for k in range(count + 1)]
-    for run in phenomenon["runs"]:
-        scene = DATA["scene"][phenomenon["scene"]]
-        yield run["x"], {**scene, "times": times, "loads": run["loads"]}
+# -- Scenes --------------------------------------------------------------------------------------
+
+FEET = tuple(Shape("sphere", (0.01,), (x, y, -0.01)) for y in (-0.1, 0.1) for x in (-0.1, 0.1))
+SLED = Body("sled", "free", 0.3, (1e-3, 1e-3, 2e-3), (0.0, 0.0, 0.02), FEET)
+BALL = Body("ball", "free", 0.3, (3e-4,) * 3, (0.0, 0.0, 0.05), (Shape("sphere", (0.05,)),))
+HALF = 0.1
+"""Half of the length and width of the box on four corners [m]."""
+CENTRE = (0.03, 0.02)
+"""Its centre of mass, from its middle [m]."""
+BOX = Body(
+    "box", "free", 1.0, (4e-3, 4e-3, 7e-3), (0.0, 0.0, 0.05),
+    (Shape("box", (2 * HALF, 2 * HALF, 0.1), (-CENTRE[0], -CENTRE[1], 0.0)),),
+)  # fmt: skip
 
 
-def cells(simulate: Simulate, h: float, names: Collection[str] = ()) -> Iterator[Cell]:
-    """Every phenomenon, or those named, of an engine that takes steps of h [s]."""
-    for name in names or PHENOMENA:
-        phenomenon = PHENOMENA[name]
-        xs = []
-        runs = []
-        try:
-            for x, scene in scenes(phenomenon):
-                body = scene["bodies"][0]["name"]
-                xs.append(x)
-                runs.append(motion(scene["times"], simulate(scene)["poses"][body]))
-            value = MEASURES[phenomenon["measure"]](np.array(xs), runs, {**phenomenon, "h": h})
-        except (KeyError, ValueError, TypeError, RuntimeError) as trouble:
-            yield Cell(name, None, False, f"no answer ({trouble})")
-            continue
-        yield verdict(phenomenon, value)
+def on_slope(tangent: float, heading: float = 0.0) -> Scene:
+    """The sled, under gravity that turns by atan(tangent) towards a heading [rad]."""
+    angle = np.arctan(tangent)
+    across = WEIGHT * np.sin(angle)
+    lift = WEIGHT * (1 - np.cos(angle))
+    force = (across * np.cos(heading), across * np.sin(heading), lift)
+    load = Load("sled", START, tuple(map(float, force)))
+    return Scene((SLED,), MU_V, MU_OMEGA, times(START, 1.0, EVERY), (load,))
 
 
-def verdict(phenomenon: dict[str, Any], value: float) -> Cell:
-    """A cell of what was measured."""
-    expected = np.atleast_1d(phenomenon["expected"])
-    scale = expected if "cones" in phenomenon else np.ones_like(expected)
-    holds = np.abs(value - expected) <= phenomenon["tolerance"] * scale
-    words = f"{value:.3g}" if abs(value) < 1000 else f"{value:,.0f}"
-    if "cones" in phenomenon:
-        words = (
-            f"{value:.2f}" if np.isfinite(value) else f"none up to {phenomenon['runs'][-1]['x']:g}"
-        )
-        words += "".join(f" ({c})" for c, h in zip(phenomenon["cones"], holds, strict=True) if h)
-    return Cell(phenomenon["name"], float(value), bool(holds.any()), words)
+def twisted(share: float) -> Scene:
+    """The ball, under a share of the torque that torsional friction bears."""
+    load = Load("ball", START, torque=(0.0, 0.0, share * MU_OMEGA * WEIGHT))
+    return Scene((BALL,), MU_V, MU_OMEGA, times(START, 1.0, EVERY), (load,))
 
 
-@dataclass(frozen=True)
-class Motion:
-    """Of one body at k times [s]: its places [m], turns from one to the next, and about x [rad]."""
-
-    times: np.ndarray
-    places: np.ndarray
-    turns: np.ndarray
-    about_x: np.ndarray
-
-    @property
-    def half(self) -> int:
-        """Number of the sample from which on it is looked at: the middle one."""
-        return len(self.times) // 2
+def held(offset: float, grip: float, finger: Shape) -> Scene:
+    """A bar between two fingers at a distance from its centre of mass [m]; its weight is a load."""
+    bar = Body("bar", "free", 0.2, (1e-4,) * 3, (0.0, 0.0, 0.0), (Shape("box", (0.06, 0.2, 0.04)),))
+    left = Body("left", "fixed", 0.1, (1e-4,) * 3, (-0.05, offset, 0.0), (finger,))
+    right = Body("right", "rail_x", 0.1, (1e-4,) * 3, (0.05, offset, 0.0), (finger,))
+    squeeze = Load("right", 0.0, (-grip, 0.0, 0.0))
+    weight = Load("bar", START, (0.0, 0.0, -0.2 * GRAVITY))
+    bodies = (bar, left, right)
+    loads = (squeeze, weight)
+    return Scene(bodies, 0.6, 0.005, times(START, START + 10.0, 0.1), loads, 0.0, floor=False)
 
 
-def motion(times: list[float], poses: list[list[float]]) -> Motion:
-    """A motion of poses; each turn is below half a revolution."""
-    table = np.array(poses, dtype=float)
-    if table.shape != (len(times), 7) or not np.isfinite(table).all():
-        raise ValueError("poses are no numbers, or not seven at each time")
-    q = table[:, 3:] / np.linalg.norm(table[:, 3:], axis=1, keepdims=True)
-    w = q[:, 3]
-    v = q[:, :3]
-    # Of conj(q_k) q_k+1: the vector part stays exact where the turn is small.
-    vector = w[:-1, None] * v[1:] - w[1:, None] * v[:-1] - np.cross(v[:-1], v[1:])
-    scalar = np.abs((q[:-1] * q[1:]).sum(1))
-    turns = 2 * np.arctan2(np.linalg.norm(vector, axis=1), scalar)
-    return Motion(np.array(times), table[:, :3], turns, 2 * np.arctan2(q[:, 0], w))
+DROP = replace(BALL, xyz=(0.0, 0.0, 0.051))
+"""The ball, one millimetre above the floor."""
+OFFSET = 0.03
+SLIP_GRIP = 0.2 * GRAVITY / (2 * 0.6)
+"""The least grip at which the bar does not slip, without a torque [N]."""
+TURN_GRIP = 0.2 * GRAVITY * OFFSET / (2 * 0.005)
+"""The least grip at which it does not turn, if friction bore no force [N]."""
 
 
-def drift(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
+# -- Measures ------------------------------------------------------------------------------------
+
+
+def drift(motions: list[Motion]) -> float:
     """Mean speed of the centre of mass over the second half [um/s]."""
-    (run,) = runs
-    way = np.linalg.norm(run.places[-1] - run.places[run.half])
-    return float(1e6 * way / (run.times[-1] - run.times[run.half]))
+    (motion,) = motions
+    return 1e6 * motion.distance / motion.seconds
 
 
-def spin(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
+def creep(motions: list[Motion]) -> float:
+    """The same, in a minute [um]."""
+    return 60 * drift(motions)
+
+
+def spin(motions: list[Motion]) -> float:
     """Mean rate of turning over the second half [rad/s]."""
-    (run,) = runs
-    return float(run.turns[run.half :].sum() / (run.times[-1] - run.times[run.half]))
+    (motion,) = motions
+    return float(motion.turns[motion.middle :].sum() / motion.seconds)
 
 
-def limit(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
-    """Where the turn of the second half, a line over x, is zero [unit of x]."""
-    r = [run.turns[run.half :].sum() for run in runs]
-    return float((xs[0] * r[1] - xs[1] * r[0]) / (r[1] - r[0]))
+def turned(motions: list[Motion]) -> float:
+    """Turned from the first time to the last [mrad]."""
+    (motion,) = motions
+    return float(1e3 * motion.turns.sum())
 
 
-def angle(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
-    """Slope at which ways, which are as sin a - mu cos a, are zero: atan mu [deg]."""
-    r = [np.linalg.norm(run.places[-1] - run.places[run.half]) for run in runs]
-    s = np.sin(np.arctan(xs))
-    c = np.cos(np.arctan(xs))
-    return float(np.degrees(np.arctan2(r[1] * s[0] - r[0] * s[1], r[1] * c[0] - r[0] * c[1])))
+def torque_limit(motions: list[Motion]) -> float:
+    """Share at which the turn of the second half, a line over the torque, is zero [-]."""
+    low, high = (motion.turns[motion.middle :].sum() for motion in motions)
+    return float((TWISTS[0] * high - TWISTS[1] * low) / (high - low))
 
 
-def rise(xs: np.ndarray, runs: list[Motion], phenomenon: Any) -> float:
+def slope_limit(motions: list[Motion]) -> float:
+    """Slope at which distances, which are as sin a - mu cos a, are zero: atan mu [deg]."""
+    low, high = (motion.distance for motion in motions)
+    sine, cosine = np.sin(np.arctan(SLOPES)), np.cos(np.arctan(SLOPES))
+    return float(np.degrees(np.arctan2(
+        high * sine[0] - low * sine[1], high * cosine[0] - low * cosine[1]
+    )))  # fmt: skip
+
+
+def rise(motions: list[Motion]) -> float:
     """Largest height above that of the start, over the slip of a last step [-]."""
-    (run,) = runs
-    seconds = run.times[-1] - run.times[-2]
-    slip = np.linalg.norm((run.places[-1] - run.places[-2])[:2]) / seconds * phenomenon["h"]
-    rest = DATA["scene"][phenomenon["scene"]]["bodies"][0]["xyz"][2]
-    return float(max(0.0, run.places[:, 2].max() - rest) / slip)
+    (motion,) = motions
+    speed = np.linalg.norm((motion.places[-1] - motion.places[-2])[:2]) / EVERY
+    return float(max(0.0, motion.places[:, 2].max() - SLED.xyz[2]) / (speed * TIME_STEP))
 
 
-def rebound(xs: np.ndarray, runs: list[Motion], phenomenon: Any) -> float:
-    """Largest height of the gap after the floor was first reached [um]."""
-    (run,) = runs
-    gap = run.places[:, 2] - 0.05
-    reached = np.flatnonzero(gap <= 1e-7)
-    return float(1e6 * max(0.0, gap[reached[0] :].max())) if len(reached) else np.inf
+def uneven(motions: list[Motion]) -> float:
+    """Largest difference of a corner's force to that of equal springs, over the weight [%]."""
+    (motion,) = motions
+    weight = BOX.mass * GRAVITY
+    middle = motion.places[-1, :2] - CENTRE
+    contacts = motion.engine.normal_forces()
+    worst = 0.0
+    for corner in np.array([(x, y) for x in (-1, 1) for y in (-1, 1)]):
+        force = sum(N for point, N in contacts if (np.sign(point[:2] - middle) == corner).all())
+        springs = weight / 4 * (1 + corner @ CENTRE / HALF)
+        worst = max(worst, abs(force - springs) / weight)
+    return 100 * worst
 
 
-def grip(xs: np.ndarray, runs: list[Motion], phenomenon: Any) -> float:
-    """Between the largest grip at which the bar turns about the fingers and the next one [N]."""
-    turns = np.array([abs(run.about_x[-1] - run.about_x[0]) for run in runs]) > phenomenon["held"]
-    if turns[-1]:
-        return np.inf
-    last = int(np.flatnonzero(turns)[-1]) if turns.any() else -1
-    return float((xs[last] + xs[last + 1]) / 2) if last >= 0 else float(xs[0])
+SLOPES = (0.75, 1.0)
+TWISTS = (1.5, 2.0)
+RESTING = Scene((BOX,), MU_V, MU_OMEGA, times(0.0, 1.0, 0.5))
+FALLING = Scene((DROP,), MU_V, MU_OMEGA, times(0.0, 1.0, EVERY))
+MICROMETRE = "A millimetre in 17 minutes; rounding leaves less, even in float32."
 
-
-MEASURES = {
-    "drift": drift, "spin": spin, "limit": limit, "angle": angle,
-    "rise": rise, "rebound": rebound, "grip": grip,
+PHENOMENA = {
+    "sticks_on_slope": Phenomenon(
+        "sticks on a slope", "um/s", (on_slope(0.45),), drift, 0.0,
+        "Zero: the slope's tangent is 0.45, and mu_v = 0.5.", 1.0, MICROMETRE,
+    ),
+    "incline_angle": Phenomenon(
+        "begins to slide at", "deg", tuple(map(on_slope, SLOPES)), slope_limit,
+        float(np.degrees(np.arctan(MU_V))),
+        "atan(mu_v), from the distances at the tangents 0.75 and 1, as sin a - mu_v cos a.",
+        0.27, "One per cent.",
+    ),
+    "incline_diagonal": Phenomenon(
+        "the same, along the diagonal", "deg",
+        tuple(on_slope(tangent, np.pi / 4) for tangent in SLOPES), slope_limit,
+        float(np.degrees(np.arctan(MU_V))),
+        "atan(mu_v) again. A pyramid with edges along x and y has atan(mu_v / sqrt 2), 19.47.",
+        0.27, "One per cent.",
+    ),
+    "no_lift_off": Phenomenon(
+        "rises while it slides", "of the slip of a step", (on_slope(1.0),), rise, 0.0,
+        "Zero: a sliding body stays on the floor. The slope's tangent is 1.", 0.01,
+        "A relaxation of Coulomb's law that couples slip and gap has mu_v = 0.5.",
+    ),
+    "sticks_in_torsion": Phenomenon(
+        "sticks in torsion", "rad/s", (twisted(0.99),), spin, 0.0,
+        "Zero: the torque about the normal is 0.99 mu_omega m g.", 1e-4, "A turn in 17 hours.",
+        torsion=True,
+    ),
+    "torsional_limit": Phenomenon(
+        "begins to spin at", "mu_omega m g", tuple(map(twisted, TWISTS)), torque_limit, 1.0,
+        "One, from the turns at 1.5 and 2 mu_omega m g, which are as the torque less its limit.",
+        0.02, "Two per cent: the contact settles within some steps.", torsion=True,
+    ),
+    "bar_turns": Phenomenon(
+        "a bar held off its centre turns in 10 s", "mrad",
+        (held(OFFSET, 1.2 * (SLIP_GRIP + TURN_GRIP), Shape("sphere", (0.02,))),), turned, 0.0,
+        "Zero: the grip is 1.2 (m g / (2 mu_v) + m g d / (2 mu_omega)), the most that any of the "
+        "cones of this project needs (R21 to R23).", 1.0, "A millimetre at the far end of 1 m.",
+        torsion=True,
+    ),
+    "box_creeps": Phenomenon(
+        "a box between two pads creeps in a minute", "um",
+        (held(0.0, 1.5 * SLIP_GRIP, Shape("box", (0.04,) * 3)),), creep, 0.0,
+        "Zero: the grip is 1.5 times the least, m g / (2 mu_v).", 60.0, MICROMETRE,
+    ),
+    "comes_to_rest": Phenomenon(
+        "comes to rest after a fall of 1 mm", "um/s", (FALLING,), drift, 0.0,
+        "Zero, from half a second to a second after the start.", 1.0, MICROMETRE,
+    ),
+    "four_corners": Phenomenon(
+        "a box on four corners, from equal springs", "% of m g", (RESTING,), uneven, 0.0,
+        "Four normal forces of a rigid box have no closed form. Equal springs would bear "
+        "m g / 4 (1 + x c_x / a^2 + y c_y / a^2), at corners (x, y) = (+-a, +-a).",
+        float("inf"), "Shown, and not judged.",
+    ),
 }  # fmt: skip
-
-
-def engine_answer(program: Any, scene: dict[str, Any], setting: dict[str, Any]) -> dict[str, Any]:
-    """What a program answers to a scene.
-
-    Raises
-    ------
-    ValueError
-        If that is no output.
-    """
-    reply = program.ask("scene", "phenomena", {"scene": scene, "setting": setting})
-    if reply.kind != "output":
-        raise ValueError(reply.said or reply.kind)
-    return dict(reply.output)
-
-
-def main() -> int:
-    """Ask a program, and print what it answered; exit status 1 if a cell differs."""
-    from quasistatic_ref.lab.vectors.challenge.program import Program
-
-    parser = argparse.ArgumentParser(description="Phenomena, sent to a program.")
-    parser.add_argument("--command", required=True)
-    parser.add_argument("--h", type=float, default=0.001, help="its time step [s]")
-    parser.add_argument("--timeout", type=float, default=600.0, help="for one scene [s]")
-    given = parser.parse_args()
-    differs = 0
-    with Program(given.command, given.timeout) as program:
-
-        def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-            return engine_answer(program, scene, {"h": given.h})
-
-        for cell in cells(simulate, given.h):
-            differs += not cell.holds
-            of = PHENOMENA[cell.phenomenon]
-            print(
-                f"{'holds  ' if cell.holds else 'differs'} {of['title']}: {cell.words} {of['unit']}"
-            )
-    return int(differs > 0)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -1,0 +1,100 @@
+"""quasistatic_ref itself, by its plain simulator. A pair has its own coefficients."""
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+import quasistatic_ref
+from quasistatic_ref import ContactPair, PlacedShape, Simulator, contact_forces
+from quasistatic_ref.lab.scenes.systems import (
+    body_text,
+    joint_text,
+    link_text,
+    robot_text,
+    system_of,
+    world_plane,
+)
+from validation.programs.engines.scenes import TIME_STEP, Body, NotMeaningful, Scene, Shape
+
+NAME = f"quasistatic_ref {quasistatic_ref.__version__}"
+NO_TORSION = ""
+SETTINGS: dict[str, dict[str, Any]] = {
+    "pyramid": {"cone": "pyramid", "certify": "off"},
+    "ellipsoid": {"cone": "ellipsoid", "certify": "off"},
+}
+CORNERS = 4
+"""Contacts of a pair of faces."""
+
+
+def urdf(body: Body) -> tuple[str, dict[str, Any]]:
+    """URDF of a body, and how it is placed."""
+    if body.joint == "free":
+        return body_text(body.mass, body.inertia), {"xyz": body.xyz}
+    kind = {"fixed": "fixed", "rail_x": "prismatic"}[body.joint]
+    links = link_text("base", 1.0, (1, 1, 1)), link_text("body", body.mass, body.inertia)
+    text = robot_text(*links, joint_text("joint", kind, "base", "body"))
+    return text, {"base": "fixed", "xyz": body.xyz}
+
+
+def solid(shape: Shape) -> Any:
+    """A shape of this project."""
+    if shape.kind == "sphere":
+        return quasistatic_ref.Sphere(shape.size[0])
+    return quasistatic_ref.Box(size=shape.size)
+
+
+class Engine:
+    """A scene as a simulator and its configuration."""
+
+    def __init__(self, scene: Scene, setting: dict[str, Any]) -> None:
+        self.joints = {body.name: body.joint for body in scene.bodies}
+        made = {body.name: urdf(body) for body in scene.bodies}
+        texts = {name: text for name, (text, _) in made.items()}
+        self.system = system_of(texts, **{name: place for name, (_, place) in made.items()})
+        first, *others = map(self.placed, scene.bodies)
+        against = [[world_plane()]] if scene.floor else others
+        pairs = [
+            ContactPair(f"{a.name}, {b.name}", a, b, scene.mu_v, scene.mu_omega, 6, CORNERS)
+            for shapes in against
+            for a in shapes
+            for b in first
+        ]
+        gravity = (0.0, 0.0, -scene.gravity)
+        self.simulator = Simulator(
+            self.system, pairs, h=TIME_STEP, K_q=np.zeros((0, 0)), gravity=gravity, **setting
+        )
+        self.q = self.system.q_start
+
+    def link(self, name: str) -> str:
+        """The link of a body that moves."""
+        return name if self.joints[name] == "free" else f"{name}/body"
+
+    def placed(self, body: Body) -> list[PlacedShape]:
+        """Shapes of a body."""
+        link = self.system.link(self.link(body.name))
+        return [
+            PlacedShape(f"{body.name} {k}", link, np.eye(3), np.array(shape.xyz), solid(shape))
+            for k, shape in enumerate(body.shapes)
+        ]
+
+    def step(self, wrenches: dict[str, np.ndarray]) -> None:
+        load = np.zeros(self.system.n_v)
+        for name, (force, torque) in wrenches.items():
+            if self.joints[name] == "free":
+                load += self.system.load(self.q, name, force, torque)
+            elif self.joints[name] == "rail_x":
+                load[self.system.joint(f"{name}/joint").v] += force[0]
+        self.result = self.simulator.step(self.q, np.zeros(0), load)
+        self.q = self.result.q
+
+    def pose(self, name: str) -> list[float]:
+        links = self.system.kinematics(self.q)
+        k = self.system.link(self.link(name))
+        return [*links.t[k], *Rotation.from_matrix(links.R[k]).as_quat()]
+
+    def normal_forces(self) -> list[tuple[np.ndarray, float]]:
+        if self.simulator.cone != "pyramid":
+            raise NotMeaningful("forces of single contacts are asked of the pyramid alone")
+        forces = contact_forces(self.result.step).wrench[:, 2]
+        return list(zip(self.result.points.beta, forces.tolist(), strict=True))
