@@ -20,6 +20,7 @@ from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.between import POSED
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import EXTENDED, Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
@@ -210,7 +211,8 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 
     @cache  # its terms are formed once: further variables of its own are in both
     def terms(problem: CvxpyProblem) -> list[cp.Constraint | cp.Expression]:
-        return list(extension.terms(_symbols(problem, step, units, len(extension.rises))))
+        symbols = _symbols(problem, step, units, len(extension.rises))
+        return checked_terms(extension, symbols)
 
     def constraints(problem: CvxpyProblem) -> list[cp.Constraint]:
         return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
