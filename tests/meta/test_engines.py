@@ -13,16 +13,7 @@ from validation.programs.engines.phenomena import BALL, PHENOMENA
 from validation.programs.engines.scenes import Scene, Shape, simulated, times
 from validation.programs.engines.table import CROSSES, crosses, page, reason
 
-PACKAGES = {"bullet": "pybullet", "dart": "dartpy", "drake": "pydrake", "mujoco": "mujoco"}
 COMMITTED = records(RESULTS / "engines")
-
-
-def engine_module(name):
-    if name in PACKAGES:
-        pytest.importorskip(
-            PACKAGES[name], reason="needs validation/programs/engines/requirements.txt"
-        )
-    return import_module(f"validation.programs.engines.{name}")
 
 
 def test_the_page_is_that_of_the_results():
@@ -37,11 +28,12 @@ def test_every_cross_has_a_sentence_and_every_sentence_a_cross():
     assert said == written
 
 
+@pytest.mark.extra("compared")
 @pytest.mark.parametrize("name", ENGINES)
 @pytest.mark.parametrize("phenomenon", ["incline_angle", "torsional_limit"])
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_wrong_friction_turns_a_cell(name, phenomenon):
-    engine = engine_module(name)
+    engine = import_module(f"validation.programs.engines.{name}")
     setting = next(iter(engine.SETTINGS.values()))
     question = PHENOMENA[phenomenon]
     if question.torsion and engine.NO_TORSION:

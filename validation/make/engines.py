@@ -24,7 +24,6 @@ ENGINES = ("quasistatic", "bullet", "dart", "drake", "mujoco")
 """Modules of validation/programs/engines, the slowest first."""
 COMMITTED = ("newton", "pinocchio")
 """Engines whose results were measured once; their adapters are gone."""
-REQUIREMENTS = ROOT / "validation" / "programs" / "engines" / "requirements.txt"
 PYTHON = (3, 11)
 """The only one for which pybullet has wheels and that this project runs on."""
 TIMEOUT = 900.0
@@ -92,7 +91,7 @@ def main() -> int:
     if not options.tables:
         with tempfile.TemporaryDirectory() as temporary:
             home = (options.environment or Path(temporary) / "engines").absolute()
-            python = environment(home, "-r", str(REQUIREMENTS), "-e", str(ROOT))
+            python = environment(home, "-e", f"{ROOT}[compared]")
             failures = asked(tuple(options.names or ENGINES), python, options.out)
     text_written(options.out / "phenomena.md", page(records(options.out)))
     picture(records(options.out)).savefig(options.out / "phenomena.png", dpi=150)
