@@ -31,7 +31,8 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR, UNMOVED
 
 SMALLEST = 2.0**-960
-"""Least size of a step [(N m s)^0.5]: its inverse, times a coordinate's unit, is a float64."""
+"""Least size of a step, over the largest of 1 and of the units of its coordinates: what is divided
+by the size, times such a unit, is a float64."""
 VANISHING = 2.0**-800
 """Sum of squares of loads, y'y [N m s], above which no square underflows that matters."""
 
@@ -204,11 +205,12 @@ def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) 
     length = _power_of_two(_median_length(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
     size = max(free_length, push_out)
+    softest = float(coordinate.max(initial=0.0))
     if size == 0:  # no load, no penetration: the optimum is zero
-        size = UNMOVED / float(coordinate.max(initial=0.0)) if coordinate.size else UNMOVED
+        size = UNMOVED / softest if coordinate.size else UNMOVED
     if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
-    return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
+    return Units(coordinate, length, _power_of_two(max(size, SMALLEST * max(1.0, softest))))
 
 
 def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:

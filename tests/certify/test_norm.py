@@ -61,11 +61,12 @@ def waiting_pusher():
 
 
 def arm_at_rest():
-    """Springs that bear a load: K_q delta_q_bar_a + tau_a is rounding."""
+    """Springs that bear a load, far from a limit: K_q delta_q_bar_a + tau_a is rounding."""
     K_q = np.diag([100.0, 50.0])
     tau = np.array([-3.1, -0.7])
     rests = actuated_step(K_q, tau, np.linalg.solve(K_q, -tau), no_contacts(2), 0.01)
-    return rests.replace(tau_a=tau * (1 + 2e-16))
+    limit = Extra(("limit",), [[1.0, 0.0]], [-1.0])
+    return rests.replace(tau_a=tau * (1 + 2e-16), extra=limit)
 
 
 def pushed_out():

@@ -38,6 +38,7 @@ def checked_terms(extension: Extension, symbols: Symbols) -> list[cp.Constraint 
     if isinstance(terms, cp.Constraint | cp.Expression) or not isinstance(terms, Iterable):
         problem = "must return a list of constraints and costs: [...]"
         raise InputError(problem, field="extension", value=type(terms).__name__)
+    known = {p.id for slack in symbols.slack for p in slack.parameters()}  # of the step itself
     kept = []
     for k, term in enumerate(terms):
         field = f"extension, term {k}"
@@ -48,7 +49,7 @@ def checked_terms(extension: Extension, symbols: Symbols) -> list[cp.Constraint 
         if not isinstance(term, cp.Constraint | cp.Expression):
             problem = "is no constraint and no cost of CVXPY's"
             raise InputError(problem, field=field, value=type(term).__name__)
-        _check_numbers(term, field)
+        _check_numbers(term, field, known)
         if isinstance(term, cp.Expression) and term.size != 1:
             problem = "is a cost of several numbers; add them up, as by cp.sum"
             raise InputError(problem, field=field, value=list(term.shape))
@@ -58,14 +59,15 @@ def checked_terms(extension: Extension, symbols: Symbols) -> list[cp.Constraint 
     return kept
 
 
-def _check_numbers(term: cp.Constraint | cp.Expression, field: str) -> None:
-    """Refuse a Parameter without a value, and numbers that are none."""
-    for parameter in term.parameters():
+def _check_numbers(term: cp.Constraint | cp.Expression, field: str, known: set[int]) -> None:
+    """Refuse a Parameter of the user's without a value, and numbers that are none."""
+    parameters = [p for p in term.parameters() if p.id not in known]
+    for parameter in parameters:
         if parameter.value is None:
             problem = "holds a Parameter without a value; set its value"
             raise InputError(problem, field=field, value=parameter.name())
     endless = not isinstance(term, ORDERS)
-    for constant in [*term.constants(), *term.parameters()]:
+    for constant in [*term.constants(), *parameters]:
         value = constant.value
         numbers = np.asarray(value.data if hasattr(value, "tocsc") else value, dtype=np.float64)
         if np.isnan(numbers).any() or (endless and np.isinf(numbers).any()):
@@ -77,13 +79,14 @@ def _bounding(order: cp.Constraint, field: str) -> cp.Constraint | None:
     """An inequality without the rows whose limit is infinite: they bind nothing; None of none."""
     expression = order.expr if isinstance(order, cp.constraints.Inequality) else order.args[0]
     constants = [np.asarray(c.value) for c in [*expression.constants(), *expression.parameters()]
-                 if not hasattr(c.value, "tocsc")]  # fmt: skip
+                 if c.value is not None and not hasattr(c.value, "tocsc")]  # fmt: skip
     if not any(np.isinf(c).any() for c in constants):
         return order
     upper = -1.0 if isinstance(order, cp.constraints.NonNeg) else 1.0
-    for variable in expression.variables():
-        if variable.value is None:
-            variable.value = np.zeros(variable.shape)
+    # Which numbers they are does not matter: where a limit is infinite, so is the value.
+    for symbol in [*expression.variables(), *expression.parameters()]:
+        if symbol.value is None:
+            symbol.value = np.zeros(symbol.shape)
     with np.errstate(invalid="ignore"):
         value = upper * np.asarray(expression.value, dtype=np.float64)
     if np.isnan(value).any() or (value == np.inf).any():

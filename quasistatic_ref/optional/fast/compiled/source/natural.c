@@ -121,12 +121,13 @@ static double size_unit(const Natural *s, double length)
         return 0.0;
     low = push_out > low ? push_out : low;
     high = push_out > high ? push_out : high;
-    if (off == 0.0 && high == 0.0) {
-        double softest = 0.0;
-        for (int64_t i = 0; i < s->n; i++)
-            softest = s->coordinate[i] > softest ? s->coordinate[i] : softest;
+    double softest = 0.0;
+    for (int64_t i = 0; i < s->n; i++)
+        softest = s->coordinate[i] > softest ? s->coordinate[i] : softest;
+    if (off == 0.0 && high == 0.0)
         low = high = UNMOVED / softest;
-    }
+    if (!(low > 0x1p-960 * softest && low > 0x1p-960)) /* next to SMALLEST of units.py */
+        return 0.0;
     return power_of_two(low, high);
 }
 
