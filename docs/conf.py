@@ -21,7 +21,7 @@ import quasistatic_ref  # noqa: E402 the path has to be there first
 from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
-from quasistatic_ref.lab.study.file.fields import TABLES as STUDY  # noqa: E402 the path has to be there first
+from quasistatic_ref.lab.study.fields import TABLES as STUDY  # noqa: E402 the path has to be there first
 from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 from validation.tools.lectures import LECTURES, lesson, notebook  # noqa: E402 the path has to be there first
 

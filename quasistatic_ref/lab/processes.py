@@ -4,7 +4,6 @@ On other systems there is no `/proc`: memory is not known, and only the process'
 """
 
 import contextlib
-import ctypes
 import os
 import signal
 import time
@@ -17,16 +16,6 @@ TOKEN = "QUASISTATIC_REF_SUPERVISED"
 STARTING = 1.0
 """How long processes are waited for whose environment is still empty [s]."""
 PAGE = os.sysconf("SC_PAGE_SIZE")
-_SUBREAPER = 36
-"""PR_SET_CHILD_SUBREAPER: children whose parents have ended become children of this process."""
-
-
-def adopt_orphans() -> None:
-    """Become the parent of whatever this process's children leave behind; die first of memory."""
-    if PROC.exists():
-        with contextlib.suppress(OSError, AttributeError):
-            ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
-            Path("/proc/self/oom_score_adj").write_text("1000")
 
 
 def descendants(pid: int) -> list[int]:
@@ -66,38 +55,6 @@ def end(pids: list[int]) -> None:
 def resident(pid: int) -> int:
     """Resident memory of a process and of its descendants [bytes]; 0 where it is not known."""
     return sum(_resident(one) for one in (pid, *descendants(pid)))
-
-
-def reset_peak(pid: int) -> None:
-    """Begin a new peak of resident memory."""
-    with contextlib.suppress(OSError):
-        (PROC / str(pid) / "clear_refs").write_text("5")
-
-
-def peak(pid: int) -> int | None:
-    """Most resident memory of a process since its peak was reset [bytes]; None if not known."""
-    with contextlib.suppress(OSError, ValueError):
-        for line in (PROC / str(pid) / "status").read_text().splitlines():
-            if line.startswith("VmHWM:"):
-                return 1024 * int(line.split()[1])
-    return None
-
-
-def computed_and_waited(pid: int) -> tuple[float, float]:
-    """Seconds on a core of a process, and those that it and this thread waited for one [s].
-
-    Both are 0 where they are not known.
-    """
-    computed, waited = _schedstat(PROC / str(pid))
-    return computed, waited + _schedstat(PROC / "thread-self")[1]
-
-
-def _schedstat(folder: Path) -> tuple[float, float]:
-    try:
-        computed, waited, _ = map(int, (folder / "schedstat").read_text().split())
-    except (OSError, ValueError):
-        return 0.0, 0.0
-    return 1e-9 * computed, 1e-9 * waited
 
 
 def _children(pid: int) -> Iterator[int]:

@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref.cli.main import COMMANDS, command_parser, main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
-from quasistatic_ref.lab.study.file.study_file import study_names
+from quasistatic_ref.lab.study.study_file import study_names
 from quasistatic_ref.solve.backends import backend_names
 from quasistatic_ref.step.cones import CONES, cone
 

@@ -136,7 +136,7 @@ def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
 @pytest.mark.parametrize(
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "pack"]]
+    + [["study", "report"], ["study", "run"]]
     + [["vectors", name] for name in ("check", "challenge")],
     ids=" ".join,
 )

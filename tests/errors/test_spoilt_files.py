@@ -20,7 +20,7 @@ from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.resources import models_folder
-from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.study_file import solver_study
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.model.readers.clouds import point_cloud
@@ -42,8 +42,8 @@ OTHERS = (
 POINTS = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
 PLY = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
 STUDY = (
-    'format = "quasistatic-ref/study"\nversion = 1\nkind = "solvers"\n'
-    '[problems]\nseed = 3\nscenarios = ["sphere_spin"]\nfamilies = { scenarios = 2 }\n'
+    'format = "quasistatic-ref/study"\nversion = 2\n'
+    '[problems]\nscenarios = ["sphere_spin"]\nfamilies = { scenarios = 2 }\n'
     '[[runs]]\nsolvers = ["cvxpy:osqp"]\n'
 )
 

@@ -11,7 +11,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.cli import main, solution_files
 from quasistatic_ref.cli.main import _actions as leaves
 from quasistatic_ref.cli.main import command_parser
-from quasistatic_ref.lab.study.file import fields
+from quasistatic_ref.lab.study import fields
 from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.optional.runs import saved_files
 from quasistatic_ref.scenario import scenario_table

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from quasistatic_ref.lab.json_schema import json_schema
-from quasistatic_ref.lab.study.file.fields import study_schema
+from quasistatic_ref.lab.study.fields import study_schema
 from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.scenario_table import (
     CONTACT,

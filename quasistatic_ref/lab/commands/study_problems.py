@@ -53,10 +53,10 @@ def _list(options: argparse.Namespace) -> int:
         shared.print_json(head)
         return 0
     rows: list[tuple[str, ...]] = [("family", "problems", "dial", "from", "to", "unit")]
-    for name, own in head["families"].items():
-        dial = own["dial"] or {"name": "", "first": "", "most": "", "unit": ""}
+    for name, family in head["families"].items():
+        dial = family["dial"] or {"name": "", "first": "", "most": "", "unit": ""}
         ends = (str(dial["first"]), str(dial["most"]))
-        rows.append((name, str(own["count"]), dial["name"], *ends, dial["unit"]))
+        rows.append((name, str(family["count"]), dial["name"], *ends, dial["unit"]))
     shared.print_rows(rows)
     print(f"{head['name']}: {head['count']} problems")
     return 0
@@ -69,15 +69,15 @@ def _export(options: argparse.Namespace) -> int:
     shared.check_at_least_one(options, "every")
     folder = problem_set_folder(options.set)
     families = options.families.split(",") if options.families else None
-    found = set_read(folder, families, [options.id] if options.id else None)
-    found = [one for one in found if options.tag is None or options.tag in one.facts["tags"]]
-    found = found[:: options.every]
+    chosen = set_read(folder, families, [options.id] if options.id else None)
+    chosen = [one for one in chosen if options.tag is None or options.tag in one.facts["tags"]]
+    chosen = chosen[:: options.every]
     natural = options.units == NATURAL
-    problems = [one.natural for one in found] if natural else found
+    problems = [one.natural for one in chosen] if natural else chosen
     name = manifest(folder)["name"] + ("-natural" if natural else "")
     paths = exported_files(name, problems, options.to, options.out)
     print(f"wrote {len(paths)} files to {options.out}, README.md among them")
-    if left := sum(not has_place(one, options.to) for one in found):
+    if left := sum(not has_place(one, options.to) for one in chosen):
         words = "the format has no place for their cones, sparse matrices or missing solutions"
         print(f"quasistatic-ref: left out {left} problems: {words}", file=sys.stderr)
     return 0
@@ -101,11 +101,11 @@ def _check(options: argparse.Namespace) -> int:
                 bar.update()
     kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in problems)
     if options.json:
-        found = {"problems": len(problems), "answers": kinds, "refuted": wrong}
-        shared.print_json(found)
+        report = {"problems": len(problems), "answers": kinds, "refuted": wrong}
+        shared.print_json(report)
         return int(bool(wrong))
-    said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
-    print(f"{len(problems)} problems, as the manifest lists them: {said}")
+    counted = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    print(f"{len(problems)} problems, as the manifest lists them: {counted}")
     if options.exact:
         print(f"{len(problems) - len(wrong)} answers proved again, {len(wrong)} refuted")
     for name, why in wrong.items():

@@ -32,9 +32,3 @@ def pens(names: Sequence[str]) -> dict[str, dict[str, Any]]:
         }
         for k, name in enumerate(names)
     }
-
-
-def short(names: Sequence[str]) -> dict[str, str]:
-    """Labels as a figure shows them: without their interface, where all have the same."""
-    same = len({name.partition(":")[0] for name in names}) == 1
-    return {name: name.partition(":")[2] if same and ":" in name else name for name in names}

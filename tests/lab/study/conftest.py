@@ -1,38 +1,81 @@
-"""Studies small enough for a test: a few scaled problems, and solvers planted on purpose."""
+"""Studies small enough for a test, and functions that are broken on purpose."""
 
-import os
 from pathlib import Path
 
 import pytest
 
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
-from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.file.study_file import Limits, solver_study
-from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import measured_row
-from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.report.report import study_report
-from quasistatic_ref.lab.study.store.store import contents
-from tests.lab.study import made_store
-from tests.lab.study.plain_report import tables_of
-from tests.lab.study.planted import ANY, FAKES, setting
+from quasistatic_ref.lab.study.run import run_study
+from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.study_file import solver_study
 
+SOLVERS = '''
+import os, subprocess, sys, time
+import numpy as np
 
-@pytest.fixture
-def study(tmp_path):
-    """A function that writes a study file beside the planted solvers, and reads it."""
-    (tmp_path / "planted_solvers.py").write_text(FAKES)
+def honest(P, q, G, h):
+    """An active-set method; digits to the last."""
+    import quadprog
 
-    def written(text, **changes):
-        path = tmp_path / "study.toml"
-        path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + text)
-        return solver_study(path, toml_read(path), **changes)
+    x, _, _, _, z, _ = quadprog.solve_qp(P, -q, -G.T.copy(), -h)
+    return x, z, "optimal"
 
-    return written
+def warm(P, q, G, h, start=None):
+    x, z, status = honest(P, q, G, h)
+    return x, z, status if start is None or abs(start[0] - x).max() > 0 else "again"
 
+def zeros(P, q, G, h):
+    return np.zeros(len(q)), np.zeros(len(h)), "optimal"
 
+def too_long(P, q, G, h):
+    return np.zeros(len(q) + 1), np.zeros(len(h)), "optimal"
+
+def no_numbers(P, q, G, h):
+    return ["a"] * len(q), np.zeros(len(h)), "optimal"
+
+def pair(P, q, G, h):
+    return np.zeros(len(q)), np.zeros(len(h))
+
+def nan(P, q, G, h):
+    return np.full(len(q), np.nan), np.zeros(len(h)), "optimal"
+
+def gives_up(P, q, G, h):
+    return None, None, "too many sweeps"
+
+def denies(P, q, G, h):
+    return None, None, "infeasible"
+
+def raises(P, q, G, h):
+    raise RuntimeError("no licence\\nat all")
+
+def exits(P, q, G, h):
+    os._exit(7)
+
+def sleeps(P, q, G, h):
+    """So does a program that it starts, whose id it writes down."""
+    child = subprocess.Popen(["sleep", "600"])
+    with open(os.path.join(os.path.dirname(__file__), "child"), "w") as file:
+        file.write(str(child.pid))
+    time.sleep(600)
+
+def eats(P, q, G, h):
+    held = []
+    while True:
+        held.append(np.ones(10**6))
+        time.sleep(1e-3)
+
+def spoils(P, q, G, h):
+    os.write(1, b"noise")
+    answer = honest(P, q, G, h)
+    P[:], q[:], G[:], h[:] = 0, 0, 0, 0
+    return answer
+
+def fails_once(P, q, G, h, calls=[]):
+    calls.append(1)
+    return honest(P, q, G, h) if len(calls) != 3 else os._exit(7)
+'''
 SMALL = """
 time_limit = 20.0
 repetitions = 2
@@ -40,8 +83,7 @@ repetitions = 2
 set = "contact-qp"
 families = { contacts = { count = 2, most = 12 }, mass_ratio = 3 }
 [solvers.mine]
-callable = "planted_solvers:liar"
-options.default = {}
+function = "solvers.py:honest"
 [[runs]]
 solvers = ["qpsolvers:daqp", "mine"]
 settings = ["default", "high"]
@@ -49,32 +91,22 @@ units = ["raw", "natural"]
 """
 
 
-@pytest.fixture(scope="session")
-def small():
-    """The text of a small study: one problem of ten is run again, a callable has one setting."""
-    return SMALL
+@pytest.fixture
+def study(tmp_path):
+    """A function that writes a study file beside the functions, and reads it."""
+    (tmp_path / "solvers.py").write_text(SOLVERS)
 
+    def written(text, **changes):
+        path = tmp_path / "study.toml"
+        path.write_text('format = "quasistatic-ref/study"\nversion = 2\n' + text)
+        return solver_study(path, toml_read(path), **changes)
 
-@pytest.fixture(scope="session")
-def whole(tmp_path_factory):
-    """The folder of the small study, run once without interruption; tests leave it as it is."""
-    folder = tmp_path_factory.mktemp("whole")
-    path = folder / "study.toml"
-    (folder / "planted_solvers.py").write_text(FAKES)
-    path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + SMALL)
-    run_study(solver_study(path, toml_read(path)), folder / "store", progress=False)
-    return folder / "store"
-
-
-@pytest.fixture(scope="session")
-def committed():
-    """What the committed study of solvers holds."""
-    return contents(Path(__file__).parents[3] / "validation" / "studies" / "default")
+    return written
 
 
 @pytest.fixture
 def run(study, tmp_path):
-    """A function that runs a study in the folder ``store``; returns its rows."""
+    """A function that runs a study in a folder; returns its rows."""
 
     def ran(text, folder="store", **options):
         return run_study(study(text), tmp_path / folder, progress=False, **options)
@@ -83,24 +115,15 @@ def run(study, tmp_path):
 
 
 @pytest.fixture(scope="session")
-def problem():
-    """One problem of 12 contacts with its exact answer."""
-    (found,) = set_read(problem_set_folder(CONTACT_QP), ids=["mass_ratio/11.3113/35"])
-    return found
+def small():
+    """The text of a small study."""
+    return SMALL
 
 
 @pytest.fixture(scope="session")
-def harmless(tmp_path_factory):
-    """A function: the row of a planted solver that is harmless, all of them in one process."""
-    folder = tmp_path_factory.mktemp("harmless")
-    (folder / "planted_solvers.py").write_text(FAKES)
-    with Keeper(ANY, folder) as keeper:
-
-        def row_of(name, problem, units="natural", warm=False):
-            limits = Limits(30.0, 30.0, 2)
-            return measured_row(keeper, problem, setting(name), units, warm, limits)
-
-        yield row_of
+def committed():
+    """The rows of the committed study of solvers."""
+    return rows_read(Path(__file__).parents[3] / "validation" / "studies" / "default")
 
 
 @pytest.fixture(scope="session")
@@ -110,38 +133,7 @@ def members():
 
 
 @pytest.fixture(scope="session")
-def store(tmp_path_factory):
-    """The folder of a study that nobody ran: rows at random, of every outcome."""
-    folder = tmp_path_factory.mktemp("report") / "store"
-    made_store.write_store(folder)
-    return folder
-
-
-@pytest.fixture(scope="session")
-def rows(store):
-    """Those of it that are compared: what was repeated is for the noise."""
-    return [row for row in contents(store).rows if row["repetition"] == 0]
-
-
-@pytest.fixture(scope="session")
-def report(store):
-    """The report on it."""
-    return study_report(store)
-
-
-@pytest.fixture(scope="session")
-def tables(report):
-    """Its tables, read from the page."""
-    return tables_of(markdown_page(report))
-
-
-@pytest.fixture
-def importable(monkeypatch):
-    """A function: modules of a folder can be imported, and in processes that are started too."""
-
-    def added(folder):
-        monkeypatch.syspath_prepend(str(folder))
-        there = os.environ.get("PYTHONPATH", "")
-        monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, [str(folder), there])))
-
-    return added
+def problem():
+    """One problem of 12 contacts with its exact answer."""
+    (problem,) = set_read(problem_set_folder(CONTACT_QP), ids=["mass_ratio/11.3113/35"])
+    return problem

@@ -1,78 +1,67 @@
-"""docs/guides/add_your_solver.md: every file and command of the page, as it stands there."""
+"""The pages for authors of solvers: every file and command, as they stand there."""
 
 import re
 import shlex
+import shutil
 import subprocess
-import sys
 from pathlib import Path
 
+import numpy as np
+import pandas
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.figures import study_images
-from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.optional.fast.compiled.library import compiler
-from tests.lab.study import made_store
 
 DOCS = Path(__file__).parents[3] / "docs"
-PAGE = (DOCS / "guides" / "add_your_solver.md").read_text("utf-8")
-PROGRAM = (DOCS / "examples" / "hildreth.c").read_text("utf-8")
-
-
-def blocks(language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+FILES = {"add_your_solver": ("my_solver", "my_study"), "solver_in_any_language": ("hildreth",) * 2}
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch, importable):
-    """An empty folder in which what the page shows was done: files, a compiler, a package."""
+def commands(request, tmp_path, monkeypatch):
+    """Write the files of a page into an empty folder; a function that runs its commands."""
     monkeypatch.chdir(tmp_path)
-    (function,), (study, entries) = map(blocks, ("python", "toml"))
-    Path("my_solver.py").write_text(function)
-    Path("my_study.toml").write_text(study)
-    Path("hildreth.c").write_text(PROGRAM)
-    command = [*compiler(), "-O2", "-Wall", "-o", "hildreth", "hildreth.c", "-lm"]
-    made = subprocess.run(command, capture_output=True, text=True)
-    assert (made.returncode, made.stderr) == (0, "")
-    info = Path("my_solver-1.0.dist-info")
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: my-solver\nVersion: 1.0\n")
-    lines = entries.replace('[project.entry-points."quasistatic_ref.solvers"]',
-                            "[quasistatic_ref.solvers]").replace('"', "")  # fmt: skip
-    (info / "entry_points.txt").write_text(lines)
-    importable(tmp_path)
-    yield tmp_path
-    sys.modules.pop("my_solver", None)
+    page = (DOCS / "guides" / f"{request.param}.md").read_text("utf-8")
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    function, study = FILES[request.param]
+    Path(f"{function}.py").write_text(next(text for kind, text in blocks if kind == "python"))
+    Path(f"{study}.toml").write_text(next(text for kind, text in blocks if kind == "toml"))
+    shutil.copy(DOCS / "examples" / "hildreth.c", ".")
+    for line in "".join(text for kind, text in blocks if kind == "sh").splitlines():
+        words = shlex.split(line)
+        if words[0] == "cc":
+            subprocess.run([*compiler(), *words[1:], "-Wall"], check=True)
+        else:
+            assert main(words[1:]) == 0, line
+    return blocks
 
 
-@pytest.mark.extra("fast")  # a part of the page is compiled
-def test_every_command_of_the_page_does_what_it_says(folder, monkeypatch):
-    """Both solvers stand in every table; on problems with a solution they have 12 digits."""
-    ran = []
-    for line in "".join(blocks("sh")).splitlines():
-        words = shlex.split(line, comments=True)
-        if words[2] == "merge":
-            made_store.of_another_machine("study", Path("other_study"))
-            monkeypatch.setattr(study_images, "images", lambda *_: {"png": b"", "svg": b""})
-        assert main(words[1:]) == 0, line
-        ran.append(words[2])
-    assert ran == ["ask", "run", "report", "ask", "merge", "report"]
-    rows = [row for row in contents("study").rows if row["repetition"] == 0]
-    by = {name: [row for row in rows if row["solver"] == name] for name in ("nnls", "hildreth")}
-    assert len(by["nnls"]) == len(by["hildreth"]) == 10
-    feasible = [row for row in by["nnls"] if row["feasible"]]
-    assert all(row["outcome"] == "solved" and row["digits"]["delta_q"] > 9 for row in feasible)
-    solved = [row for row in by["hildreth"] if row["outcome"] == "solved" and row["feasible"]]
-    assert len(solved) >= 3
-    assert all(row["digits"]["delta_q"] > 9 for row in solved)
-    report = Path("report/report.md").read_text()
-    for title in (
-        "Each solver",
-        "Setting default",
-        "Claims, natural",
-        "How the calls ended",
-    ):
-        table = report.partition(f"**{title}")[2].partition("\n**")[0]
-        assert "nnls" in table, title
-        assert "hildreth" in table, title
-    assert "nnls | callable | theirs" in Path("merged/report/report.md").read_text()
+@pytest.mark.parametrize("commands", ["add_your_solver"], indirect=True)
+def test_a_function_of_a_file_runs_in_a_study_of_ten_problems(commands, capsys):
+    rows = pandas.read_parquet("study/rows.parquet")
+    assert rows.groupby("solver").size().to_dict() == {"clarabel": 10, "daqp": 10, "nnls": 10}
+    nnls = rows[rows.solver == "nnls"]
+    assert (nnls[nnls.feasible].digits > 9).all()
+    assert set(nnls[~nnls.feasible].claim) == {"infeasible"}
+    assert "function:nnls" in Path("report/summary.md").read_text("utf-8")
+    exec(commands[-1][1], {})  # how the page asks the rows
+    assert "contacts/" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("commands", ["solver_in_any_language"], indirect=True)
+@pytest.mark.extra("fast")  # a C compiler
+def test_a_program_runs_in_a_study_and_its_problems_have_the_arrays_of_the_page(commands):
+    rows = pandas.read_parquet("hildreth_study/rows.parquet")
+    solved = rows[(rows.solver == "hildreth") & rows.feasible & (rows.outcome == "solved")]
+    assert len(solved) >= 2
+    assert (solved.digits > 9).all()
+    with np.load("problems/contact-qp-natural.npz") as arrays:
+        names = ("H", "g", "A", "b", "x", "net", "slack", "lam", "length")
+        H, g, A, b, x, net, slack, lam, length = (arrays[f"0/{name}"] for name in names)
+        assert {name for name in arrays if "/" not in name} == {
+            "id", "family", "kind", "status", "dial", "tags"}  # fmt: skip
+    np.testing.assert_allclose(H @ x - g, A.T @ lam, atol=1e-12)
+    np.testing.assert_allclose(net, A.T @ lam, atol=1e-12)
+    np.testing.assert_allclose(slack, A @ x - b, atol=1e-12)
+    assert lam.min() >= 0 <= slack.min() + 1e-12
+    assert length >= np.sqrt(g @ np.linalg.solve(H, g)) * (1 - 1e-12)

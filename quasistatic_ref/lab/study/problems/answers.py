@@ -34,6 +34,6 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
-    found = joined_optimum(step, parts, optima)
-    return Answer(EXACT, 0.0, found.delta_q, found.net, found.slack, found.lam, {},
-                  found.walks, found.multipliers_unique, found.differentiable)  # fmt: skip
+    optimum = joined_optimum(step, parts, optima)
+    return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, optimum.slack, optimum.lam, {},
+                  optimum.walks, optimum.multipliers_unique, optimum.differentiable)  # fmt: skip

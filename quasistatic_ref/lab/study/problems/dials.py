@@ -1,39 +1,16 @@
 """The families of the set, each with its dial: the number that makes its problems harder."""
 
-from typing import TypedDict
+from typing import Any
 
 
-class Dial(TypedDict):
-    """Where a dial begins and ends.
-
-    Parameters
-    ----------
-    name : str
-    unit : str
-    first : float
-        The easy end [the dial's unit].
-    most : float
-        The hard end, whichever is larger [the dial's unit].
-    """
-
-    name: str
-    unit: str
-    first: float
-    most: float
-
-
-def _dial(name: str, unit: str, first: float, most: float) -> Dial:
-    return Dial(name=name, unit=unit, first=first, most=most)
+def _dial(name: str, unit: str, first: float, most: float) -> dict[str, Any]:
+    """Its name and unit; its easy end and its hard end, whichever is larger [the dial's unit]."""
+    return {"name": name, "unit": unit, "first": first, "most": most}
 
 
 SCENARIOS = "scenarios"
-"""Steps of runs, which have no dial: the family that studies make problems of, too."""
-MADE = {
-    "apart": _dial("boxes", "-", 12, 40),
-    "heap": _dial("boxes", "-", 8, 80),
-}
-"""Families of no set, which a study makes itself."""
-DIALS = MADE | {
+"""Steps of runs, which have no dial: the family that studies make problems of."""
+DIALS = {
     "moving": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "time_step": _dial("h", "s", 0.1, 1e-4),
     "closest_points": _dial("k", "-", 1.0, 50.0),

@@ -38,13 +38,13 @@ def measures(one: Problem) -> dict[str, Any]:
     natural = one.natural
     lengths = np.sqrt(np.asarray(natural.A.multiply(natural.A).sum(axis=1)).ravel())
     positive = lengths[lengths > 0]
-    found: dict[str, Any] = {
+    numbers: dict[str, Any] = {
         "condition": float(np.linalg.cond(one.H.toarray())),
         "condition_natural": float(np.linalg.cond(natural.H.toarray())),
         "row_ratio": float(positive.max() / positive.min()) if positive.size else None,
     }
     if one.answer.farkas:
-        return _rounded(found)
+        return _rounded(numbers)
     slack = natural.answer.slack
     lam = natural.answer.lam
     reach = TOUCHING if one.answer.error == 0 else one.answer.error
@@ -55,7 +55,7 @@ def measures(one: Problem) -> dict[str, Any]:
     sharp = one.answer.error == 0
     norm = energy_norm(natural.H.toarray())
     free = norm.of_impulse(natural.g)
-    found |= {
+    numbers |= {
         "active": len(active),
         "rank": rank,
         "dependent": len(active) - rank,
@@ -63,34 +63,34 @@ def measures(one: Problem) -> dict[str, Any]:
         "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
         "size": norm.of_displacement(natural.answer.x) / free if free > 0 else None,
     }
-    return _rounded(found)
+    return _rounded(numbers)
 
 
-def tags(one: Problem, found: dict[str, Any]) -> list[str]:
+def tags(one: Problem, numbers: dict[str, Any]) -> list[str]:
     """Words that a problem is chosen by.
 
     Parameters
     ----------
     one : Problem
-    found : dict
+    numbers : dict
         Its :func:`measures`.
     """
     answer = one.answer
-    said = {
+    holding = {
         "diagonal H": not one.H.nnz > len(one.g),
         "infeasible": bool(answer.farkas),
         "trivial": not answer.farkas and not answer.x.any(),
-        "dependent": bool(found.get("dependent")),
+        "dependent": bool(numbers.get("dependent")),
         "several multipliers": answer.unique is False,
-        "ill-conditioned": (found["condition_natural"] or 0) >= ILL,
-        "close call": _close(found),
+        "ill-conditioned": (numbers["condition_natural"] or 0) >= ILL,
+        "close call": _close(numbers),
         "penetrating": bool((one.b > 0).any()),
     }
-    return [word for word, holds in said.items() if holds]
+    return [word for word, holds in holding.items() if holds]
 
 
-def _close(found: dict[str, Any]) -> bool:
-    sizes = [found.get("smallest_slack"), found.get("smallest_multiplier")]
+def _close(numbers: dict[str, Any]) -> bool:
+    sizes = [numbers.get("smallest_slack"), numbers.get("smallest_multiplier")]
     return any(size is not None and size < CLOSE for size in sizes)
 
 
@@ -101,7 +101,7 @@ def _rank(natural: Problem, active: np.ndarray) -> int:
     return int(np.linalg.matrix_rank(rows, tol=DEPENDENT)) if len(rows) else 0
 
 
-def _rounded(found: dict[str, Any]) -> dict[str, Any]:
+def _rounded(numbers: dict[str, Any]) -> dict[str, Any]:
     return {
-        name: float(f"{v:.{SHOWN}g}") if isinstance(v, float) else v for name, v in found.items()
+        name: float(f"{v:.{SHOWN}g}") if isinstance(v, float) else v for name, v in numbers.items()
     }

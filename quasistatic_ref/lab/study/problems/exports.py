@@ -79,10 +79,10 @@ def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
         .format(name=name, to=to, count=count, version=__version__, layout=words)
     )
     source = problem_set_folder(CONTACT_QP)
-    found = [path for part in CARRIED for path in sorted(source.glob(part))]
+    carried = [path for part in CARRIED for path in sorted(source.glob(part))]
     return [
         text_written(folder / "README.md", text),
-        *(bytes_written(folder / path.name, path.read_bytes()) for path in found),
+        *(bytes_written(folder / path.name, path.read_bytes()) for path in carried),
     ]
 
 
@@ -141,7 +141,7 @@ def parquet_written(path: Path, problems: Sequence[Problem]) -> Path:
 def _parts(one: Problem) -> dict[str, Any]:
     """Its numbers by name: matrices dense, unless it is a sparse problem."""
     sparse = one.sparse
-    found: dict[str, Any] = {
+    arrays: dict[str, Any] = {
         "H": one.H if sparse else one.H.toarray(),
         "A": one.A if sparse else one.A.toarray(),
         "g": one.g,
@@ -149,11 +149,11 @@ def _parts(one: Problem) -> dict[str, Any]:
         "length": one.error_length,
     }
     if not one.answer.farkas:
-        return found | {key: getattr(one.answer, key) for key in ANSWERS}
+        return arrays | {key: getattr(one.answer, key) for key in ANSWERS}
     y = np.zeros(len(one.b))
     for i, text in one.answer.farkas.items():
         y[i] = Fraction(text)
-    return found | {"farkas": y}
+    return arrays | {"farkas": y}
 
 
 def _word(value: Any) -> Any:

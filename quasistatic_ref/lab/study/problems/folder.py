@@ -60,10 +60,11 @@ def set_written(folder: Path, name: str, problems: Sequence[Problem], **more: An
         every.setdefault(str(one.facts["family"]), []).append(one)
     text_written(folder / FACTS, "".join(json_text(_line(one)) + "\n" for one in problems))
     paths = [folder / FACTS]
-    for family, own in every.items():
-        paths.append(_numbers_written(folder / NUMBERS / f"{family}.npz", own))
+    for family, members in every.items():
+        paths.append(_numbers_written(folder / NUMBERS / f"{family}.npz", members))
     families = {
-        family: {"count": len(own), "dial": DIALS.get(family)} for family, own in every.items()
+        family: {"count": len(members), "dial": DIALS.get(family)}
+        for family, members in every.items()
     }
     head = {
         "format": FORMAT,
@@ -114,14 +115,14 @@ def _some_problems(
     for name in ids or ():
         if name not in names:
             raise InputError("is not a problem of the set", field="id", value=name)
-    found: list[Problem] = []
+    chosen: list[Problem] = []
     for family in known:
         part = [line for line in lines if line["family"] == family]
         wanted = ids is None or any(line["id"] in ids for line in part)
         if (families is None or family in families) and wanted:
             problems = _problems(folder, family, part)
-            found += [one for one in problems if ids is None or one.id in ids]
-    return found
+            chosen += [one for one in problems if ids is None or one.id in ids]
+    return chosen
 
 
 def manifest(folder: Path) -> dict[str, Any]:
@@ -185,7 +186,7 @@ def _numbers_written(path: Path, problems: Sequence[Problem]) -> Path:
         answers = {name: getattr(one.answer, name) + 0.0 for name in ANSWERS}
         for name, values in (vectors | answers if solved else vectors).items():
             parts.setdefault(name, []).append(values)
-    arrays: dict[str, Any] = {name: np.concatenate(own) for name, own in parts.items()}
+    arrays: dict[str, Any] = {name: np.concatenate(pieces) for name, pieces in parts.items()}
     return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
@@ -218,16 +219,17 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
         g = numbers("g", n)
         b = numbers("b", m)
         S = np.exp2(numbers("coordinate", n).astype(np.float64))
-        own = line["log2_units"]
-        units = Units(S, 2.0 ** own["length"], 2.0 ** own["size"])
-        said = line["answer"]
+        exponents = line["log2_units"]
+        units = Units(S, 2.0 ** exponents["length"], 2.0 ** exponents["size"])
+        record = line["answer"]
         x, net, slack, lam = (
             numbers(name, size if solved else 0) if name in arrays else np.zeros(0)
             for name, size in (("x", n), ("net", n), ("slack", m), ("lam", m))
         )
         farkas = {int(i): y for i, y in (line["farkas"] or {}).items()}
-        answer = Answer(said["kind"], said["error"], x, net, slack, lam, farkas, said["walks"],
-                        said["unique_multipliers"], said["differentiable"])  # fmt: skip
+        answer = Answer(record["kind"], record["error"], x, net, slack, lam, farkas,
+                        record["walks"], record["unique_multipliers"],
+                        record["differentiable"])  # fmt: skip
         facts = {key: v for key, v in line.items() if key not in ("log2_units", "farkas")}
         return Problem(facts, H, g, A, b, units, answer)
 

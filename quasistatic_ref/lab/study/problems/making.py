@@ -42,7 +42,7 @@ def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True
     RunFailed
         If a step of a run fails.
     """
-    found = []
+    problems = []
     with progress_bar(total=total, unit="problem", words="exact answers", shown=progress) as bar:
         for i, name in enumerate(scenarios[:total]):
             scenario = load_scenario(name, record="full", fast=True)
@@ -53,9 +53,9 @@ def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True
                 one = f"{SCENARIOS}/{Path(name).stem}/{s}"
                 lam = run["lam"][s]
                 pressed = np.flatnonzero(lam[np.isfinite(lam)])
-                found.append(problem_of(run.step_data(s), one, k, pressed.tolist()))
+                problems.append(problem_of(run.step_data(s), one, k, pressed.tolist()))
                 bar.update()
-    return found
+    return problems
 
 
 def _run(scenario: Scenario) -> Trajectory:
@@ -118,9 +118,9 @@ def problem_of(
     }
     units = units_of(form, hessian_in_both_units(form.H))
     problem = Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
-    found = measures(problem)
+    numbers = measures(problem)
     sparse = [SPARSE] * (step.contacts.J.size >= SPARSE_FROM_PIQP)
-    facts |= {"tags": [*tags(problem, found), *sparse], "measures": found}
+    facts |= {"tags": [*tags(problem, numbers), *sparse], "measures": numbers}
     return problem
 
 

@@ -1,24 +1,14 @@
 """The problems of a study that are taken from a set, evenly along the dial of each family."""
 
-import hashlib
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.dials import DIALS
-from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
+from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import QP, Problem
-
-
-def set_identity(source: str) -> dict[str, Any]:
-    """Name of a set, and the hash of its manifest: what a store says it took problems from."""
-    folder = problem_set_folder(source)
-    content = bytes_read(folder / MANIFEST)
-    return {"name": manifest(folder)["name"], "sha256": hashlib.sha256(content).hexdigest()}
 
 
 def problems_taken(
@@ -42,24 +32,24 @@ def problems_taken(
     """
     wanted = {name: count for name, count in families.items() if count}
     every = set_read(problem_set_folder(source), list(wanted))
-    found: list[Problem] = []
+    chosen: list[Problem] = []
     for family, count in wanted.items():
-        own = [one for one in every if one.facts["family"] == family]
-        if not all(one.facts["kind"] == QP for one in own):
+        members = [one for one in every if one.facts["family"] == family]
+        if not all(one.facts["kind"] == QP for one in members):
             words = "has cones; studies contain rows only"
             raise InputError(words, field="problems.families", value=family)
-        found += problems_along_dial(own, family, count, most.get(family))
-    return found
+        chosen += problems_along_dial(members, family, count, most.get(family))
+    return chosen
 
 
 def problems_along_dial(
-    own: Sequence[Problem], family: str, count: int, most: float | None = None
+    members: Sequence[Problem], family: str, count: int, most: float | None = None
 ) -> list[Problem]:
     """Some problems of a family, evenly along its dial; of sequences whole ones, in order.
 
     Parameters
     ----------
-    own : sequence of Problem
+    members : sequence of Problem
         All of the family.
     family : str
     count : int
@@ -70,13 +60,15 @@ def problems_along_dial(
     dial = DIALS.get(family)
     if most is not None and dial is not None:
         up = dial["first"] < dial["most"]
-        own = [one for one in own if (one.facts["dial"] <= most) == up or one.facts["dial"] == most]
-    if own and own[0].facts["sequence"] is not None:
-        names = list(dict.fromkeys(one.facts["sequence"]["name"] for one in own))
-        length = len(own) // len(names)
+        members = [
+            one for one in members if (one.facts["dial"] <= most) == up or one.facts["dial"] == most
+        ]
+    if members and members[0].facts["sequence"] is not None:
+        names = list(dict.fromkeys(one.facts["sequence"]["name"] for one in members))
+        length = len(members) // len(names)
         kept = {names[i] for i in evenly(len(names), max(count // length, 1))}
-        return [one for one in own if one.facts["sequence"]["name"] in kept]
-    order = own if dial is None else sorted(own, key=lambda one: float(one.facts["dial"]))
+        return [one for one in members if one.facts["sequence"]["name"] in kept]
+    order = members if dial is None else sorted(members, key=lambda one: float(one.facts["dial"]))
     return [order[i] for i in evenly(len(order), count)]
 
 

@@ -1,0 +1,170 @@
+"""Three doors to a solver: qpsolvers, CVXPY, and a function of one's own."""
+
+import importlib
+import importlib.util
+import inspect
+import sys
+import zlib
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from scipy.sparse import issparse
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
+from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
+from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+Call = Callable[[StandardForm, Options, Reply | None], Reply]
+"""(problem, options, reply to start from or None) -> reply."""
+NEAR = 0.01
+"""How far the neighbour's g is from the problem's, entry by entry and relative: a warm start comes
+from the answer to the neighbour, as it does from the step before."""
+WORDS = 200
+"""Characters of what a solver raised that are kept."""
+
+
+def neighbour(form: StandardForm, name: str) -> StandardForm:
+    """The problem that a warm start comes from: each g_i changed by up to 1 %.
+
+    Parameters
+    ----------
+    form : StandardForm
+    name : str
+        Of the problem; the change is a function of it.
+    """
+    rng = np.random.default_rng(zlib.crc32(name.encode()))
+    return form._replace(g=form.g * (1 + NEAR * rng.uniform(-1, 1, len(form.g))))
+
+
+def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
+    """The function that puts a problem to a solver, and whether it uses a start.
+
+    What a solver raises is a reply that has failed.
+
+    Parameters
+    ----------
+    solver : Solver
+    folder : str
+        Where the file of a function is looked for.
+
+    Raises
+    ------
+    InputError
+        If there is no such function.
+    """
+    warm = solver.warm
+    if solver.door == CVXPY:
+        call = _by_cvxpy(solver.target)
+    elif solver.door == QPSOLVERS:
+        call = _by_qpsolvers(solver.target)
+    else:
+        function = function_at(solver.target, folder)
+        warm = takes_start(function)
+        call = _by_function(function, warm)
+
+    def safe(form: StandardForm, options: Options, before: Reply | None) -> Reply:
+        form = form if solver.sparse else _in_arrays(form)
+        try:
+            return call(form, options, before)
+        except Exception as error:  # whatever another package raises
+            words = " ".join(f"{type(error).__name__}: {error}".split())
+            return Reply(None, None, False, words[:WORDS])
+
+    return safe, warm
+
+
+def _in_arrays(form: StandardForm) -> StandardForm:
+    """The same with H and A as arrays."""
+    matrices: Iterable[Any] = (form.H, form.A)
+    H, A = (M.toarray() if issparse(M) else M for M in matrices)
+    return form._replace(H=H, A=A)
+
+
+def _by_cvxpy(name: str) -> Call:
+    from quasistatic_ref.lab.study.compiled_problems import CompiledProblems  # heavy: CVXPY
+
+    programs = CompiledProblems(name)
+    return lambda form, options, before: programs.reply(form, options, warm=before is not None)
+
+
+def _by_qpsolvers(name: str) -> Call:
+    from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
+
+    return lambda form, options, before: qpsolvers_reply(
+        form, name, options, None if before is None else before.x
+    )
+
+
+def function_at(target: str, folder: str) -> Callable[..., Any]:
+    """The function of ``FILE.py:FUNCTION`` or ``MODULE:FUNCTION``.
+
+    Raises
+    ------
+    InputError
+        If there is none, or its module cannot be imported.
+    """
+    place, _, name = target.rpartition(":")
+    try:
+        if place.endswith(".py"):
+            path = Path(folder, place).resolve()
+            spec = importlib.util.spec_from_file_location(path.stem, path)
+            assert spec is not None
+            assert spec.loader is not None
+            module = importlib.util.module_from_spec(spec)
+            sys.path.insert(0, str(path.parent))  # for what it imports itself
+            spec.loader.exec_module(module)
+        else:
+            module = importlib.import_module(place)
+        function: Callable[..., Any] = getattr(module, name)
+    except Exception as error:  # a module may raise anything when it is imported
+        words = f"cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(words[:WORDS], value=target) from None
+    if not callable(function):
+        raise InputError("is not a function", value=target)
+    return function
+
+
+def takes_start(function: Callable[..., Any]) -> bool:
+    """Whether a function takes ``start=(x, z)``; a compiled one may not say what it takes."""
+    try:
+        return "start" in inspect.signature(function).parameters
+    except ValueError:
+        return False
+
+
+def _by_function(function: Callable[..., Any], starts: bool) -> Call:
+    """A function, which starts from its own answer where it takes one."""
+
+    def call(form: StandardForm, options: Options, before: Reply | None) -> Reply:
+        if starts and before is not None:
+            options = options | {"start": (before.x, before.lam)}
+        numbers = (form.H.copy(), -form.g, -form.A, -form.b)
+        begin = perf_counter()
+        returned = function(*numbers, **options)
+        seconds = perf_counter() - begin
+        if not isinstance(returned, tuple) or len(returned) != 3:
+            words = f"returned a {type(returned).__name__} in place of (x, z, status)"
+            return Reply(np.zeros((0, 0)), None, False, words, call_seconds=seconds)
+        x, z, status = returned
+        x = None if x is None else _numbers(x)
+        lam = None if z is None else _numbers(z)
+        solved = status == OPTIMAL
+        if status == INFEASIBLE:
+            x = None
+        return Reply(x, lam, solved, str(status)[:WORDS], call_seconds=seconds)
+
+    return call
+
+
+def _numbers(values: Any) -> Array:
+    try:
+        return np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        return np.zeros((0, 0))  # no numbers: a wrong shape

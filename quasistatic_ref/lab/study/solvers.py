@@ -1,0 +1,204 @@
+"""The solvers of a study, by the door through which they are called, and their settings."""
+
+import importlib.metadata
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.lab.study.promises import RESIDUALS, Promise, resolved
+from quasistatic_ref.solve.backends import BACKENDS, Options, installed
+
+QPSOLVERS, CVXPY, FUNCTION = DOORS = ("qpsolvers", "cvxpy", "function")
+"""Matrices to qpsolvers; a problem to CVXPY; ``(P, q, G, h, **options) -> (x, z, status)``."""
+BY_NAME = (QPSOLVERS, CVXPY)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """An accuracy, which is other options for each solver.
+
+    Parameters
+    ----------
+    name : str
+    accuracy : float or None
+        Of residuals and gap, in the units of the problem as given [-]; None: the default.
+    tuned : bool
+        The options that the simulator uses in place of the plain ones.
+    """
+
+    name: str
+    accuracy: float | None
+    tuned: bool = False
+
+
+SETTINGS = (
+    Setting("default", None),
+    Setting("low", 1e-3),
+    Setting("mid", 1e-6),
+    Setting("high", 1e-9),
+    Setting("tuned", 1e-12, tuned=True),
+)
+
+
+@cache
+def table() -> dict[str, dict[str, Any]]:
+    """What ``solvers.toml`` knows of each solver."""
+    return tomllib.loads((Path(__file__).parent / "solvers.toml").read_text("utf-8"))
+
+
+def known_to(door: str) -> list[str]:
+    """Names that are understood behind ``qpsolvers:`` or ``cvxpy:``."""
+    backends = [b.name for b in BACKENDS.values() if door == QPSOLVERS or b.cvxpy]
+    return backends + [name for name, facts in table().items() if door in facts.get("doors", ())]
+
+
+def installed_here(door: str) -> tuple[str, ...]:
+    """Those of them that are installed."""
+    others = [name for name in known_to(door) if name not in BACKENDS and find_spec(name)]
+    return (*installed(door), *others)
+
+
+@cache
+def _version(package: str) -> str:
+    return importlib.metadata.version(package)
+
+
+@dataclass(frozen=True)
+class Solver:
+    """One solver of a study.
+
+    Parameters
+    ----------
+    name : str
+    door : str
+        One of ``DOORS``.
+    target : str
+        The solver's name there; or ``FILE.py:FUNCTION``, or ``MODULE:FUNCTION``.
+    options : mapping of str to mapping
+        Options of its own by setting, in place of ours.
+    promised : mapping of str to mapping
+        By setting, what its author promises of residuals, as in ``promises.py``.
+    """
+
+    name: str
+    door: str
+    target: str
+    options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    promised: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """Door and name, unique in a study."""
+        return f"{self.door}:{self.name}"
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What the table knows of it: nothing of a function."""
+        return {} if self.door == FUNCTION else table()[self.target]
+
+    @property
+    def package(self) -> str:
+        """The package that it comes in; "" of a function."""
+        if self.door == FUNCTION:
+            return ""
+        known = BACKENDS.get(self.target)
+        return known.to_install if known else self.target
+
+    @property
+    def version(self) -> str:
+        """Of that package."""
+        return _version(self.package) if self.package else ""
+
+    @property
+    def warm(self) -> bool:
+        """Whether its door uses a start; of a function only its signature says so."""
+        known = BACKENDS.get(self.target)
+        return self.door in (known.warm if known else self.facts.get("warm", ()))
+
+    @property
+    def sparse(self) -> bool:
+        """Whether it is given sparse matrices as they are; otherwise it is given arrays."""
+        return self.door != QPSOLVERS or bool(self.facts.get("sparse"))
+
+    def takes(self, setting: Setting) -> bool:
+        """Whether a setting means anything to it."""
+        return setting.name in self.options or setting.accuracy is None or "accuracy" in self.facts
+
+    def settings_of(self, setting: Setting, seconds: float) -> Options:
+        """The options that a setting is to this solver.
+
+        Parameters
+        ----------
+        setting : Setting
+        seconds : float
+            The time limit of a problem [s].
+        """
+        if setting.name in self.options:
+            return dict(self.options[setting.name])
+        known = BACKENDS.get(self.target) if self.facts else None
+        limit: Options = {known.time_limit: seconds} if known and known.time_limit else {}
+        limit |= self.facts.get("always", {})
+        if setting.accuracy is None or "accuracy" not in self.facts:
+            return limit
+        if setting.tuned and known:
+            return known.first(setting.accuracy) | limit
+        return limit | self._options_at(setting)
+
+    def _options_at(self, setting: Setting) -> Options:
+        """The plain options of an accuracy."""
+        facts = self.facts
+        accuracy = max(setting.accuracy or 0.0, facts.get("floor", 0.0))
+        options: Options = dict.fromkeys(facts["accuracy"], accuracy) | facts.get("others", {})
+        refused = facts.get(self.door, {}).get("refused", ())
+        return {option: value for option, value in options.items() if option not in refused}
+
+    def promise(self, setting: Setting, options: Options) -> Promise:
+        """What its "optimal" promises of residuals at a setting, with the options that it got.
+
+        It is what its author says, else what its documentation says of its options; of a function
+        whose author says nothing, the accuracy.
+        """
+        if setting.name in self.promised:
+            return resolved(self.promised[setting.name], options)
+        if self.door == FUNCTION:
+            every = {} if setting.accuracy is None else dict.fromkeys(RESIDUALS, setting.accuracy)
+            return resolved(every, {})
+        facts = self.facts
+        here = facts.get(self.door, {})
+        stated = here.get("promise", facts.get("promise", {}))
+        return resolved(stated, facts.get("defaults", {}) | here.get("defaults", {}) | options)
+
+
+def solvers_named(name: str) -> list[Solver]:
+    """The solver of ``door:name``, all that are installed of ``door:*``, or a function.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or its solver is not installed.
+    """
+    door, _, target = name.partition(":")
+    if door not in BY_NAME:
+        words = "is no solver: write qpsolvers:NAME, cvxpy:NAME or a name of [solvers.NAME]"
+        raise InputError(words, value=name)
+    names = installed_here(door) if target == "*" else (target,)
+    for one in names:
+        check_installed(door, one)
+    return [Solver(one, door, one) for one in names]
+
+
+def check_installed(door: str, name: str) -> None:
+    """Refuse a solver that a door does not know, or that is not installed: InputError."""
+    known = known_to(door)
+    if name not in known:
+        raise InputError(f"is no solver of {door}{suggestion(name, known)}", value=name)
+    if name not in installed_here(door):
+        entry = BACKENDS.get(name)
+        remedy = entry.to_install_it if entry else f"pip install {name}"
+        raise InputError(f"is not installed; {remedy}", value=name)

@@ -1,0 +1,178 @@
+"""Verdicts: residuals against promises, on toys and on the committed rows."""
+
+import math
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.study.false_claims import FACTOR, certificate_holds
+from quasistatic_ref.lab.study.grade import grades, problem_forms
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.promises import RESIDUALS
+from quasistatic_ref.lab.study.solvers import SETTINGS, Setting, Solver
+from quasistatic_ref.solve.reply import Reply
+
+MINE = Solver("mine", "function", "m:f")
+TIGHT = Setting("tight", 1e-9)
+
+
+def dual_gradient(form, accuracy, sweeps=4000):
+    """Projected ascent of the dual, one row after the other, until all residuals are small."""
+    x = np.linalg.solve(form.H, form.g)
+    W = np.linalg.solve(form.H, form.A.T)
+    lam = np.zeros(len(form.b))
+    size = np.einsum("ij,ji->i", form.A, W)
+    for _ in range(sweeps):
+        for i in np.flatnonzero(size):
+            step = max((form.b[i] - form.A[i] @ x) / size[i], -lam[i])
+            lam[i] += step
+            x = x + step * W[:, i]
+        slack = form.A @ x - form.b
+        if -slack.min() <= accuracy and abs(lam @ slack) <= accuracy:
+            return x, lam
+    raise AssertionError("did not converge")
+
+
+def row_of(problem, x, lam, units="natural", solver=MINE, setting=TIGHT):
+    promise = solver.promise(setting, {} if solver is MINE else solver.settings_of(setting, 1.0))
+    reply = Reply(x, lam, True, "optimal")
+    return grades(problem_forms(problem), units, reply, solver, promise, setting.accuracy)
+
+
+@pytest.fixture(scope="module")
+def wedge():
+    (problem,) = set_read(problem_set_folder(CONTACT_QP), ids=["capped_wedge/1e-08/79"])
+    return problem
+
+
+def test_an_answer_without_a_digit_that_keeps_its_tolerances_is_no_false_claim(wedge):
+    """|lam*|_1 = 4.9e8: residuals below 1e-6 leave an error of 0.37 of the whole step."""
+    x, lam = dual_gradient(wedge.natural.form, 1e-6)
+    row = row_of(wedge, x, lam, setting=Setting("mine", 1e-6))
+    assert max(row[name] for name in RESIDUALS) <= 1e-6
+    assert row["digits"] < 0.5
+    assert not row["false_claim"]
+
+
+@pytest.mark.parametrize("units", ["raw", "natural"])
+def test_a_residual_beyond_the_factor_is_a_false_claim(problem, units):
+    """The displacement is moved along H^-1 A_i': row i by t; each multiplier by t."""
+    there = problem if units == "raw" else problem.natural
+    form, answer = there.form, there.answer
+    exact = row_of(problem, answer.x, answer.lam, units)
+    assert not exact["false_claim"]
+    assert exact["primal_limit"] >= FACTOR * TIGHT.accuracy
+    tight = int(np.argmax(answer.lam))
+    for share, false in ((0.5, False), (2.0, True)):
+        shift = -share * exact["primal_limit"]
+        along = np.linalg.lstsq(form.A[[tight]], [shift], rcond=None)[0]
+        moved = row_of(problem, answer.x + along, answer.lam, units)
+        assert (moved["primal"] > exact["primal_limit"]) == false
+        assert moved["false_claim"] >= false
+        lam = answer.lam.copy()
+        lam[tight] = -share * exact["dual_limit"]
+        assert row_of(problem, answer.x, lam, units)["false_claim"]
+
+
+def test_right_x_and_zero_multipliers_is_a_false_claim_and_so_is_a_negative_multiplier(problem):
+    there = problem.natural
+    row = row_of(problem, there.answer.x, np.zeros(len(there.form.b)))
+    assert (row["digits"], row["false_claim"]) == (16.0, True)
+    lam = there.answer.lam.copy()
+    idle = int(np.argmin(abs(there.form.A).sum(axis=1)))
+    lam[idle] -= 1e-3
+    less = row_of(problem, there.answer.x, lam)
+    assert less["dual"] >= 1e-3 - there.answer.lam[idle]
+    H, g, A, _ = there.form  # A'lam is off by 1e-3 A_i', which moves by H^-1 A_i'
+    off = 1e-3 * np.sqrt(A[idle] @ np.linalg.solve(H, A[idle]) / (g @ np.linalg.solve(H, g)))
+    assert less["digits_lam"] == pytest.approx(-np.log10(off), abs=1e-6)
+
+
+def test_proxqp_whose_documentation_states_no_limit_of_signs_is_held_to_a_thousandth(problem):
+    """A row with b = 0, which leaves the gap as it is; both break OSQP's promise."""
+    there = problem.natural
+    idle = np.flatnonzero((there.form.b == 0) & (there.answer.lam == 0))[0]
+    for negative, false in ((1e-5, False), (1.0, True)):
+        lam = there.answer.lam.copy()
+        lam[idle] = -negative
+        for name, wrong in (("proxqp", false), ("osqp", True)):
+            solver = Solver(name, "qpsolvers", name)
+            row = row_of(problem, there.answer.x, lam, solver=solver, setting=SETTINGS[3])
+            assert row["false_claim"] == wrong
+
+
+def test_success_without_a_solution_is_false_beyond_the_tolerances_alone():
+    (none,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/1.14868e-11/243"])
+    form = none.natural.form
+    near = row_of(none, *dual_gradient(form, 1e-3), setting=Setting("loose", 1e-3))
+    assert (near["claim"], near["false_claim"]) == ("optimal", False)
+    assert row_of(none, np.zeros(len(form.g)), np.zeros(len(form.b)))["false_claim"]
+
+
+def test_relative_tolerances_without_a_solution_are_those_of_the_answer():
+    """As a solver measures them: FACTOR 1e-3 |Ax|, to which the terms' rounding adds 1e-12."""
+    (none,) = set_read(problem_set_folder(CONTACT_QP), ids=["infeasible/0.01/0"])
+    form = none.natural.form
+    relative = {"tight": {"primal": {"rel": 1e-3, "of": ["|Ax|"]}}}
+    solver = Solver("mine", "function", "m:f", promised=relative)
+    for size in (1.0, 1e4):
+        x = np.full(len(form.g), size)
+        row = row_of(none, x, np.zeros(len(form.b)), solver=solver)
+        limit = FACTOR * 1e-3 * abs(form.A @ x).max()
+        assert row["primal_limit"] == pytest.approx(limit, rel=1e-6)
+
+
+def test_a_certificate_clears_a_claim_only_where_it_holds_to_the_accuracy(wedge):
+    """Scaled to 1, the multipliers of the wedge have |A'y| = 2e-9 and b'y > 0: a near proof."""
+    form = wedge.natural.form
+    y = wedge.natural.answer.lam / wedge.natural.answer.lam.max()
+    size = abs(form.A.T @ y).max()
+    assert form.b @ y > 0
+    assert certificate_holds(form, y, size)
+    assert not certificate_holds(form, y, size / (2 * FACTOR))
+    assert not certificate_holds(form, -y, size)
+    reply = Reply(None, y, False, "infeasible")
+    for accuracy, false in ((1e-6, False), (1e-12, True)):
+        promise = MINE.promise(TIGHT, {})
+        row = grades(problem_forms(wedge), "natural", reply, MINE, promise, accuracy)
+        assert (row["claim"], row["false_claim"]) == ("infeasible", false)
+
+
+# -- The committed rows ----------------------------------------------------------------------------
+
+
+def test_a_committed_claim_of_success_is_false_where_a_residual_exceeds_its_limit(committed):
+    """Or where its numbers are not finite."""
+    false = 0
+    for row in committed:
+        if row.claim == "optimal":
+            pairs = [(getattr(row, name), getattr(row, f"{name}_limit")) for name in RESIDUALS]
+            exceeded = any(limit is not None and size > limit for size, limit in pairs)
+            assert row.false_claim == (exceeded or row.outcome == "not a number"), row
+            false += exceeded
+    assert false > 200
+
+
+def test_every_committed_answer_obeys_the_bound_by_three_residuals(committed):
+    """(R48) in digits; the dual residual is the larger of balance and negative multipliers.
+
+    ||x - x*||_H^2 <= gap + |lam*|_1 primal + (|x*|_1 + |s*|_1) dual.
+    """
+    ids = sorted({row.problem for row in committed if row.feasible})
+    sizes = {}
+    for problem in set_read(problem_set_folder(CONTACT_QP), ids=ids):
+        answer = problem.natural.answer
+        numbers = (answer.lam, np.concatenate([answer.x, answer.slack]))
+        sizes[problem.id] = [problem_forms(problem).length, *(abs(v).sum() for v in numbers)]
+    count = 0
+    for row in committed[::20]:
+        if row.outcome != "solved" or not row.feasible or row.units != "natural":
+            continue
+        length, lam, others = sizes[row.problem]
+        primal, dual, gap = (1.005 * getattr(row, name) for name in RESIDUALS)  # three figures
+        error = math.sqrt(gap + lam * primal + others * dual) / length
+        if error > 1e-12:  # of float64, whose rounding is in the residuals
+            count += 1
+            assert row.digits >= min(-math.log10(error), 16) - 0.01, row
+    assert count > 1000
