@@ -425,6 +425,10 @@ INSIDE_CONE: Final = 0.98
 """Share of a contact's limit up to which its friction could bear more [-]: a contact that slides is
 at its limit but for the error of the other solver, some 0.1 %."""
 
+PIERCES: Final = 0.25
+"""Depth of two bodies in each other over the size of the smaller one, from its centre of mass to
+its farthest point, above which they are not rigid, whatever presses them there [-]."""
+
 PRESSES: Final = 2.0
 """Normal forces of another simulator over the exact ones, from which on penetration counts as their
 cause [-]: forces that no load determines differ by some per cent at rest."""

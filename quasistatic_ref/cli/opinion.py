@@ -5,6 +5,7 @@ Exit status 0 if nothing is found, 1 if something is, 2 if the scene is refused.
 
 import argparse
 from collections.abc import Sequence
+from math import isfinite
 from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
@@ -50,7 +51,8 @@ def run(options: argparse.Namespace) -> int:
         mujoco = needed_package("mujoco", "engines", "opinion")
         mujoco.set_mju_user_warning(lambda text: None)  # or it writes a file where it is called
         data = settled(model, options.settle, options.keyframe, control)
-        opinion = second_opinion(model, data, options.tolerance)
+        start = settled(model, 0.0, options.keyframe, control)
+        opinion = second_opinion(model, data, options.tolerance, start)
     if options.json:
         shared.print_json(opinion.record)
     else:
@@ -71,7 +73,7 @@ def controls(given: Sequence[str]) -> dict[str, float]:
     Raises
     ------
     InputError
-        If one is not of this form.
+        If one is not of this form, or its value is not finite.
     """
     found = {}
     for words in given:
@@ -80,4 +82,6 @@ def controls(given: Sequence[str]) -> dict[str, float]:
             found[name] = float(value)
         except ValueError:
             raise InputError("must be ACTUATOR=VALUE", field="--control", value=words) from None
+        if not isfinite(found[name]):
+            raise InputError("must be a finite number", field=f"--control {name}", value=value)
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.tolerances import CREEP, STEADY
+from quasistatic_ref.tolerances import CREEP, FORCES_AGREE, STEADY
 
 WINDOW = 0.1
 """Time over which an engine's motion is measured [s]: many of its time steps, and few of a fall."""
@@ -58,6 +59,8 @@ class Contact:
         By how much they penetrate [m].
     mu_v, mu_omega : float
         Friction [-] and torsional friction [m].
+    pair : str
+        What touches, as of all contacts of the two.
     theirs : Bearing
         The engine's.
     exact : Bearing or None
@@ -69,6 +72,7 @@ class Contact:
     depth: float
     mu_v: float
     mu_omega: float
+    pair: str
     theirs: Bearing
     exact: Bearing | None
 
@@ -115,6 +119,8 @@ class Body:
         The sum of mu_v f_n of its contacts [N].
     torque : float
         Moment that is not balanced, about the axis about which it turns [N m].
+    balanced : bool
+        Whether all forces of the engine's add up to none on it.
     theirs, exact : Motion
         In the exact answer, of one step from rest.
     """
@@ -127,6 +133,7 @@ class Body:
     asked: float
     bears: float
     torque: float
+    balanced: bool
     theirs: Motion
     exact: Motion
 
@@ -140,7 +147,8 @@ class Touch(NamedTuple):
 
     Parameters
     ----------
-    name : str
+    name, pair : str
+        Its own, and that of all contacts of the two geometries.
     bodies : tuple of str
         Alpha's and beta's; ``"world"`` for what cannot move.
     depth : float
@@ -158,6 +166,7 @@ class Touch(NamedTuple):
     """
 
     name: str
+    pair: str
     bodies: tuple[str, str]
     depth: float
     mu_v: float
@@ -190,6 +199,11 @@ class Mover(NamedTuple):
     free: bool
     linear: Array
     angular: Array
+
+    def fastest(self, v: Array) -> float:
+        """A bound on the speed of its points [m/s] at a velocity v, (nv,)."""
+        turn = np.linalg.norm(self.angular @ v)
+        return float(np.linalg.norm(self.linear @ v) + self.size * turn)
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,14 +262,26 @@ class Compared:
         except QuasistaticError:  # where they are not unique to any digit: those of the proof
             return self.answer.wrench
 
+    @cached_property
+    def present(self) -> Array:
+        """The engine's velocity, (nv,): of the state where that is steady, else the mean."""
+        said = self.said
+        names = {name for touch in said.touches for name in touch.bodies}
+        movers = [mover for mover in said.movers if mover.name in names]
+        steady = all(
+            WINDOW * mover.fastest(said.acceleration) <= max(CREEP, STEADY * mover.fastest(said.v))
+            for mover in movers
+        )
+        return said.v if steady else said.mean
+
     def contacts(self) -> Iterator[Contact]:
         """All contacts that the engine has."""
         number = {name: j for j, name in enumerate(self.answer.step.contacts.name)}
         for touch in self.said.touches:
             mine = [number[name] for name in touch.of_step if name in number]
             yield Contact(
-                touch.name, touch.bodies, touch.depth, touch.mu_v, touch.mu_omega,
-                theirs=self._bearing(touch, touch.wrench[None], self.said.mean),
+                touch.name, touch.bodies, touch.depth, touch.mu_v, touch.mu_omega, touch.pair,
+                theirs=self._bearing(touch, touch.wrench[None], self.present),
                 exact=self._together(touch, mine) if mine else None,
             )  # fmt: skip
 
@@ -285,24 +311,30 @@ class Compared:
         )
         turn = float(np.linalg.norm(angular @ self.acceleration))
 
-        def fastest(v: Array) -> float:
-            """A bound on the speed of its points [m/s]."""
-            return float(np.linalg.norm(linear @ v) + mover.size * np.linalg.norm(angular @ v))
-
+        fastest = mover.fastest(said.mean)
         changes = [said.later - said.mean, WINDOW * said.acceleration]
         return Body(
             name=mover.name,
             size=mover.size,
-            rests=fastest(said.v) <= CREEP,
-            steady=min(map(fastest, changes)) <= max(CREEP, STEADY * fastest(said.mean)),
+            rests=mover.fastest(said.v) <= CREEP,
+            steady=min(map(mover.fastest, changes)) <= max(CREEP, STEADY * fastest),
             free=mover.free,
             asked=float(np.linalg.norm(asked)),
             bears=bears,
             # Of a rotation about a line, a'Ma is the moment of inertia times the rate squared.
             torque=float(own_motion @ said.M @ own_motion / turn) if mover.free and turn else 0.0,
+            balanced=self._balanced(mover),
             theirs=self._motion(linear @ said.mean, angular @ said.mean),
             exact=self._motion(linear @ self.exact, angular @ self.exact),
         )
+
+    def _balanced(self, mover: Mover) -> bool:
+        """Whether what accelerates a body is no more than FORCES_AGREE of the forces on it."""
+        said = self.said
+        forces = [t.wrench[2] for t in said.touches if mover.name in t.bodies]
+        weight = mover.mass * float(np.linalg.norm(said.gravity))
+        left = mover.mass * float(np.linalg.norm(mover.linear @ said.acceleration))
+        return left <= FORCES_AGREE * max(weight, float(np.abs(forces).sum()))
 
     def _motion(self, v: Array, omega: Array) -> Motion:
         down = self.said.gravity / (np.linalg.norm(self.said.gravity) or 1.0)

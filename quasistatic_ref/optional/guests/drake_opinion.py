@@ -148,6 +148,7 @@ def words(drake: ModuleType, plant: MultibodyPlant) -> Words:
         stronger="proximity properties: coulomb_friction, or what presses the bodies together",
         spins="geometries: more points of contact; Drake's have no torsional friction",
         rests="what Drake has and a step has not: the damping of joints, gains of controllers",
+        stiffer="proximity properties: point_contact_stiffness, or bodies that are lighter",
         apart="poses of bodies, or a collision filter for bodies that may overlap",
     )
 
@@ -257,6 +258,7 @@ def touches(
         n = np.cross(first[0], first[1])
         yield Touch(
             name=nearest.pair,
+            pair=nearest.pair,
             bodies=(called(plant, nearest.bodies[0]), called(plant, nearest.bodies[1])),
             depth=max(0.0, -nearest.phi),
             mu_v=nearest.mu_v,

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
-from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PRESSES
+from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PIERCES, PRESSES
 
 
 class Words(NamedTuple):
@@ -30,6 +30,8 @@ class Words(NamedTuple):
         The options of friction, and of torsional friction.
     rests : str
         What lets a body rest, which a step has not.
+    stiffer : str
+        What keeps loads from pressing bodies into each other.
     apart : str
         What keeps bodies from overlapping.
     """
@@ -40,6 +42,7 @@ class Words(NamedTuple):
     stronger: str
     spins: str
     rests: str
+    stiffer: str
     apart: str
 
 
@@ -102,8 +105,43 @@ def findings(
     for two in dict.fromkeys(c.bodies for c in contacts):
         between = [c for c in contacts if c.bodies == two]
         both = [by_name[name] for name in two if name in by_name]
-        if all(body.rests or body.steady for body in both):
-            yield from _penetration(between, _mover(between[0], by_name), reasons, weight, words)
+        body = _mover(between[0], by_name)
+        least = min(one.size for one in both)
+        depth = max(c.depth for c in between)
+        if depth > PIERCES * least:
+            yield _inside(between, body, depth, least, words)
+        elif all(one.rests or one.steady for one in both) and (
+            depth > DEEP or not _borne(contacts, both)
+        ):
+            yield from _penetration(between, body, reasons, weight, words)
+
+
+def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
+    """Whether the engine's forces balance the loads of some bodies inside their cones."""
+    names = {body.name for body in bodies}
+    shares = [c.theirs.share for c in contacts if names & {*c.bodies} and c.theirs.normal > 0]
+    inside = max(shares, default=0.0) <= 1 + FORCES_AGREE
+    return inside and all(body.balanced for body in bodies)
+
+
+def not_unique(
+    contacts: Sequence[Contact], bodies: Sequence[Body], weight: float, words: Words
+) -> Iterator[str]:
+    """Which normal forces of an engine are others than the exact ones, and balance the loads.
+
+    `weight` is that of the whole model [N].
+    """
+    by_name = {body.name: body for body in bodies}
+    for two in dict.fromkeys(c.bodies for c in contacts):
+        between = [c for c in contacts if c.bodies == two]
+        both = [by_name[name] for name in two if name in by_name]
+        theirs = sum(c.theirs.normal for c in between)
+        more = abs(theirs - sum(c.exact.normal for c in between if c.exact))
+        rest = all(body.rests for body in both)
+        if rest and more > FORCES_AGREE * max(theirs, weight) and _borne(contacts, both):
+            pairs = " and ".join(dict.fromkeys(c.pair for c in between))
+            alike = f"{words.engine}'s balance the loads inside the cones, as the exact ones do"
+            yield f"{pairs}: forces are not unique; {alike}"
 
 
 def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
@@ -118,7 +156,8 @@ def _motion(
     """What contacts let a body do."""
     moved = [c for c in own if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
-    creeps = [c for c in own if c.theirs.share < INSIDE_CONE and _creep(c, body) > tolerance]
+    yielding = {c.pair for c in own if _creep(c, body) > tolerance}
+    creeps = [c for c in own if c.pair in yielding and _share(own, c.pair) < INSIDE_CONE]
     rests = body.fastest(body.theirs) <= tolerance
     if slides:
         yield _slides(body, slides, words)
@@ -135,6 +174,13 @@ def _motion_of(side: Bearing, body: Body) -> float:
     return max(side.slip, side.spin * body.size) if side.normal > 0 else 0.0
 
 
+def _share(own: Sequence[Contact], pair: str) -> float:
+    """Of what the contacts of a pair could bear together, the share that the engine's do [-]."""
+    sides = [c.theirs for c in own if c.pair == pair and c.theirs.normal > 0]
+    normal = sum(side.normal for side in sides)
+    return sum(side.share * side.normal for side in sides) / normal if normal else 0.0
+
+
 def _creep(contact: Contact, body: Body) -> float:
     """The engine's motion of a contact that friction resists [m/s]."""
     slip = contact.theirs.slip if contact.mu_v else 0.0
@@ -143,7 +189,10 @@ def _creep(contact: Contact, body: Body) -> float:
 
 
 def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Finding:
-    speed, unit, creeps = _fast(body, body.size * body.theirs.turn > body.theirs.speed)
+    speed, unit, creeps = _fast(body, True)
+    slip = max(c.theirs.slip for c in through)
+    if body.size * body.theirs.turn <= slip:
+        speed, unit, creeps = slip, "m/s", f"{body.name} slips by {1e3 * slip:.3g} mm/s"
     bears = f"{body.bears:.3g} N and {body.asked:.3g} N is"
     if any(c.mu_omega and c.theirs.spin * body.size > c.theirs.slip for c in through):
         most = sum(c.mu_omega * c.exact.normal for c in through if c.exact)
@@ -206,13 +255,36 @@ def _penetration(
     yield _finding("penetrates", body, between, depth, "m", words.apart, sentence)
 
 
+def _inside(
+    between: Sequence[Contact], body: Body, depth: float, size: float, words: Words
+) -> Finding:
+    """Two bodies that are so deep in each other that they are not rigid."""
+    other = next(name for name in between[0].bodies if name != body.name)
+    share = f"{depth / size:.0%} of the distance from the middle to the farthest point"
+    sentence = (
+        f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, {share} of the smaller one; "
+        "rigid bodies do not"
+    )
+    return _finding("penetrates", body, between, depth, "m", words.stiffer, sentence)
+
+
+def overlapping(
+    name: str, bodies: tuple[str, str], depth: float, when: str, words: Words
+) -> Finding:
+    """The finding about two bodies that overlap by a depth [m], whatever an engine makes of it."""
+    body, other = bodies if bodies[0] != "world" else bodies[::-1]
+    overlap = f"{body} and {other} overlap by {1e3 * depth:.3g} mm {when}"
+    sentence = f"{name}: {overlap} ({words.apart})"
+    return Finding("penetrates", body, (name,), float(depth), "m", words.apart, sentence)
+
+
 def _fast(body: Body, turns: bool) -> tuple[float, str, str]:
     """The engine's motion of a body, or its turning: a number, its unit, and in words."""
     motion = body.theirs
     if turns:
         words = f"{body.name} turns by {np.degrees(motion.turn):.3g} degrees/s"
         return motion.turn, "rad/s", words
-    verb = "sinks" if motion.sinks > motion.speed / 2 else "creeps"
+    verb = "sinks" if motion.sinks > motion.speed / 2 else "moves"
     return motion.speed, "m/s", f"{body.name} {verb} by {1e3 * motion.speed:.3g} mm/s"
 
 
@@ -222,6 +294,6 @@ def _finding(
 ) -> Finding:  # fmt: skip
     """A finding whose sentence begins with its contacts, each pair once, and ends with a remedy."""
     names = tuple(c.name for c in through)
-    pairs = dict.fromkeys(name.rpartition(": ")[2] for name in names)
+    pairs = dict.fromkeys(c.pair for c in through)
     whole = f"{' and '.join(pairs)}: {sentence} ({remedy})"
     return Finding(kind, body.name, names, float(number), unit, remedy, whole)

@@ -136,6 +136,19 @@ def mujoco_step(
     >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
     np.float64(2.943)
     """
+    return step_with(model, data, h, depth, np.zeros(model.nv))
+
+
+def step_with(
+    model: MjModel, data: MjData, h: float, depth: str, drag: Array
+) -> tuple[StepData, Coordinates]:
+    """The step of :func:`mujoco_step` under a further load, `drag` (nv,) [N, N m].
+
+    Raises
+    ------
+    InputError, ModelError
+        As of :func:`mujoco_step`.
+    """
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
     if not model.nv:
@@ -157,7 +170,7 @@ def mujoco_step(
     held = ties.equalities(state, tied, scale, as_is)
     limits, free_limits = ties.limits(state, scale, held.basis, as_is)
     contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
-    forces = T.T @ of_state.others, T.T @ of_state.of_springs
+    forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
     extra = ties.together(limits, held.rows)
     step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (

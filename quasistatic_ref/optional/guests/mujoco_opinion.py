@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from functools import partial
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,11 +11,12 @@ import numpy as np
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, Mover, Said, Touch
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import Words
-from quasistatic_ref.optional.guests.mujoco import mujoco_step
+from quasistatic_ref.optional.guests.findings import Words, overlapping
+from quasistatic_ref.optional.guests.mujoco import Coordinates, step_with
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
-from quasistatic_ref.optional.guests.settled import velocities
-from quasistatic_ref.optional.guests.still import Still, still
+from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
+from quasistatic_ref.optional.guests.settled import run, velocities
+from quasistatic_ref.optional.guests.still import Still, awake, still
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CREEP
 
@@ -23,7 +24,14 @@ if TYPE_CHECKING:
     from mujoco import MjContact, MjData, MjModel
 
 
-def second_opinion(model: MjModel, data: MjData, tolerance: float = CREEP) -> Opinion:
+DRAG = "dampers: their forces at the present velocity are loads"
+EDGES = "in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
+"""It keeps the sum of each pair of opposite edges."""
+
+
+def second_opinion(
+    model: MjModel, data: MjData, tolerance: float = CREEP, start: MjData | None = None
+) -> Opinion:
     """What MuJoCo says of the contacts of a state, and what rigid bodies with that friction do.
 
     Parameters
@@ -33,6 +41,9 @@ def second_opinion(model: MjModel, data: MjData, tolerance: float = CREEP) -> Op
         Neither is changed. A state that has settled says most.
     tolerance : float
         Speed up to which a contact holds [m/s].
+    start : mujoco.MjData, optional
+        The state that it has settled from: bodies that begin in each other are found there, since
+        MuJoCo throws them apart.
 
     Returns
     -------
@@ -59,9 +70,15 @@ def second_opinion(model: MjModel, data: MjData, tolerance: float = CREEP) -> Op
     """
     state = still(model, data)
     state.run()
+    active = awake(model)
     now = copy.copy(data)
-    state.mujoco.mj_forward(model, now)
-    mean, later = velocities(model, now, WINDOW)
+    state.mujoco.mj_forward(active, now)
+    moves = copy.copy(now)
+    if data.ntree_awake < model.ntree:  # what has slept moves as before after a while
+        run(active, moves, WINDOW)
+    mean, later = velocities(active, moves, WINDOW)
+    rest = state.data
+    drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
     said = Said(
         touches=tuple(_touch(state, now, name, touch) for name, touch in touches.found(state)),
         movers=tuple(_mover(state, b) for b in np.unique(model.body_weldid).tolist() if b),
@@ -77,22 +94,41 @@ def second_opinion(model: MjModel, data: MjData, tolerance: float = CREEP) -> Op
         """What keeps deep contacts where they are."""
         return {name: reason for name, _, reason in touches.deep(state, step)}
 
-    step_of = partial(mujoco_step, model, data)
+    def step_of(h: float) -> tuple[StepData, Coordinates]:
+        """The step of the state under what its dampers bear at its velocity."""
+        step, coordinates = step_with(model, data, h, "closed", drag)
+        left_out = (*coordinates.left_out, *([DRAG] if drag.any() else []))
+        return step, replace(coordinates, left_out=left_out)
+
     weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
-    return opinion_of(
-        said, step_of, float(model.opt.timestep), tolerance, _words(model), weight, reasons
-    )
+    words = _words(model)
+    deep = [(one, "now, without a contact of MuJoCo's") for one in unlisted(state)]
+    if start is not None:
+        first = still(model, start)
+        first.run()
+        deep += [(one, "at the start") for one in misplaced(first)]
+    overlaps = [
+        overlapping(one.name, (_body(state, one.geoms[0]), _body(state, one.geoms[1])), one.depth,
+                    when, words)
+        for one, when in deep
+    ]  # fmt: skip
+    h = float(model.opt.timestep)
+    return opinion_of(said, step_of, h, tolerance, words, weight, reasons, overlaps)
 
 
 def _words(model: MjModel) -> Words:
+    above = f"impratio above {model.opt.impratio:g}"
+    slower = f"option: {above}, or noslip_iterations"
+    if not model.opt.cone:
+        slower = f'option: cone="elliptic" first, then {above} and noslip_iterations; {EDGES}'
     return Words(
         engine="MuJoCo",
         yields="MuJoCo documents that its friction yields to any force",
-        slower=f'option: cone="elliptic" with impratio above {model.opt.impratio:g}, '
-        "or noslip_iterations",
+        slower=slower,
         stronger="geom: friction, or what presses the bodies together",
         spins="geom: condim 4 and the second number of friction",
-        rests="what MuJoCo has and a step has not: rolling friction, the damping of joints",
+        rests="what MuJoCo has and a step has not: rolling friction",
+        stiffer="geom: solref and solimp, or masses that differ less",
         apart="geom or body: size and pos, or contact/exclude for bodies that may overlap",
     )
 
@@ -101,8 +137,9 @@ def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
     """A contact of MuJoCo's, with the force that it has in the state itself."""
     return Touch(
         name=name,
+        pair=name.partition(": ")[2],
         bodies=(_body(state, touch.geom[0]), _body(state, touch.geom[1])),
-        depth=-touches.gap(touch),
+        depth=max(0.0, -touches.gap(touch)),
         mu_v=float(touch.friction[0]) if touch.dim > 1 else 0.0,
         mu_omega=float(touch.friction[2]) if touch.dim > 3 else 0.0,
         of_step=(name,),

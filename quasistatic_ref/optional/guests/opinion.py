@@ -12,7 +12,12 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, Said
-from quasistatic_ref.optional.guests.findings import Finding, Words, findings
+from quasistatic_ref.optional.guests.findings import (
+    Finding,
+    Words,
+    findings,
+    not_unique,
+)
 from quasistatic_ref.optional.guests.mujoco import Coordinates
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
@@ -125,6 +130,7 @@ def opinion_of(
     words: Words,
     weight: float,
     reasons: Callable[[StepData], Mapping[str, str]],
+    overlaps: Sequence[Finding] = (),
 ) -> Opinion:
     """The exact answer next to an engine's, and what is found.
 
@@ -142,6 +148,8 @@ def opinion_of(
         Of the whole model [N].
     reasons : callable
         What keeps deep contacts of the step where they are.
+    overlaps : sequence of Finding
+        About bodies in each other that contacts do not tell.
 
     Raises
     ------
@@ -162,6 +170,10 @@ def opinion_of(
         both = Compared(said, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    found = tuple(findings(contacts, bodies, reasons(step), weight, tolerance, words))
+    every = (
+        *findings(contacts, bodies, reasons(step), weight, tolerance, words),
+        *overlaps,
+    )
+    left_out = (*not_unique(contacts, bodies, weight, words), *coordinates.left_out)
     kind = answer.certificate.kind
-    return Opinion(words.engine, h, tolerance, kind, contacts, bodies, found, coordinates.left_out)
+    return Opinion(words.engine, h, tolerance, kind, contacts, bodies, every, left_out)

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 ALL = 1e6
 """Gap at which MuJoCo's filters alone decide what may touch [m]."""
+KINDS_OF_GEOMS = ("PLANE", "SPHERE", "CAPSULE", "CYLINDER", "BOX", "ELLIPSOID", "MESH")
+"""Kinds of geoms that have a shape of this package."""
 ONE, TWO = ("SPHERE", "ELLIPSOID"), ("CAPSULE",)
 MANY, BOXES = 4, 8
 """Places of a pair: one of what is round, two of a capsule, and of two boxes as many as a face cut
@@ -85,13 +87,13 @@ class Places:
             gaps += share * margin
 
     def _pair(self, state: Still, touch: MjContact, a: int, b: int) -> ContactPair:
-        sides = [self.shapes.setdefault(g, _placed(state, g)) for g in (a, b)]
+        sides = [self.shapes.setdefault(g, placed(state, g)) for g in (a, b)]
         mu = touch.friction
         name = f"{_tree(state, a)}-{_tree(state, b)}({sides[0].name}, {sides[1].name})"
         if touch.dim > 1 and mu[0] != mu[1]:
             problem = "differs in its two directions, for which there is no cone; use one for both"
             raise ModelError(problem, field=f"contact[{name}].friction", value=mu[:2].tolist())
-        kinds = {_kind(state, g) for g in (a, b)}
+        kinds = {geom_kind(state, g) for g in (a, b)}
         k = BOXES if kinds == {"BOX"} else MANY
         k = 1 if kinds & {*ONE} else 2 if kinds & {*TWO} else k
         return ContactPair(
@@ -187,7 +189,7 @@ def _tree(state: Still, g: int) -> str:
     return state.called("body", model.body_rootid[body]) if model.body_weldid[body] else "world"
 
 
-def _placed(state: Still, g: int) -> PlacedShape:
+def placed(state: Still, g: int) -> PlacedShape:
     """A geom in the frame of its body, or in the world if that never moves."""
     model, data = state.model, state.data
     body = int(model.geom_bodyid[g])
@@ -201,7 +203,7 @@ def _placed(state: Still, g: int) -> PlacedShape:
     return PlacedShape(name, body, turn.reshape(3, 3), model.geom_pos[g].copy(), _shape(state, g))
 
 
-def _kind(state: Still, g: int) -> str:
+def geom_kind(state: Still, g: int) -> str:
     """The kind of a geom, such as ``"BOX"``."""
     kind = state.mujoco.mjtGeom(int(state.model.geom_type[g]))
     return str(kind.name).removeprefix("mjGEOM_")
@@ -210,7 +212,7 @@ def _kind(state: Still, g: int) -> str:
 def _shape(state: Still, g: int) -> Shape:
     model = state.model
     size: Array = model.geom_size[g]
-    kind = _kind(state, g)
+    kind = geom_kind(state, g)
     if kind == "PLANE":
         return HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
     if kind == "SPHERE":

@@ -11,6 +11,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.optional.guests.still import check_finite
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 
@@ -47,9 +48,9 @@ def settled(
     Raises
     ------
     InputError
-        If there is no such keyframe or actuator, or the time is negative.
+        If there is no such keyframe or actuator, a control is not finite, or the time is negative.
     ModelError
-        If the simulation is unstable.
+        If the state is not finite, or the simulation is unstable.
     """
     mujoco = needed_package("mujoco", "engines", "settled")
     data = mujoco.MjData(model)
@@ -58,7 +59,10 @@ def settled(
     if keyframe is not None:
         mujoco.mj_resetDataKeyframe(model, data, numbered(mujoco, model, "KEY", keyframe))
     for name, value in (control or {}).items():
+        if not np.isfinite(value):
+            raise InputError("must be a finite number", field=f"control.{name}", value=value)
         data.ctrl[numbered(mujoco, model, "ACTUATOR", name)] = value
+    check_finite(data)
     run(model, data, seconds)
     return data
 

@@ -21,6 +21,10 @@ STAGES = ("mj_fwdPosition", "mj_fwdVelocity", "mj_fwdActuation", "mj_fwdAccelera
 """The stages of ``mj_forward`` before its solver."""
 FAR = 1e6
 """Margins of limits in the copy [m, rad]: all limits are rows."""
+STATE = (
+    "qpos", "qvel", "act", "ctrl", "qfrc_applied", "xfrc_applied", "mocap_pos", "mocap_quat",
+)  # fmt: skip
+"""What a user may set of a state."""
 FULL = ("mjWARN_CONTACTFULL", "mjWARN_CNSTRFULL")
 
 
@@ -138,13 +142,35 @@ class Still:
         return dense
 
 
+def awake(model: MjModel) -> MjModel:
+    """A copy of a model in which nothing sleeps: what does has no contacts and does not move."""
+    mujoco = needed_package("mujoco", "engines", "mujoco_step")
+    own = copy.copy(model)
+    own.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    return own
+
+
+def check_finite(data: MjData) -> None:
+    """Refuse a state that is not of finite numbers.
+
+    Raises
+    ------
+    ModelError
+        Naming the field of ``MjData``.
+    """
+    for name in STATE:
+        if not np.isfinite(getattr(data, name)).all():
+            raise ModelError("must contain finite numbers only", field=f"data.{name}")
+
+
 def still(model: MjModel, data: MjData) -> Still:
     """Copies of a model and of its state at zero velocity, before ``run``."""
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
-    own = copy.copy(model)
+    check_finite(data)
+    own = awake(model)
     own.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     own.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
-    for flag in ("SLEEP", "IPC", "SPECULATIVE"):  # what sleeps would have no contacts
+    for flag in ("IPC", "SPECULATIVE"):
         own.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, f"mjENBL_{flag}"))
     own.jnt_margin[:] = own.tendon_margin[:] = FAR  # a step may reach limits that are not near
     at_rest = copy.copy(data)

@@ -59,6 +59,9 @@ def contacts(
 ) -> tuple[Contacts, tuple[str, ...]]:
     """The contacts of a state; gaps below zero count as zero unless `as_is`.
 
+    So do gaps of up to ``DEEP`` of a contact with adhesion: MuJoCo lets such a contact rest a
+    little off the surface.
+
     A contact is left out where only rounding is left of its normal row: where its joints and the
     equalities hold its bodies along the normal, they bear any force, and its friction has no bound.
 
@@ -94,13 +97,14 @@ def contacts(
     friction = np.array([touch.friction for touch in touches]).reshape(-1, 5)
     condim = np.array([touch.dim for touch in touches], dtype=np.int64)
     phi = np.array([gap(touch) for touch in touches])
+    sticks = np.array([touch.adhesion > 0 for touch in touches], dtype=bool) & (phi <= DEEP)
     for called, mu, dim in zip(names, friction, condim, strict=True):
         if dim > 1 and mu[0] != mu[1]:
             problem = "differs in its two directions, for which there is no cone; use one for both"
             raise ModelError(problem, field=f"contact[{called}].friction", value=mu[:2].tolist())
     at_rest = Contacts(
         name=names,
-        phi=phi if as_is else np.maximum(phi, 0.0),
+        phi=phi if as_is else np.where(sticks, 0.0, np.maximum(phi, 0.0)),
         n=frames[:, 0],
         d1=frames[:, 1],
         d2=frames[:, 2],

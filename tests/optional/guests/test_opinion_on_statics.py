@@ -1,0 +1,221 @@
+"""Opinions on states of MuJoCo that statics decides by hand: nothing is accused that is right."""
+
+import mujoco
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.optional.guests.settled import settled
+from tests.helpers import one_sentence
+
+GRAVITY = 9.81
+FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
+BOX = '<geom name="box" type="box" size=".1 .1 .1" mass="1"/>'
+UP = '<joint name="up" type="slide" axis="0 0 1"'
+FREE = '<body name="b" pos="0 0 .1"><freejoint/>'
+
+
+def scene(world, more="", options=""):
+    """MJCF text."""
+    return f"<mujoco>{options}<worldbody>{world}</worldbody>{more}</mujoco>"
+
+
+def opinion(text, seconds=2.0, keyframe=None):
+    """The opinion on a scene that has settled, which knows where it started."""
+    model = mujoco.MjModel.from_xml_string(text)
+    start = settled(model, 0.0, keyframe)
+    return qr.second_opinion(model, settled(model, seconds, keyframe), start=start)
+
+
+def groove(angle, mu):
+    """A ball of 1 kg in a groove of two planes."""
+    planes = "".join(
+        f'<geom name="side{k}" type="plane" size="5 5 1" euler="0 {k * angle} 0"/>' for k in (-1, 1)
+    )
+    height = 0.0999 / np.cos(np.radians(angle))
+    ball = f'<body name="ball" pos="0 0 {height}"><freejoint/><geom size=".1" mass="1"/></body>'
+    options = f'<default><geom friction="{mu}"/></default>'
+    return scene(planes + ball, options=options)
+
+
+SHARED = {
+    "a groove of 60 degrees": groove(60, 0.6),
+    "a groove of 45 degrees": groove(45, 1.0),
+    "a groove of 30 degrees": groove(30, 0.5),
+    "a weld": scene(
+        f"{FLOOR}{FREE}{BOX}</body>", '<equality><weld body1="b" body2="world"/></equality>'
+    ),
+    "a connect": scene(
+        f"{FLOOR}{FREE}{BOX}</body>",
+        '<equality><connect body1="b" body2="world" anchor="0 0 0"/></equality>',
+    ),
+    "friction of a joint": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP} frictionloss="9"/>{BOX}</body>'
+    ),
+    "the limit of a joint": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP} limited="true" range="-.00001 1"/>{BOX}</body>'
+    ),
+    "the limit of a tendon": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP}/>{BOX}</body>',
+        '<tendon><fixed limited="true" range="-.00001 1"><joint joint="up" coef="1"/></fixed>'
+        "</tendon>",
+    ),
+    "friction of a tendon": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP}/>{BOX}</body>',
+        '<tendon><fixed frictionloss="9"><joint joint="up" coef="1"/></fixed></tendon>',
+    ),
+}
+
+
+@pytest.mark.parametrize("shared", SHARED)
+def test_a_load_that_is_shared_accuses_nobody(shared):
+    """All bodies rest, and MuJoCo's forces balance the weight inside the cones."""
+    found = opinion(SHARED[shared])
+    assert found.findings == ()
+    assert all(body.balanced and body.rests for body in found.bodies)
+    more = sum(c.theirs.normal - (c.exact.normal if c.exact else 0.0) for c in found.contacts)
+    told = any("not unique" in sentence for sentence in found.left_out)
+    assert told == (abs(more) > 0.01 * GRAVITY)
+
+
+LIFT = '<geom name="plate" type="box" size=".3 .3 .02" mass="5"/>'
+CARRIED = {
+    "a damper": ('damping="2e5"', ""),
+    "a velocity servo": ("", '<actuator><velocity joint="up" kv="2e5"/></actuator>'),
+    "a damped servo": ("", '<actuator><general joint="up" biastype="affine" '
+                       'biasprm="0 0 -2e5"/></actuator>'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("by", CARRIED)
+def test_what_a_damper_bears_is_a_load(by):
+    """A plate that sinks at a steady speed carries a box: 9.81 N in both answers."""
+    joint, more = CARRIED[by]
+    lift = f'<body name="lift">{UP} {joint}/>{LIFT}</body>'
+    box = f'<body name="b" pos="0 0 .12"><freejoint/>{BOX}</body>'
+    found = opinion(scene(lift + box, more, '<option integrator="implicitfast"/>'))
+    assert found.findings == ()
+    assert sum(c.exact.normal for c in found.contacts) == pytest.approx(GRAVITY, rel=0.01)
+    assert any("dampers" in sentence for sentence in found.left_out)
+
+
+def test_adhesion_that_holds_presses_with_what_is_left_of_it():
+    ceiling = '<geom name="ceiling" type="box" size="1 1 .1" pos="0 0 .3"/>'
+    ball = '<geom name="ball" size=".1" mass="1" adhesion="12" gap=".01"/>'
+    found = opinion(scene(f"{ceiling}{FREE}{ball}</body>"))
+    assert found.findings == ()
+    (contact,) = found.contacts
+    assert contact.depth == 0.0
+    assert contact.exact.normal == pytest.approx(12 - GRAVITY, rel=1e-6)
+    assert contact.theirs.normal == pytest.approx(12 - GRAVITY, rel=1e-3)
+
+
+SLOPE = '<option gravity="-2.539 0 -9.4757" {}>{}</option>'  # 15 degrees
+ON_SLOPE = f"{FLOOR}{FREE}{BOX}</body>".replace("size", 'friction="0.5" size')
+
+
+def test_what_sleeps_is_looked_at_as_if_awake():
+    """It creeps by 0.97 mm/s, as the same block does that may not sleep."""
+    asleep = SLOPE.format("", '<flag sleep="enable"/>')
+    speeds = [
+        opinion(scene(ON_SLOPE, options=options)).findings[0].number
+        for options in (asleep, SLOPE.format("", ""))
+    ]
+    assert speeds == pytest.approx([0.97e-3] * 2, rel=0.02)
+
+
+@pytest.mark.parametrize("iterations", [0, 10])
+def test_in_the_pyramid_the_elliptic_cone_is_named_first(iterations):
+    options = SLOPE.format(f'noslip_iterations="{iterations}"', "")
+    found = opinion(scene(ON_SLOPE, options=options))
+    (creep,) = found.findings
+    assert creep.remedy.startswith('option: cone="elliptic" first')
+    assert len(creep.contacts) == len(found.contacts) == 4
+    elliptic = SLOPE.format('cone="elliptic" noslip_iterations="10" impratio="10"', "")
+    assert opinion(scene(ON_SLOPE, options=elliptic)).findings == ()
+
+
+def test_the_number_of_a_creep_is_its_slip():
+    """A block on a soft floor sinks at 41 mm/s, and slips at that of its joint along the floor."""
+    soft = 'solref="1 1"'
+    floor = f'<geom name="floor" type="plane" size="1 1 .1" {soft}/>'
+    joints = '<joint name="x" type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    box = BOX.replace("/>", f" {soft}/>")
+    more = '<actuator><motor joint="x" name="push"/></actuator>'
+    more += '<keyframe><key name="k" ctrl="3"/></keyframe>'
+    options = '<option cone="elliptic" impratio="100000"/>'
+    text = scene(f'{floor}<body name="b" pos="0 0 .1">{joints}{box}</body>', more, options)
+    (creep,) = opinion(text, 0.3, "k").findings
+    model = mujoco.MjModel.from_xml_string(text)
+    assert creep.number == pytest.approx(settled(model, 0.3, "k").qvel[0])
+    assert creep.number == pytest.approx(3.2e-3, rel=0.01)
+
+
+def stack(light, heavy):
+    """A box on another."""
+    one = f'<geom name="light" type="box" size=".1 .1 .1" mass="{light}"/>'
+    two = f'<geom name="heavy" type="box" size=".1 .1 .1" mass="{heavy}"/>'
+    above = '<body name="c" pos="0 0 .3"><freejoint/>'
+    return scene(f"{FLOOR}{FREE}{one}</body>{above}{two}</body>")
+
+
+def test_bodies_that_a_load_presses_into_each_other_are_found():
+    found = opinion(stack(1, 1000))
+    assert [one.kind for one in found.findings] == ["penetrates"] * 2
+    assert [one.number for one in found.findings] == pytest.approx([0.048] * 2, rel=0.05)
+    assert opinion(stack(1, 10)).findings == ()
+
+
+@pytest.mark.parametrize("shape", ["box", "sphere", "cylinder", "capsule", "ellipsoid"])
+def test_bodies_at_one_place_are_found_at_the_start(shape):
+    """Twice the half size of 100 mm, whatever MuJoCo makes of them."""
+    geom = f'type="{shape}" size=".1 .1 .1" mass="1"'
+    bodies = "".join(
+        f'<body name="{name}" pos="0 0 .5"><freejoint/><geom name="{name}" {geom}/></body>'
+        for name in ("one", "two")
+    )
+    found = opinion(scene(FLOOR + bodies)).findings
+    (start,) = [one for one in found if "at the start" in one.sentence]
+    assert (start.kind, start.contacts) == ("penetrates", ("one/two",))
+    assert start.number == pytest.approx(0.2, rel=1e-6)
+
+
+def test_bodies_that_may_overlap_are_not_found():
+    """By MuJoCo's own filters: excluded, of other groups of contacts, or one the other's parent."""
+    body = '<body name="{}" pos="0 0 .1"><freejoint/><geom type="box" size=".1 .1 .1" {}/></body>'
+    two = body.format("b", "") + body.format("c", 'contype="2" conaffinity="2"')
+    assert opinion(scene(two), 0.0).findings == ()
+    two = body.format("b", "") + body.format("c", "")
+    exclude = '<contact><exclude body1="b" body2="c"/></contact>'
+    assert opinion(scene(two, exclude), 0.0).findings == ()
+
+
+def test_names_with_colons_stay_whole():
+    floor = FLOOR.replace('"floor"', '"the: floor"')
+    box = BOX.replace('name="box"', 'name="a: box"')
+    (creep,) = opinion(scene(f"{floor}{FREE}{box}</body>", options=SLOPE.format("", ""))).findings
+    assert creep.sentence.startswith("the: floor/a: box: b slips")
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e400"])
+def test_a_control_that_is_no_number_is_refused(value, tmp_path, cli):
+    path = tmp_path / "scene.xml"
+    motor = '<actuator><motor name="v" joint="up"/></actuator>'
+    path.write_text(scene(f'{FLOOR}<body pos="0 0 .1">{UP}/>{BOX}</body>', motor))
+    refused = one_sentence(cli("opinion", path, "--control", f"v={value}", status=2).err)
+    assert "--control v: must be a finite number" in refused
+    model = mujoco.MjModel.from_xml_path(str(path))
+    with pytest.raises(qr.InputError, match="control"):
+        settled(model, 0.1, control={"v": float(value)})
+
+
+@pytest.mark.parametrize("field", ["qpos", "qvel", "ctrl", "xfrc_applied"])
+def test_a_state_that_is_not_finite_is_named(field):
+    motor = '<actuator><motor name="v" joint="up"/></actuator>'
+    text = scene(f'{FLOOR}<body pos="0 0 .1">{UP}/>{BOX}</body>', motor)
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    getattr(data, field).flat[-1] = np.nan
+    for ask in (qr.second_opinion, lambda *of: qr.mujoco_step(*of, h=0.01)):
+        with pytest.raises(qr.ModelError, match=rf"data\.{field}: must contain finite numbers"):
+            ask(model, data)
