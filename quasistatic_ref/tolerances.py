@@ -162,9 +162,19 @@ which its answer is taken at once [-]. What is right to rounding is at 1e-12 and
 REPEATED: Final = 1e-9
 """Largest difference of distance [m], point [m] and normal [-] of candidates that are one contact.
 
-Where as many corners are wanted as are that near to the closest pair, it is kept after them.
-
 Computed twice, one contact differs by 1e-16, or 3e-9 at worst between nearly parallel edges."""
+
+RANKED: Final = 1e-9
+"""Fraction of the size of a pair's smaller shape to whose nearest multiple distances are rounded
+before contacts rank by them [-].
+
+Distances of what lies still change by some 1e-17 m from step to step, by 1e-16 of places; a contact
+that is left out for another of the same rank is at most that much nearer."""
+
+SPANNED: Final = 1e-6
+"""How far out of the convex hull of other contacts a closest pair may be, relative to the smaller
+shape [-], for its rows to follow from theirs: on surfaces that are nearly parallel closest points
+are not known better."""
 
 FACING: Final = 0.25
 """Angle [rad] between a face and the face that it can lie on after a step: a step that turns by

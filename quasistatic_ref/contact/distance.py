@@ -1,14 +1,21 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
-A cloud on a solid: the k closest points of the cloud are the contacts.
+Contacts rank by their signed distances, rounded to the nearest multiple of the pair's
+:attr:`~quasistatic_ref.contact.pairs.ContactPair.resolution`; among equal ones the lower number
+comes first. They are listed in that order. What lies still on a face keeps its contacts and their
+order, though its distances change in the last bit from step to step. The distances themselves are
+not rounded.
+
+A cloud on a solid: the k points of the cloud that rank first are the contacts.
 
 Two solids:
 
-- The candidates are alpha's corners on beta, beta's corners on alpha, crossings of their edges and
-  the closest pair, in that order. Those whose normal is not about the pair's are left out.
-- The k candidates with the smallest signed distances are the contacts. Three kinds rank after all
-  others: candidates that repeat an earlier one; the closest pair if k others are as near; and
-  crossings if k corners are.
+- The candidates are alpha's corners on beta, beta's corners on alpha, the closest pair and
+  crossings of their edges, numbered in that order. Those whose normal is not about the pair's are
+  left out. So is the closest pair where it is in the convex hull of others that are as near and
+  have its normal: its rows follow from theirs.
+- The k candidates that rank first are the contacts. Candidates that repeat an earlier one rank
+  after all others.
 - No candidate is nearer than the closest pair, so k = 1 keeps that one alone.
 - Where fewer than k candidates are left, the number is filled with copies of the closest pair at
   the distance ``FILLED``, or twice its own if that is more: their rows are its own, only farther,
@@ -31,8 +38,15 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.ordered import dot, norm, product, rotated
-from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
+from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
+from quasistatic_ref.tolerances import (
+    FILLED,
+    ON_RIM,
+    REPEATED,
+    SAME_NORMAL,
+    SPANNED,
+    UPRIGHT,
+)
 
 
 class ClosestPoints(NamedTuple):
@@ -75,7 +89,8 @@ class Search(NamedTuple):
     Parameters
     ----------
     rank : ndarray, shape (N,)
-        Signed distances by which they are chosen, infinite of those that rank last [m].
+        Signed distances by which they are chosen, not yet rounded; infinite of those that rank
+        last [m].
     number : ndarray of int, shape (N,)
         Their :attr:`ClosestPoints.point`.
     nearest, candidates : ClosestPoints
@@ -89,7 +104,7 @@ class Search(NamedTuple):
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
-    """The contacts of all pairs, in order, each pair's in ascending distance, by brute force.
+    """The contacts of all pairs, in order, each pair's as they rank, by brute force.
 
     :class:`~quasistatic_ref.optional.fast.compiled.pairs.Pairs` gives the same bits sooner.
 
@@ -122,7 +137,7 @@ def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
-    """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'.
+    """The contacts of one pair, as they rank; R (L, 3, 3), t (L, 3) are the links'.
 
     In C: closest.c, solids.c.
     """
@@ -135,9 +150,8 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     if pair.n_c == 1:
         return nearest
     found = search(pair, a, b, nearest)
-    candidates = found.candidates
-    order = closest(found.rank, pair.k)
-    kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
+    order = closest(rounded_gaps(found.rank, pair.resolution), pair.k)
+    kept = found.candidates.chosen(order)
     beyond = np.maximum(FILLED, 2 * nearest.phi)
     far = nearest._replace(phi=beyond, tie=np.array([OWN]))
     missing = np.arange(pair.n_c - len(order))
@@ -163,8 +177,28 @@ def search(
         return Search(solid.shape.signed_distance(x)[0], np.arange(len(x)), none, none)
     nearest = nearest_of_solids(pair, a, b) if nearest is None else nearest
     every = every_candidate(pair, a, b, nearest)
-    rank = np.where(ranked_last(every, pair.k), np.inf, every.phi)
+    rank = np.where(repeated(every), np.inf, every.phi)
     return Search(rank, every.point, nearest, every)
+
+
+def rounded_gaps(phi: Array, resolution: float) -> Array:
+    """Signed distances as numbers of the nearest multiple of a length, for ranking.
+
+    Zero is the middle of its multiple: what touches stays there, however rounding moves it.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N,)
+        [m].
+    resolution : float
+        [m]; 0 rounds nothing.
+
+    Returns
+    -------
+    ndarray, shape (N,)
+        [-], or `phi` where nothing is rounded.
+    """
+    return np.rint(phi / resolution) if resolution else phi
 
 
 def closest(phi: Array, k: int) -> Indices:
@@ -199,11 +233,8 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     within : float
         [m].
     """
-    found = search(replace(pair, k=pair.candidates), *in_world(pair, R, t))
-    phi = found.rank
-    if not pair.has_cloud:  # without the closest pair, if a corner is as near
-        phi = found.candidates.phi[~ranked_last(found.candidates, 1)]
-    return int(np.count_nonzero(phi <= phi.min() + within))
+    phi = search(replace(pair, k=pair.candidates), *in_world(pair, R, t)).rank
+    return int(np.count_nonzero(phi <= phi.min() + within + pair.resolution))
 
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
@@ -222,11 +253,12 @@ def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Cl
 def every_candidate(
     pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
 ) -> ClosestPoints:
-    """All candidates: alpha's corners on beta, beta's on alpha, crossings, the closest pair.
+    """All candidates: alpha's corners on beta, beta's on alpha, the closest pair, crossings.
 
     In C: candidates.c.
 
-    Corners whose normal is not about the pair's are none: they cannot bear with it.
+    Corners whose normal is not about the pair's are none: they cannot bear with it. The closest
+    pair is none where others span it.
     """
     n = nearest.n[0]
     corners_a, radius_a = a.shape.corners(_towards(a, nearest.alpha[0], n))
@@ -234,11 +266,46 @@ def every_candidate(
     on_b = _corners_on_solid(b, a, corners_a, radius_a, -n).swapped()
     on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
     on_a = on_a._replace(point=len(corners_a) + on_a.point)
-    every = joined_contacts([on_b, on_a, _crossings(pair, a, b, nearest), nearest])
+    crossing = _crossings(pair, a, b, nearest)
+    others = joined_contacts([on_b, on_a, crossing])
+    alone = [] if spanned(nearest, others, pair) else [nearest]
+    every = joined_contacts([on_b, on_a, *alone, crossing])
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
         every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
     return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
+
+
+def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) -> bool:
+    """Whether a closest pair is in the convex hull of others that are as near and have its normal.
+
+    Contacts of one normal have rows that are affine in their places and distances, so that the rows
+    of the closest pair then follow from the others'. As a contact it would only take the place of a
+    corner: on the middle of an edge that lies on a floor, that of the next corner.
+
+    Points of one plane have x in their hull if no line parts it from them. Of the ways out of x the
+    farthest is towards one of them, or across the line through two.
+
+    Parameters
+    ----------
+    nearest : ClosestPoints
+        One contact.
+    others : ClosestPoints
+        The other candidates.
+    pair : ContactPair
+    """
+    n = nearest.n[0]
+    level = others.phi <= nearest.phi + pair.resolution
+    level &= np.abs(others.n - n).max(axis=1) <= SAME_NORMAL
+    away = others.alpha[level] - nearest.alpha
+    if not len(away):
+        return False
+    between = (away[:, None] - away).reshape(-1, 3)
+    ways = np.concatenate([away, crossed(n[None], between)])
+    length = norm(ways)
+    ways = ways / np.where(length > 0, length, 1.0)[:, None]
+    apart = product(ways, away.T).min(axis=1).max()
+    return bool(apart <= SPANNED * pair.size)
 
 
 def _crossings(
@@ -275,36 +342,21 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     return local if on_rim and norm(way[:2]) > UPRIGHT else way
 
 
-def ranked_last(candidates: ClosestPoints, k: int) -> Mask:
-    """Which candidates rank last, so that rounding does not decide which corners are contacts.
-
-    - Candidates that repeat an earlier one.
-    - The closest pair, if k other candidates are as near. It mostly coincides with a corner. On
-      parallel faces, whose corners are equally near but for rounding, it can be any point between
-      them. Ranked by its distance it would displace one of these corners, and a box on a table
-      would have three corner contacts instead of four.
-    - Crossings, if k corners are as near as the closest pair.
-    """
+def repeated(candidates: ClosestPoints) -> Mask:
+    """Which candidates repeat an earlier one: they rank last."""
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
-    last = np.tril(same, -1).any(axis=1)
-    as_near = ~last & (candidates.phi <= candidates.phi[-1] + REPEATED)
-    last[-1] |= np.count_nonzero(as_near[:-1]) >= k
-    # Candidates are numbered: corners first, then the closest pair, which stands at the end of the
-    # arrays, then crossings.
-    is_corner = candidates.point < candidates.point[-1]
-    last |= ~is_corner & (np.count_nonzero(as_near & is_corner) >= k)
-    return np.asarray(last)
+    return np.asarray(np.tril(same, -1).any(axis=1))
 
 
 def _cloud_on_solid(
     pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> ClosestPoints:
-    """The k closest points of a cloud on a solid."""
+    """The k points of a cloud that rank first on a solid."""
     relative = relative_pose(solid, cloud)
     x = moved(relative, points)
     phi, normal = solid.shape.signed_distance(x)
-    point = closest(phi, pair.k)
+    point = closest(rounded_gaps(phi, pair.resolution), pair.k)
     found = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
     return _contacts(solid, cloud, points[point], 0.0, found)._replace(point=point)
 

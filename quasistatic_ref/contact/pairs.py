@@ -15,6 +15,7 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.tolerances import RANKED
 
 
 @made_by_arguments
@@ -99,6 +100,17 @@ class ContactPair(Plain):
     def has_cloud(self) -> bool:
         """Whether one side is a cloud."""
         return isinstance(self.alpha.shape, PointCloud) or isinstance(self.beta.shape, PointCloud)
+
+    @cached_property
+    def size(self) -> float:
+        """Size of its smaller shape [m], which is no single point; 0 where neither has one."""
+        extents = [side.shape.extent for side in (self.alpha, self.beta)]
+        return min((x for x in extents if 0 < x < np.inf), default=0.0)
+
+    @cached_property
+    def resolution(self) -> float:
+        """Length to whose nearest multiple distances are rounded before they rank [m]."""
+        return RANKED * self.size
 
     @cached_property
     def corners(self) -> int:

@@ -11,7 +11,7 @@ from quasistatic_ref.contact.distance import (
     every_candidate,
     joined_contacts,
     number_within,
-    ranked_last,
+    repeated,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.system import Kinematics
@@ -93,23 +93,9 @@ def candidates_at(phi, x, number):
     return ClosestPoints(phi, alpha, alpha + phi[:, None] * n, n, number, 0 * number)
 
 
-@pytest.mark.parametrize(
-    ("k", "crossing", "nearest"),
-    [(2, True, True), (3, False, True), (4, False, True), (5, False, False)],
-)
-def test_crossings_rank_last_if_k_corners_are_as_near_and_the_closest_pair_if_k_others_are(
-    k, crossing, nearest
-):
-    # Three corners, two of them as near as is rounding; two crossings; the closest pair.
-    phi = np.array([0.5, REPEATED, REPEATED, 0.0, 0.0, 0.0])
-    number = np.array([0, 1, 2, 7, 8, 5])
-    found = ranked_last(candidates_at(phi, np.arange(6.0), number), k)
-    assert found.tolist() == [False] * 3 + [crossing] * 2 + [nearest]
-
-
 def test_a_candidate_that_repeats_an_earlier_one_ranks_last():
     x = np.array([0.0, REPEATED, 3 * REPEATED, 1.0])
-    found = ranked_last(candidates_at(np.zeros(4), x, np.arange(4)), 4)
+    found = repeated(candidates_at(np.zeros(4), x, np.arange(4)))
     assert found.tolist() == [False, True, False, False]
 
 

@@ -17,6 +17,58 @@ FILLED = 1e6
 REPEATED = 1e-9
 """[m], and [-] of normals: candidates that differ by less are one."""
 
+RANKED, SPANNED = 1e-9, 1e-6
+"""Over the smaller shape's size: distances are rounded to multiples of the first before they rank;
+a closest pair may be out of the hull of others by the second."""
+
+SAME_NORMAL = 1e-6
+"""Components of normals that differ by less are one [-]."""
+
+
+def extent(shape):
+    """Longest edge of the box about a shape, along its own axes; of a half-space, infinity."""
+    kind = shape["kind"]
+    if kind == "halfspace":
+        return np.inf
+    if kind == "box":
+        return max(shape["size"])
+    if kind == "ellipsoid":
+        return 2 * max(shape["half_axes"])
+    if kind in ("cloud", "convex"):
+        points = shape["points" if kind == "cloud" else "vertices"]
+        return np.ptp(points, axis=0).max()
+    along = shape.get("length", 0.0) + 2 * shape["radius"] * (kind in ("sphere", "capsule"))
+    return max(2 * shape["radius"], along)
+
+
+def smaller(alpha, beta):
+    """Size of the smaller shape; a single point has none."""
+    return min((x for x in (extent(alpha), extent(beta)) if 0 < x < np.inf), default=0.0)
+
+
+def gaps(phi, smaller_size):
+    """Distances as they rank: which multiple of RANKED of the smaller size is the nearest."""
+    return np.rint(phi / (RANKED * smaller_size)) if smaller_size else phi
+
+
+def is_spanned(phi, alpha, n, smaller_size):
+    """Whether the closest pair, the last, is in the hull of others as near and with its normal.
+
+    Of those, all in one plane, the hull holds it if in no direction all are beyond it. The
+    direction in which they are the farthest beyond it is that of one of them, or across a line
+    through two.
+    """
+    level = phi[:-1] <= phi[-1] + RANKED * smaller_size
+    level &= np.all(np.abs(n[:-1] - n[-1]) <= SAME_NORMAL, axis=1)
+    away = alpha[:-1][level] - alpha[-1]
+    if not len(away):
+        return False
+    across = np.cross(n[-1], (away[:, None] - away).reshape(-1, 3))
+    ways = np.concatenate([away, across])
+    length = np.linalg.norm(ways, axis=1)
+    ways /= np.where(length > 0, length, 1)[:, None]
+    return bool(np.max(np.min(ways @ away.T, axis=1)) <= SPANNED * smaller_size)
+
 
 def selection(case):
     """Layer 2: a stable sort is a tie broken by index; of two solids those about one normal."""
@@ -154,7 +206,9 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
         b = np.insert(b, last, on_b, axis=0)
         n = np.insert(n, last, normal, axis=0)
     about = np.flatnonzero(n @ way >= FACING)
-    late, _ = lateness(phi[about], a[about], n[about], k, REPEATED, np.sum(about < last))
+    if is_spanned(phi[about], a[about], n[about], smaller(alpha, beta)):
+        about = about[:-1]
+    late = repeats(phi[about], a[about], n[about], REPEATED)
     filling = np.arange(max(0, min(k, number) - len(about)))
     kept = np.append(about, 0 * filling + len(phi) - 1)
     phi = np.append(phi[about], 0.0 * filling + FILLED)
@@ -172,27 +226,16 @@ def crossing_index(last, k, i, j):
     return last + np.minimum(k, last + 9) + 2 * (12 * i + j)
 
 
-def lateness(phi, alpha, n, k, repeated, corners=None):
-    """Which candidates of two solids come after all others, and whether k of them will do.
-
-    Late are those that repeat an earlier one; the closest pair, which is the last, where k others
-    are as near; and those behind the corners where k of these are. What differs by no more than
-    `repeated`, of their kind of number, is one. Without `corners`, all but the last are.
-    """
+def repeats(phi, alpha, n, repeated):
+    """Which candidates repeat an earlier one: what differs by no more than `repeated` is one."""
     every = np.column_stack([phi, alpha, n])
     same = np.all(np.abs(every[:, None] - every) <= repeated, axis=2)
-    late = np.tril(same, -1).any(axis=1)
-    level = ~late[:-1] & (phi[:-1] <= phi[-1] + repeated)
-    enough = np.sum(level) >= k
-    late[-1] |= enough
-    if corners is not None:
-        late[corners:-1] |= np.sum(level[:corners]) >= k
-    return late, enough
+    return np.tril(same, -1).any(axis=1)
 
 
-def k_nearest(phi, index, late, k):
-    """The k nearest of the candidates, in the order of their index."""
-    order = np.lexsort((np.arange(len(phi)), phi, late))[:k]
+def k_first(rank, index, late, k):
+    """The k candidates that rank first, late ones last, in the order of their index."""
+    order = np.lexsort((index, rank, late))[:k]
     return order[np.argsort(index[order])]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .candidates import candidates, k_nearest, tangents
+from .candidates import candidates, gaps, k_first, smaller, tangents
 from .forces import forces
 from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
@@ -32,7 +32,8 @@ def contacts_of(case, at):
         phi, a, b, n, index, late = candidates(
             alpha["shape"], pose_in_world(alpha, at), beta["shape"], pose_in_world(beta, at), k
         )
-        for i in k_nearest(phi, index, late, k):
+        rank = gaps(phi, smaller(alpha["shape"], beta["shape"]))
+        for i in k_first(rank, index, late, k):
             d1, d2 = tangents(n[i])
             contact = {"pair": pair["name"], "index": int(index[i])}
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}

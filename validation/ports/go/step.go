@@ -70,23 +70,14 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 		number += 8
 	}
 	found = facing(append(found, closest), closest.N)
-	corners, others := 0, 0
+	if least := smaller(alpha, beta); spanned(found, least) {
+		found = found[:len(found)-1]
+	}
 	for i, c := range found {
 		for _, d := range found[:i] {
 			if math.Abs(c.Phi-d.Phi) <= 1e-9 && norm(sub(c.Alpha, d.Alpha)) <= 1e-9 && norm(sub(c.N, d.N)) <= 1e-9 {
 				found[i].behind = true
 			}
-		}
-		if !found[i].behind && c.Phi <= closest.Phi+1e-9 && c.index != last {
-			others++
-			if c.index < last {
-				corners++
-			}
-		}
-	}
-	for i, c := range found {
-		if c.index == last && others >= k || c.index > last && corners >= k {
-			found[i].behind = true
 		}
 	}
 	far := Candidate{closest.Distance, last, true}
@@ -96,6 +87,82 @@ func candidates(alpha, beta Shape, at, bt Pose, k int) (found []Candidate) {
 		found = append(found, far)
 	}
 	return
+}
+
+// extent is the longest edge of the box about a shape along its axes, smaller that of the smaller one.
+func extent(shape Shape) float64 {
+	points := shape.Points
+	switch shape.Kind {
+	case "halfspace":
+		return math.Inf(1)
+	case "box":
+		return math.Max(shape.Size[0], math.Max(shape.Size[1], shape.Size[2]))
+	case "sphere", "capsule":
+		return shape.Length + 2*shape.Radius
+	case "cylinder":
+		return math.Max(shape.Length, 2*shape.Radius)
+	case "convex":
+		points = shape.Vertices
+	}
+	longest := 0.0
+	for i := 0; i < 3; i++ {
+		low, high := math.Inf(1), math.Inf(-1)
+		for _, x := range points {
+			low, high = math.Min(low, x[i]), math.Max(high, x[i])
+		}
+		longest = math.Max(longest, high-low)
+	}
+	return longest
+}
+
+func smaller(alpha, beta Shape) float64 {
+	least := math.Inf(1)
+	for _, shape := range []Shape{alpha, beta} {
+		if size := extent(shape); size > 0 {
+			least = math.Min(least, size)
+		}
+	}
+	if math.IsInf(least, 1) {
+		return 0
+	}
+	return least
+}
+
+// rank is the number of the multiple of 1e-9 of the smaller size that a distance is next to.
+func rank(phi, least float64) float64 {
+	if least == 0 {
+		return phi
+	}
+	return math.RoundToEven(phi / (1e-9 * least))
+}
+
+// spanned is whether the last one, the closest pair, is in the hull of others as near and of its normal:
+// whether they are not all beyond it towards one of them or across a line through two.
+func spanned(found []Candidate, least float64) bool {
+	last := found[len(found)-1]
+	level := []Vec{}
+	for _, c := range found[:len(found)-1] {
+		turned := sub(c.N, last.N)
+		if c.Phi <= last.Phi+1e-9*least && math.Max(math.Abs(turned[0]), math.Max(math.Abs(turned[1]), math.Abs(turned[2]))) <= 1e-6 {
+			level = append(level, sub(c.Alpha, last.Alpha))
+		}
+	}
+	ways := append([]Vec{}, level...)
+	for _, x := range level {
+		for _, y := range level {
+			ways = append(ways, cross(last.N, sub(x, y)))
+		}
+	}
+	for _, way := range ways {
+		beyond := math.Inf(1)
+		for _, x := range level {
+			beyond = math.Min(beyond, dot(way, x))
+		}
+		if beyond > 1e-6*least*norm(way) {
+			return false
+		}
+	}
+	return len(level) > 0
 }
 
 // facing is those whose normal is within 0.25 rad of n.
@@ -212,11 +279,16 @@ func contactsOf(scene Scene, found map[string]Frame, n_v int) []Contact {
 		alpha, beta := scene.Shapes[pair.Alpha], scene.Shapes[pair.Beta]
 		at, bt := placed(alpha, found), placed(beta, found)
 		near := candidates(alpha.Shape, beta.Shape, at, bt, pair.K)
+		least := smaller(alpha.Shape, beta.Shape)
 		sort.SliceStable(near, func(i, j int) bool {
 			if near[i].behind != near[j].behind {
 				return near[j].behind
 			}
-			return near[i].Phi < near[j].Phi
+			one, other := rank(near[i].Phi, least), rank(near[j].Phi, least)
+			if one != other {
+				return one < other
+			}
+			return near[i].index < near[j].index
 		})
 		if len(near) > pair.K {
 			near = near[:pair.K]

@@ -2,10 +2,10 @@
 
 Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
 crossings of the edges of boxes, and the closest pair, in that order; for one contact, the closest
-pair alone. Corners whose normal is not about the closest pair's are none. The k of least signed
-distance are kept, those that repeat an earlier one after all others, and so the closest pair where
-k others are as near, and crossings where k corners are. Everything is decided on distances, points
-and normals that are rounded to float64.
+pair alone. Corners whose normal is not about the closest pair's are none. The k that rank first
+are kept: distances are rounded to rank, those of equal rank go by their index, and those that
+repeat an earlier one come after all others. The closest pair is none where others span it.
+Everything is decided on distances, points and normals that are rounded to float64.
 """
 
 from collections.abc import Sequence
@@ -22,8 +22,11 @@ from quasistatic_ref.lab.program.candidates import (
     crossing_index,
     crossings,
     edges,
-    lateness,
+    gaps,
+    is_spanned,
     most_candidates,
+    repeats,
+    smaller,
     ways,
 )
 from quasistatic_ref.lab.program.distance import corners
@@ -38,6 +41,7 @@ from quasistatic_ref.lab.vectors.exact.precision import (
 )
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED
 
 FIELDS = ("phi", "alpha", "beta", "n")
@@ -88,16 +92,17 @@ def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k:
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     found = candidates(case, k)
+    least = smaller(alpha, beta)
     if not found.of_two:
-        return _kept_candidates(found.about, k, corners=None)
-    chosen = _kept_candidates(found.about, k, corners=found.corners)
+        return _kept_candidates(found.about, k, least)
+    chosen = _kept_candidates(found.about, k, least, of_two=True)
     contacts = chosen.contacts + [{"index": one.index, **one.numbers} for one in found.filling]
     contacts.sort(key=itemgetter("index"))
     clear = chosen.clear and found.clear
-    *certain, nearest = [one for one in found.about if one not in found.doubtful]
+    certain = [one for one in found.about if one not in found.doubtful]
     indices = [one["index"] for one in chosen.contacts]
     for crossed in ([], found.doubtful) if found.doubtful else ():
-        kept = _kept_candidates([*certain, *crossed, nearest], k, corners=found.corners)
+        kept = _kept_candidates([*certain, *crossed], k, least, of_two=True)
         clear = clear and indices == [one["index"] for one in kept.contacts]
     return replace(chosen, contacts=contacts, clear=clear)
 
@@ -133,16 +138,15 @@ class Candidates:
     Parameters
     ----------
     about : list of Candidate
-        Corners, crossings and, last, the closest pair; or points of a cloud. Their normals are
-        about the closest pair's.
+        Corners, crossings and, last, the closest pair, if they do not span it; or points of a
+        cloud. Their normals are about the closest pair's.
     filling : list of Candidate
         The closest pair again, as often as it fills the number.
     of_two : bool
         Whether they are those of two solids, and not points of a cloud or the closest pair alone.
-    corners : int
-        How many of them are corners.
     clear : bool
-        Whether rounding does not decide which normals are about the closest pair's.
+        Whether rounding does not decide which normals are about the closest pair's, nor whether it
+        is a candidate.
     doubtful : list of Candidate
         Crossings at an end of an edge: rounding decides whether they are candidates.
     """
@@ -150,7 +154,6 @@ class Candidates:
     about: list[Candidate]
     filling: list[Candidate]
     of_two: bool = False
-    corners: int = 0
     clear: bool = True
     doubtful: Sequence[Candidate] = ()
 
@@ -185,14 +188,19 @@ def candidates(case: Json, k: int) -> Candidates:
     every.append(nearest)
     cosines = np.array([one.numbers["n"] for one in every]) @ nearest.numbers["n"]
     about = [every[i] for i in np.flatnonzero(cosines >= FACING).tolist()]
+    least = smaller(alpha, beta)
+    spanned = is_spanned(*_numbers(about), least)
+    certain = [one for one in about if one not in doubtful]
+    clear = np.abs(cosines - FACING).min() > LIMIT
+    clear &= spanned == is_spanned(*_numbers(certain), least)
+    about = about[:-1] if spanned else about
     far = {**nearest.numbers, "phi": FILLED}
     filling = range(min(k, most_candidates(alpha, beta, last)) - len(about))
     return Candidates(
         about,
         [replace(nearest, index=last + 1 + i, numbers=far) for i in filling],
         of_two=True,
-        corners=sum(one.index < last for one in about),
-        clear=bool(np.abs(cosines - FACING).min() > LIMIT),
+        clear=bool(clear),
         doubtful=doubtful,
     )
 
@@ -302,24 +310,30 @@ def _edge(case: Json, side: str, i: int) -> list[Vector]:
     return [box.world(vector(end)) for end in edges(case[side])[0][i].tolist()]
 
 
-def _kept_candidates(found: Sequence[Candidate], k: int, *, corners: int | None) -> Chosen:
-    phi, alpha, n = (np.array([one.numbers[key] for one in found]) for key in ("phi", "alpha", "n"))
-    late = [False] * len(found)
-    spare = False
-    if corners is not None:
-        late, spare = lateness(phi, alpha, n, k, REPEATED, corners)
-    order = sorted(range(len(found)), key=lambda i: (late[i], phi[i], i))
-    kept = sorted((found[i] for i in order[:k]), key=attrgetter("index"))
-    rest = order[k:]
-    last = order[len(kept) - 1]
-    clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
-    if corners is not None and len(found) > k and not found[-1].unique:
-        # The closest pair may then be any point of an edge or a face, and no corner again.
-        clear = clear and spare
+def _numbers(some: Sequence[Candidate]) -> tuple[Array, Array, Array]:
+    """Their phi, alpha and n."""
+    phi, alpha, n = (np.array([one.numbers[key] for one in some]) for key in ("phi", "alpha", "n"))
+    return phi, alpha, n
+
+
+def _kept_candidates(
+    some: Sequence[Candidate], k: int, least: float, *, of_two: bool = False
+) -> Chosen:
+    phi, alpha, n = _numbers(some)
+    late = repeats(phi, alpha, n, REPEATED) if of_two else np.zeros(len(some), dtype=bool)
+
+    def ranks(error: float) -> list[tuple[bool, float, int]]:
+        rank = gaps(phi + error, least).tolist()
+        return [(bool(late[i]), rank[i], one.index) for i, one in enumerate(some)]
+
+    own, nearer, farther = (ranks(error) for error in (0.0, -TIED, TIED))
+    order = sorted(range(len(some)), key=own.__getitem__)
+    kept = sorted((some[i] for i in order[:k]), key=attrgetter("index"))
+    clear = not order[k:] or max(farther[i] for i in order[:k]) < min(nearer[i] for i in order[k:])
     answers = [layer("distance").expected(one.case) for one in kept]
     return Chosen(
         contacts=[{"index": one.index, **one.numbers} for one in kept],
-        clear=bool(clear),
+        clear=clear,
         unique=all(answer.flags["unique"] for answer in answers),
         tolerance={
             name: max(answer.tolerance[name].absolute for answer in answers) for name in FIELDS

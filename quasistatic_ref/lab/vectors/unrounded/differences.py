@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
+from quasistatic_ref.lab.program.candidates import smaller
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
@@ -52,7 +53,7 @@ class Base:
 
     def _kept_of_pair(self, at: World, pair: int) -> list[Near]:
         near = candidates(at, pair, self.pools[pair])
-        return kept_candidates(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
+        return kept_candidates(near, at.case["pairs"][pair]["k"], least=least_solid(at.case, pair))
 
     def step_at(self, case: Json) -> tuple[Solved, list[Contact], Vector]:
         """A step nearby: solved, its contacts, and q+ in the tangent space at the base's q+."""
@@ -63,10 +64,11 @@ class Base:
         return found, contacts, away(at, self.q_next, after(at, found.delta_q))
 
 
-def are_solids(case: Json, pair: int) -> bool:
-    """Whether neither side of a pair is a cloud."""
+def least_solid(case: Json, pair: int) -> float | None:
+    """Size of the smaller of a pair's two solids [m]; None where a side is a cloud."""
     sides = (case["pairs"][pair][side] for side in ("alpha", "beta"))
-    return all(case["shapes"][name]["shape"]["kind"] != "cloud" for name in sides)
+    alpha, beta = (case["shapes"][name]["shape"] for name in sides)
+    return None if "cloud" in (alpha["kind"], beta["kind"]) else smaller(alpha, beta)
 
 
 def away(at: World, q_next: Vector, other: Vector) -> Vector:
@@ -88,9 +90,9 @@ def base(case: Json) -> Base:
     contacts = []
     for pair, written in enumerate(case["pairs"]):
         found = candidates(at, pair)
-        solids = are_solids(case, pair)
-        pools.append(pool(found, written["k"], solids=solids))
-        near = kept_candidates(found, written["k"], solids=solids)
+        least = least_solid(case, pair)
+        pools.append(pool(found, written["k"], least=least))
+        near = kept_candidates(found, written["k"], least=least)
         contacts += [contact(at, one) for one in near]
     step = step_solution(at, contacts)
     return Base(at, contacts, step, after(at, step.delta_q), pools)

@@ -1,6 +1,7 @@
 """Candidates of a pair of shapes without rounding, and the contacts that are kept of them.
 
-What a step keeps is decided as in the layer ``step``, but on numbers of the grid. Of all
+What a step keeps is decided as in the layer ``step``, but on numbers of the grid, and distances
+rank as they are. Of all
 candidates at one configuration, a *pool* is those that a change of 1e-30 can bring among the kept
 ones: distances change by no more than bodies move.
 """
@@ -12,7 +13,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.program.candidates import lateness
+from quasistatic_ref.lab.program.candidates import is_spanned, repeats
 from quasistatic_ref.lab.vectors.distances.candidates import parts
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
@@ -103,7 +104,7 @@ def _near(pair: int, index: int, one: Witness) -> Near:
 
 
 def ordered_candidates(
-    found: Sequence[Near], k: int, *, solids: bool
+    found: Sequence[Near], *, least: float | None
 ) -> list[tuple[bool, fmpq, int]]:
     """Candidates from the first to be kept to the last: whether each comes late, phi, its place.
 
@@ -111,35 +112,36 @@ def ordered_candidates(
     ----------
     found : sequence of Near
         All candidates of a pair, or a pool of them, in their order.
-    k : int
-        How many are kept.
-    solids : bool
-        Whether they are corners and a closest pair, of which some may repeat others.
+    least : float or None
+        Size of the smaller of two solids [m], of which some candidates may repeat others, and the
+        closest pair be spanned; of a cloud None.
     """
     late = [False] * len(found)
-    if solids:
+    if least is not None:
         phi, alpha, n = (
             np.array([getattr(one, key) for one in found]) for key in ("phi", "alpha", "n")
         )
-        late = lateness(phi, alpha, n, k, REPEATS)[0].tolist()
+        late = repeats(phi, alpha, n, REPEATS).tolist()
+        phi, alpha, n = (np.array(x, dtype=np.float64) for x in (phi, alpha, n))
+        late[-1] |= is_spanned(phi, alpha, n, least)
     return sorted((late[i], found[i].phi, i) for i in range(len(found)))
 
 
-def kept_candidates(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
-    """Those that a step keeps, by index; parameters as for :func:`ordered_candidates`."""
-    order = ordered_candidates(found, k, solids=solids)
+def kept_candidates(found: Sequence[Near], k: int, *, least: float | None) -> list[Near]:
+    """The k that a step keeps, by index; `least` [m] as in :func:`ordered_candidates`."""
+    order = ordered_candidates(found, least=least)
     return [found[i] for i in sorted(i for _, _, i in order[:k])]
 
 
-def pool(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
-    """What a step nearby can keep: indices; parameters as for :func:`ordered_candidates`."""
-    far = max(one.phi for one in kept_candidates(found, k, solids=solids)) + POOL
+def pool(found: Sequence[Near], k: int, *, least: float | None) -> list[int]:
+    """Indices of what a step nearby can keep; `least` [m] as in :func:`ordered_candidates`."""
+    far = max(one.phi for one in kept_candidates(found, k, least=least)) + POOL
     return [one.index for one in found if one.phi <= far]
 
 
-def tied_indices(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
+def tied_indices(found: Sequence[Near], k: int, *, least: float | None) -> list[int]:
     """Indices of candidates as near as one another of which some are kept and some are not."""
-    order = ordered_candidates(found, k, solids=solids)
+    order = ordered_candidates(found, least=least)
     if len(order) <= k or order[k][0] != order[k - 1][0]:
         return []
     edge = order[k - 1][1]

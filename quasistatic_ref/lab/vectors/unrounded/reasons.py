@@ -15,7 +15,7 @@ from flint import fmpq
 from quasistatic_ref.lab.vectors.exact.precision import Matrix, Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import row_count
-from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, least_solid
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied_indices
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
@@ -96,7 +96,7 @@ def _selections(one: Base, matters: Iterable[int]) -> list[Json]:
     found = []
     for pair, written in enumerate(one.at.case["pairs"]):
         near = candidates(one.at, pair, one.pools[pair])
-        equal = tied_indices(near, written["k"], solids=are_solids(one.at.case, pair))
+        equal = tied_indices(near, written["k"], least=least_solid(one.at.case, pair))
         if any((pair, index) in places for index in equal):
             contact = next(c for c in one.contacts if c.near.pair == pair)
             found.append(_reason("selection", one, contact, equal))

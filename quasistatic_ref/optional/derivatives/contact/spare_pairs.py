@@ -1,7 +1,7 @@
 """Whether a closest pair that is left out for its corners would be kept after any motion.
 
-Of two solids the candidates are the corners and the closest pair, which is left out where it is one
-of them, or where as many corners are as near. Where it lies on parallel faces that overlap in more
+Of two solids the candidates are the corners and the closest pair, which is left out where they span
+it. Where it lies on parallel faces that overlap in more
 than corners, or where its feature ends, a motion makes another point of it: the contacts jump.
 """
 

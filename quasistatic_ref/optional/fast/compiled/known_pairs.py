@@ -49,8 +49,8 @@ CASES: dict[str, Case] = {
     "a ball in a face": (BOX, Sphere(0.5), (0.25, 0.5, 1.25), 1, [-0.25], UP),
     # the centre is 0.25 below the top: the nearest face
     "a ball inside": (BOX, Sphere(0.5), (0.25, 0.0, 0.75), 1, [-0.75], UP),
-    # four corners at height - 1
-    "a box over a floor": (FLOOR, BOX, (0.0, 0.0, 1.5), 4, [0.5] * 4, UP),
+    # the lower face at height - 1
+    "a box over a floor": (FLOOR, BOX, (0.0, 0.0, 1.5), 1, [0.5], UP),
     # the lower end at height - half the length - radius
     "a capsule over a floor": (FLOOR, Capsule(0.5, 1.0), (1.0, 0.0, 3.0), 1, [1.5], UP),
     # the axes are parallel, and a distance (3, 4) apart
@@ -63,7 +63,7 @@ CASES: dict[str, Case] = {
     ),
     "a ball at a rim": (Cylinder(1.0, 1.0), Sphere(1.0), (4.0, 0.0, 5.0), 1, [4.0], (0.6, 0, 0.8)),
     # the lower face of one is 0.5 over the upper face of the other, which the turn leaves flat
-    "two boxes": (BOX, BOX, (0.0, 0.0, 2.5), 4, [0.5] * 4, UP),
+    "two boxes": (BOX, BOX, (0.0, 0.0, 2.5), 1, [0.5], UP),
     # the edges through (1, 1) and (5, 4) are (4, 3) apart
     "two boxes by their edges": (
         BOX, Box(np.array([0.5, 0.5, 3.0])), (5.5, 4.5, 1.0), 1, [5.0], (0.8, 0.6, 0.0),
@@ -73,9 +73,9 @@ CASES: dict[str, Case] = {
         BOX, Capsule(0.5, 1.0), (1.25, 1 + 5e-7, 0.25), 1, [-0.25], BEYOND,
     ),
     "a ball beyond an edge": (BOX, Sphere(0.5), (1.25, 1 + 5e-7, 0.25), 1, [-0.25], BEYOND),
-    # corners at the height of the place, and one a unit higher
+    # a corner at the height of the place
     "a tetrahedron over a floor": (
-        FLOOR, hull_of_mesh(TETRAHEDRON, SIDES), (0.0, 0.0, 0.25), 4, [0.25] * 3 + [1.25], UP,
+        FLOOR, hull_of_mesh(TETRAHEDRON, SIDES), (0.0, 0.0, 0.25), 1, [0.25], UP,
     ),
     # the slanted side is at (x + y + z - 1) / sqrt(3)
     "a ball at a tetrahedron": (

@@ -53,6 +53,7 @@ class Cloud(Structure):
                 "box": np.where(at_high, high, low), "index": np.zeros(N, np.int64),
                 "bounds": np.zeros(2), "n": np.zeros(3), "corners": np.zeros((8, 3)),
                 **{name: np.zeros(N) for name in ("phi", "height", "score")},
+                "resolution": np.array([pair.resolution]),
                 "nearest": np.zeros(pair.n_c), "rank": np.zeros(pair.n_c, np.int64),
             }
         )  # fmt: skip

@@ -81,11 +81,13 @@ def solid(shape: shapes.Shape) -> Solid:
 
 
 def measured(pair: ContactPair) -> bool:
-    """Whether compiled code measures a pair of solids, or of a cloud and a solid."""
+    """Whether compiled code measures a pair of a cloud and a solid, or of two that touch once."""
     sides = pair.alpha.shape, pair.beta.shape
     if pair.has_cloud:
         solid = next(side for side in sides if not isinstance(side, shapes.PointCloud))
         return isinstance(solid, KINDS) and solid.corner_count <= CORNERS
+    if pair.n_c > 1:
+        return False
     if any(isinstance(side, shapes.HalfSpace) for side in sides):
         return all(isinstance(side, KINDS) for side in sides)
     if any(isinstance(side, ConvexMesh) and side.corner_count > CORNERS for side in sides):

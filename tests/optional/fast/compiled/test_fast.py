@@ -83,7 +83,8 @@ def touching(system, names):
         side = HalfSpace(UP, nearest - 1e-4 * (at % 3))
         wall = PlacedShape.in_world("wall", side)
         mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
-        pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
+        k = max(1, min(1 + at % 4, solid.shape.corner_count))
+        pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, k))
         if at % 2 == 0:
             _, before = system.pose(q, system.links[at - 1])
             neighbour = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)

@@ -97,7 +97,7 @@ static int list(Cloud *c, const double *pose, int64_t count)
     if (c->listed && c->age < SHORT && c->width < WIDE)
         c->width = 2 * c->width < WIDE ? 2 * c->width : WIDE;
     double most = c->width < N ? ranked(c->score, N, c->width - 1) : INFINITY;
-    most = larger(most, 2 * RATIO * slack);
+    most = larger(most, RATIO * (2 * slack + *c->resolution));
     c->listed = 0;
     for (int64_t p = 0; p < N; p++) {
         double far = c->phi[p] - phi_k, high = RATIO * (c->height[p] - phi_k);
@@ -115,8 +115,14 @@ static int list(Cloud *c, const double *pose, int64_t count)
     return 1;
 }
 
-/* contact/distance: the `count` least distances on the list in ascending order, ties by index; 0 if one
-   is no number, or the list is too short. */
+/* contact/distance, `rounded_gaps`: a distance as it ranks. */
+static double as_it_ranks(const Cloud *c, double phi)
+{
+    return *c->resolution > 0.0 ? rint(phi / *c->resolution) : phi;
+}
+
+/* contact/distance: the `count` points on the list that rank first, ties by index; 0 if a distance is no
+   number, or the list is too short. */
 static int selected(Cloud *c, const double *pose, int64_t count)
 {
     int64_t kept = 0;
@@ -124,7 +130,7 @@ static int selected(Cloud *c, const double *pose, int64_t count)
     for (int64_t i = 0; i < c->listed; i++) {
         double at[3];
         carried(pose, c->point + 3 * c->index[i], at);
-        double phi = signed_distance(c->solid, at, 0);
+        double phi = as_it_ranks(c, signed_distance(c->solid, at, 0));
         if (phi != phi)
             return 0;
         if (kept == count && !(phi < c->nearest[kept - 1]))
@@ -172,7 +178,7 @@ int closest_of_cloud(Pairs *s, int64_t p)
     poses_of(s, p, c->is_alpha ? cloud : solid, c->is_alpha ? solid : cloud);
     relative(solid, cloud, pose);
     c->age++;
-    if (!selected(c, pose, count) || !(c->nearest[count - 1] < limit(c, pose)))
+    if (!selected(c, pose, count) || !(c->nearest[count - 1] < as_it_ranks(c, limit(c, pose))))
         if (!list(c, pose, count) || !selected(c, pose, count))
             return 0;
     for (int64_t j = 0; j < count; j++)

@@ -28,6 +28,7 @@ typedef struct {
     int64_t *index;
     double *bounds, *n, *corners;
     double *phi, *height, *score; /* workspaces, of as many as there are points */
+    const double *resolution;     /* of the pair */
     double *nearest;              /* of as many as contacts, as the next */
     int64_t *rank;
 } Cloud;

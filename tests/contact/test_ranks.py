@@ -1,0 +1,183 @@
+"""Which candidates become contacts, and in which order: what is still keeps both."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import quasistatic_ref as qr
+from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
+from quasistatic_ref.contact.distance import closest_points, rounded_gaps
+from quasistatic_ref.tolerances import RANKED
+from tests.contact.still import found_for, pair, placed_shape, standing_links
+
+Z = np.array([0.0, 0.0, 1.0])
+FLOOR = HalfSpace(Z, 0.0)
+TABLE = Box((0.5, 0.5, 0.25))
+CUBE = Box(np.full(3, 0.05))
+TURNS = (1e-12, 1e-9, 1e-6, -1e-6, 1e-3)
+
+
+def lowered(shape, turn, yaw):
+    """A shape's pose, turned by a rotation vector and by a yaw, so that it touches z = 0."""
+    R = (Rotation.from_euler("z", yaw) * Rotation.from_rotvec(turn)).as_matrix()
+    return R, np.array([0.0, 0.0, shape.support_value(-Z[None] @ R).item()])
+
+
+def prism(sides):
+    angle = np.arange(sides) * 2 * np.pi / sides
+    rim = 0.05 * np.column_stack([np.cos(angle), np.sin(angle)])
+    return convex_hull(
+        np.concatenate([np.column_stack([rim, np.full(sides, z)]) for z in (-0.05, 0.05)])
+    )
+
+
+@pytest.mark.parametrize("floor", [FLOOR, TABLE], ids=["half-space", "box"])
+@pytest.mark.parametrize(("solid", "corners"), [(CUBE, 4), (prism(6), 6)], ids=["cube", "prism"])
+@pytest.mark.parametrize("yaw", [0.0, 0.3])
+@pytest.mark.parametrize("axis", np.eye(3)[:2], ids="xy")
+@pytest.mark.parametrize("turn", TURNS)
+def test_as_many_contacts_as_a_face_has_corners_are_its_corners(
+    floor, solid, corners, yaw, axis, turn
+):
+    """The middle of an edge, which is nearest after a turn about it, takes no corner's place."""
+    R, t = lowered(solid, turn * axis, yaw)
+    under = placed_shape(floor, t=(0, 0, 0 if floor is FLOOR else -0.25))
+    found = found_for(under, placed_shape(solid, 1), standing_links((R, t)), corners)
+    own = (found.beta - t) @ R
+    lower = solid.corners(Z)[0]
+    lower = lower[lower[:, 2] < 0]
+    apart = np.abs(own[:, None] - lower).max(axis=2)
+    assert sorted(apart.argmin(axis=1).tolist()) == list(range(corners))
+    assert apart.min(axis=1).max() < 1e-12
+
+
+@pytest.mark.parametrize("solid", [Cylinder(0.02, 0.05), Capsule(0.02, 0.05)])
+@pytest.mark.parametrize("yaw", [0.0, 0.7])
+def test_a_line_of_contact_has_its_ends_for_contacts_in_one_order(solid, yaw):
+    """Noise of 1e-17 m in the pose changes neither which they are nor their order."""
+    R = Rotation.from_euler("zy", [yaw, np.pi / 2]).as_matrix()
+    k = min(4, solid.corner_count)
+    one = pair(placed_shape(FLOOR), placed_shape(solid, 1), k)
+    orders = set()
+    rng = np.random.default_rng(7)
+    for _ in range(40):
+        t = np.array([0.0, 0.0, 0.02]) + 1e-17 * rng.normal(size=3)
+        noise = Rotation.from_rotvec(1e-16 * rng.normal(size=3)).as_matrix()
+        found = closest_points([one], standing_links((noise @ R, t)))
+        orders.add(tuple(found.point.tolist()))
+        along = np.abs((found.beta[:2] - t) @ R[:, 2])
+        np.testing.assert_allclose(along, 0.05, atol=1e-12)
+    assert len(orders) == 1
+
+
+def test_points_of_a_rim_on_a_slope_stay_the_same_while_it_moves_by_less_than_is_known():
+    angle = np.arange(12) * np.pi / 6
+    rim = 0.04 * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(12)])
+    R = Rotation.from_euler("y", 0.3).as_matrix()
+    slope = HalfSpace(R @ Z, 0.0)
+    one = pair(placed_shape(slope), placed_shape(PointCloud(rim), 1), 8)
+    rng = np.random.default_rng(3)
+    for _ in range(40):
+        t = np.array([0.3, -0.2, 0.3 * -np.tan(0.3)]) + 5e-17 * rng.normal(size=3)
+        found = closest_points([one], standing_links((R, t)))
+        assert found.point.tolist() == list(range(8))
+
+
+def test_zero_is_the_middle_of_its_multiple_and_halves_go_to_the_even_one():
+    phi = np.array([-0.5, -0.49, 0.0, 0.5, 0.51, 1.5, np.inf])
+    assert rounded_gaps(phi, 1.0).tolist() == [0, 0, 0, 0, 1, 2, np.inf]
+    assert rounded_gaps(phi, 0.0).tolist() == phi.tolist()
+
+
+def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances():
+    """A point is listed before a nearer one of a higher number only within one multiple."""
+    size = 0.5
+    steps = np.array([0.4, 0.0, 1.2, 0.9]) * RANKED * size
+    points = np.column_stack([np.linspace(0, size, 4), np.zeros(4), steps])
+    sides = (placed_shape(FLOOR), placed_shape(PointCloud(points), 1))
+    one = pair(*sides, 3)
+    assert one.resolution == RANKED * size
+    found = closest_points([one], standing_links((np.eye(3), np.zeros(3))))
+    assert found.point.tolist() == [0, 1, 2]
+    assert found.phi.tolist() == steps[:3].tolist()
+    ball = pair(placed_shape(Sphere(0.1)), placed_shape(PointCloud([[1.0, 0, 0]]), 1))
+    assert ball.size == 0.2  # a single point has none
+    assert pair(placed_shape(FLOOR), placed_shape(PointCloud([[1.0, 0, 0]]), 1)).resolution == 0
+
+
+def test_the_ends_of_an_edge_are_contacts_and_its_middle_is_none():
+    leaning = Rotation.from_euler("x", np.pi / 4).as_matrix()
+    t = np.array([0.0, 0.0, 0.05 * np.sqrt(2)])
+    bar = Box((0.3, 0.05, 0.05))
+    found = found_for(placed_shape(FLOOR), placed_shape(bar, 1), standing_links((leaning, t)), 2)
+    assert sorted(np.abs(found.beta[:, 0]).tolist()) == [0.3, 0.3]
+
+
+def test_a_closest_pair_that_no_others_span_stays_a_contact():
+    ball = placed_shape(Sphere(0.05), 1)
+    found = found_for(placed_shape(TABLE), ball, standing_links((np.eye(3), 0.3 * Z)), 3)
+    assert found.phi[0] == pytest.approx(0.0, abs=1e-15)
+    assert (found.phi[1:] > 1e5).all()
+
+
+def scene(body, xyz, rpy, k, steps):
+    return qr.load_scenario(
+        {
+            "h": 0.01,
+            "steps": steps,
+            "gravity": [0, 0, -9.81],
+            "bodies": {"box": {**body, "base": "floating", "pose": {"xyz": xyz, "rpy": rpy}}},
+            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+            "contacts": {
+                "floor": {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": k}
+            },
+        }
+    )
+
+
+def urdf(centre, geometry):
+    x, y = centre
+    return (
+        f'<robot name="box"><link name="box"><inertial><origin xyz="{x} {y} 0"/><mass value="1"/>'
+        '<inertia ixx="2e-3" iyy="2e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f"<collision><geometry>{geometry}</geometry></collision></link></robot>"
+    )
+
+
+BOX_100 = '<box size="0.1 0.1 0.1"/>'
+
+
+@pytest.mark.parametrize("tilt", [1e-6, 1e-3])
+def test_a_box_whose_centre_is_over_the_corner_that_would_be_lost_does_not_sink(tilt):
+    made = scene(
+        {"urdf": urdf((0.02, 0.02), BOX_100)}, [0, 0, 0.05 + 0.05 * tilt], [tilt, 0, 0], 4, 20
+    )
+    run = made.run(progress=False)
+    corners = np.array([[x, y, -0.05] for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
+    for q in run.q:
+        R, t = made.system.pose(q, "box")
+        assert (corners @ R.T + t)[:, 2].min() > -1e-7
+    assert run.wrench[:, :, 2].sum(axis=1).max() < 9.81 * 1.001
+
+
+def test_a_step_that_is_differentiable_turns_as_its_derivative_says():
+    made = scene({"urdf": urdf((0.02, 0.02), BOX_100)}, [0, 0, 0.05], [0, 0, 0], 4, 1)
+    simulator = made.simulator()
+    q = made.system.q_start
+    rates = qr.derivatives(simulator, q, np.zeros(0))
+    assert rates.differentiable
+    for column, turn in ((3, 1e-6), (3, -1e-6), (4, 1e-6), (4, -1e-6)):
+        turned = made.system.integrate(q, turn * np.eye(6)[column])
+        after = simulator.step(turned, np.zeros(0)).q
+        change = made.system.difference(rates.result.q, after) / turn
+        np.testing.assert_allclose(change, rates.dq_dq[:, column], atol=1e-5)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.7])
+def test_a_can_that_lies_still_keeps_its_forces_and_has_no_finding(yaw):
+    can = {"urdf": urdf((0, 0), '<cylinder radius="0.02" length="0.1"/>')}
+    run = scene(can, [0, 0, 0.02], [0, np.pi / 2, yaw], 4, 20).run(progress=False)
+    np.testing.assert_allclose(run.forces[:, :2, 2], 9.81 / 2, rtol=1e-5)
+    assert np.abs(run.forces[:, 2:]).max() < 1e-9
+    assert len({tuple(row) for row in np.sign(run.beta[:, :2, 0]).tolist()}) == 1
+    assert [finding.name for finding in run.findings] == []
