@@ -30,6 +30,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import NEARLY
@@ -70,8 +71,8 @@ def derivatives(
     Raises
     ------
     InputError
-        If the cone is no polyhedron, the simulator has an extension, or a name or a shape of the
-        direction is wrong.
+        If the cone is no polyhedron, the simulator has an extension, a name or a shape of the
+        direction is wrong, or `nearly` or the direction is not finite.
     StepNotSolved
         As :meth:`~quasistatic_ref.simulate.simulator.Simulator.step` does.
 
@@ -84,6 +85,7 @@ def derivatives(
     True
     """
     check_derivable(simulator)
+    check_nearly(nearly)
     q = np.asarray(q, dtype=np.float64)
     result = _certified(simulator, q, q_bar_a, force)
     rates = StepRates(simulator, q, result)
@@ -104,6 +106,13 @@ def derivatives(
         *row_obstacles(simulator, rates, touching, found, {*map(tuple, near)}),
     ]
     return gradient(rates, found.x, obstacles, equations.along, reach)
+
+
+def check_nearly(nearly: float) -> None:
+    """Refuse a `nearly` that is no distance [-]: InputError."""
+    number = checked_numbers(nearly, "nearly", InputError)
+    if number.shape or not 0 <= number < np.inf:
+        raise InputError("must be a finite distance, 0 or more", field="nearly", value=nearly)
 
 
 def check_derivable(simulator: Simulator) -> None:

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.derivatives.step.reach import NEVER, Distance, Rea
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 
@@ -211,7 +212,7 @@ def directed(places: Places, directions: Mapping[str, Array | float], where: str
     Raises
     ------
     InputError
-        If a name or a shape is wrong.
+        If a name or a shape is wrong, or a number is not finite.
     """
     widths = {name.removeprefix("dq_d"): own.stop - own.start for name, own in places.items()}
     for name in directions:
@@ -219,12 +220,13 @@ def directed(places: Places, directions: Mapping[str, Array | float], where: str
             raise InputError(f"must be one of {', '.join(widths)}", field=where, value=name)
     parts = []
     for name, width in widths.items():
-        value = np.ravel(np.asarray(directions.get(name, np.zeros(width)), dtype=np.float64))
-        if value.shape != (width,):
-            raise InputError(
-                f"must have shape ({width},)", field=f"{where}.{name}", value=value.shape
-            )
-        parts.append(value)
+        field = f"{where}.{name}"
+        value = checked_numbers(directions.get(name, np.zeros(width)), field, InputError)
+        if value.shape != (width,) and not (width == 1 and value.shape == ()):
+            raise InputError(f"must have shape ({width},)", field=field, value=value.shape)
+        if not np.isfinite(value).all():
+            raise InputError("must contain finite numbers only", field=field)
+        parts.append(np.ravel(value))
     return np.concatenate(parts)
 
 

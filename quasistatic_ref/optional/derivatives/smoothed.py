@@ -17,7 +17,16 @@ from quasistatic_ref.optional.derivatives.step.barrier import barrier_rates, bar
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import FILLED
+
+
+def check_kappa(kappa: float) -> None:
+    """Refuse a `kappa` that is no weight of barriers [N m s]: InputError."""
+    number = checked_numbers(kappa, "kappa", InputError)
+    if isinstance(kappa, bool) or number.shape or not 0 < number < np.inf:
+        raise InputError("must be a finite number greater than 0", field="kappa", value=kappa)
 
 
 def smoothed(
@@ -36,7 +45,8 @@ def smoothed(
     q_bar_a : ndarray, shape (n_q_a,)
     kappa : float
         Weight of the barriers, > 0 [N m s]: a contact at the distance s pushes with the impulse
-        kappa / s.
+        kappa / s. The bias of the derivatives is proportional to it, and a scene's own: where a
+        hundredth of it changes them, it is too large. The scenes that come along need 1e-12.
     force : ndarray, shape (n_v,), optional
         External generalised force in addition to gravity, which does not depend on q [N, N m].
 
@@ -48,7 +58,9 @@ def smoothed(
     Raises
     ------
     InputError
-        If kappa is not positive, the cone no polyhedron, or the simulator has an extension.
+        If kappa is no positive finite number, so small that nothing is known, or so large that
+        bodies are pushed out of range; if the cone is no polyhedron, or the simulator has an
+        extension.
     StepNotSolved
         If nothing lies strictly inside of all rows.
 
@@ -60,13 +72,16 @@ def smoothed(
     (6, 6)
     """
     check_derivable(simulator)
-    if not kappa > 0:
-        raise InputError("must be greater than 0", field="kappa", value=kappa)
+    check_kappa(kappa)
     q = np.asarray(q, dtype=np.float64)
     kinematics = simulator.system.kinematics(q)
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     found = barrier_step(step, kappa)
+    if not np.abs(found.x).max(initial=0.0) < FILLED:
+        raise InputError(
+            "is so large that it pushes bodies out of range", field="kappa", value=kappa
+        )
     statistics = SolverStatistics("barrier", "solved", None, None, kappa, interface="none")
     solution = step_solution(step, found.x, found.lam, Certificate("none"), statistics, alone=False)
     q_next = simulator.system.integrate(q, found.x)

@@ -20,16 +20,21 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, NotDifferentiable
 from quasistatic_ref.model.configuration import normalised
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.derivatives import check_derivable, derivatives
+from quasistatic_ref.optional.derivatives.derivatives import (
+    check_derivable,
+    check_nearly,
+    derivatives,
+)
 from quasistatic_ref.optional.derivatives.gradient import Derivatives
 from quasistatic_ref.optional.derivatives.model.tangent import entry_rates
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.smoothed import check_kappa, smoothed
 from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import NEARLY
 
+ARGUMENTS = ("q", "q_bar_a", "force", "kappa")
 BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")
 """The derivatives by what a step is given: q, q_bar_a and the force."""
 
@@ -78,7 +83,8 @@ def step_jax(
     ------
     InputError
         If JAX is not installed, the option is unknown or lacks what it needs, or the step has no
-        derivatives anywhere. The function raises it if its arguments are not float64.
+        derivatives anywhere. The function raises it if its arguments are not those of
+        ``Simulator.step`` in float64; under ``jit`` errors about values arrive as JaxRuntimeError.
     NotDifferentiable
         By the function, where a derivative that JAX needs does not exist.
 
@@ -94,6 +100,9 @@ def step_jax(
     for name, value, needs in (("towards", towards, "one-sided"), ("kappa", kappa, "smoothed")):
         if (value is not None) != (kinks == needs):
             raise InputError(f"goes with kinks={needs!r}, and with that only", field=name)
+    check_nearly(nearly)
+    if kappa is not None:
+        check_kappa(kappa)
 
     def exact(q: Array, q_bar_a: Array, force: Array, _: float) -> Derivatives:
         return derivatives(simulator, q, q_bar_a, force, None, nearly)
@@ -163,6 +172,7 @@ def _differentiable(
     system = simulator.system
     shaped = jax.ShapeDtypeStruct
     n_q = system.n_q
+    sizes = ((n_q,), (system.n_q_a,), (system.n_v,), ())
     ends = (shaped((n_q,), np.float64), shaped((len(KINDS),), bool))
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
@@ -214,16 +224,42 @@ def _differentiable(
     def checked(*given: Any) -> Any:
         traced = any(isinstance(one, jax.core.Tracer) for one in given)
         arrays = jax.numpy if traced else np
-        given = tuple(map(arrays.asarray, given))
-        wide = jax.dtypes.canonicalize_dtype(np.float64)
-        if not all(one.dtype == wide == np.float64 for one in given):
-            problem = "must be float64: jax.config.update('jax_enable_x64', True)"
-            raise InputError(problem, field="step in JAX")
-        q, q_bar_a, force, kappa = given
-        given = q, q_bar_a, arrays.broadcast_to(force, (system.n_v,)), kappa
-        return step(*given) if traced else called((), *given)
+        force = given[2]
+        if not isinstance(force, jax.core.Tracer) and np.ndim(force) == 0 and force == 0:
+            given = (*given[:2], np.zeros(system.n_v), given[3])
+        named = zip(ARGUMENTS, given, sizes, strict=True)
+        numbers = tuple(_checked(jax, arrays, *one) for one in named)
+        return step(*numbers) if traced else called((), *numbers)
 
     return checked
+
+
+def _checked(
+    jax: ModuleType, arrays: ModuleType, name: str, value: Any, shape: tuple[int, ...]
+) -> Any:
+    """An argument of a step in float64, of the shape that ``Simulator.step`` takes.
+
+    Raises
+    ------
+    InputError
+        If it is of another type or shape.
+    """
+    try:
+        array = arrays.asarray(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"must be numbers: {error}", field=name) from error
+    if jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
+        problem = "must be float64: jax.config.update('jax_enable_x64', True)"
+        raise InputError(problem, field=name, value=str(array.dtype))
+    if array.dtype.kind in "iu":
+        array = array.astype(np.float64)
+    if array.dtype != np.float64:
+        problem = "must be float64; make it so by jax.numpy.asarray(x, dtype=float)"
+        raise InputError(problem, field=name, value=str(array.dtype))
+    if array.shape != shape:
+        problem = f"must have shape {shape}; of several steps, use jax.vmap"
+        raise InputError(problem, field=name, value=array.shape)
+    return array
 
 
 def _rates(

@@ -13,8 +13,10 @@ data at fixed x and :math:`\lambda`, (R36):
 from typing import NamedTuple
 
 import numpy as np
+from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.certify.form import exact_matrix
+from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
@@ -32,6 +34,9 @@ NOTHING = 1e-200
 
 SETTLED = 1e-14
 """Newton's step over the displacement, in the H norm, at which the method is done [-]: rounding."""
+
+LEAST_BITS, MOST_BITS = 256, 4096
+"""Precisions at which the rates are solved for [bits]: weights are up to 1 / kappa apart."""
 
 
 class Barrier(NamedTuple):
@@ -127,11 +132,57 @@ def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
     found : Barrier
     data : DataRates
         At the minimiser.
+
+    Raises
+    ------
+    InputError
+        If kappa is so small that nothing is known of them.
     """
     form = standard_form(step)
     table = cone_matrix(step.cone)
     multipliers = impulses(step.contacts, found.lam, step.cone) @ table
     moved = (table @ data.motion)[step.mask]
-    weighted = form.A.T * (found.lam / found.slack)
-    right = data.load + data.pull(multipliers) - weighted @ moved
-    return np.asarray(np.linalg.solve(form.H + weighted @ form.A, right))
+    pushed = data.load + data.pull(multipliers)
+    return _weighted_solution(form.H, form.A, found, pushed, moved)
+
+
+def _weighted_solution(H: Array, A: Array, found: Barrier, pushed: Array, moved: Array) -> Array:
+    """(H + A'SA)^-1 (pushed - A'S moved), shape (n_v, P), with a bound of the error of the solve.
+
+    S grows as 1 / kappa: float64 loses the whole of H next to A'SA. So the numbers are balls, at a
+    precision at which what is left of them is the rounding of the result.
+    """
+    if not pushed.size:
+        return pushed.copy()
+    precision = LEAST_BITS
+    while precision <= MOST_BITS:
+        with ctx.workprec(precision):
+            rows = exact_matrix(A)
+            slack, lam = (list(map(arb, v.tolist())) for v in (found.slack, found.lam))
+            weighted = rows.transpose() * _diagonal(
+                [y / s for y, s in zip(lam, slack, strict=True)]
+            )
+            right = exact_matrix(pushed) - weighted * exact_matrix(moved)
+            try:
+                solution = (exact_matrix(H) + weighted * rows).solve(right)
+            except ZeroDivisionError:  # the balls hold a singular matrix, too
+                precision *= 2
+                continue
+        middle = np.array([float(v.mid()) for v in solution.entries()])
+        radius = np.array([float(v.rad()) for v in solution.entries()])
+        if (radius <= SETTLED * np.abs(middle).max(initial=0.0)).all():
+            return middle.reshape(pushed.shape)
+        precision *= 2
+    raise InputError(
+        "is so small that the derivatives are not known to any digit; take a larger one",
+        field="kappa",
+        value=float(found.lam.max() * found.slack.min()),
+    )
+
+
+def _diagonal(values: list[arb]) -> arb_mat:
+    """A diagonal matrix."""
+    matrix = arb_mat(len(values), len(values))
+    for i, value in enumerate(values):
+        matrix[i, i] = value
+    return matrix
