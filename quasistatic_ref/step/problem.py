@@ -5,20 +5,31 @@ Units are those of the steps that fill it. A run fills it with steps in natural 
 contacts out of reach are nearer (:mod:`~quasistatic_ref.solve.through_cvxpy`).
 """
 
+from collections.abc import Callable
+
 import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import KIND, StepData, differences
+from quasistatic_ref.step.data import KIND, Array, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.tolerances import ACCURACY
+
+SOLVED_PAGE: Slot[Callable[["StepProblem", StepData, str, float], Array]] = Slot(
+    "extensions.solved_page"
+)
 
 
 class StepProblem(Shown):
     """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, row count and size.
 
-    ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, solve it, extend it. Other cones,
+    ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it. Filled with a step in
+    SI units, its costs are about 1e-7, below the tolerances of every solver: ``problem.solve()``
+    then ends "optimal", and is wrong by up to all of its digits. :meth:`solve` asks a solver in
+    natural units, as ``solve_step`` does before its proof. Other cones,
     rows of a user's own and the order of the multipliers build on it in
     :class:`~quasistatic_ref.solve.cvxpy_problem.CvxpyProblem`.
 
@@ -50,10 +61,13 @@ class StepProblem(Shown):
     >>> page.fill(step)
     >>> page.problem.is_qp()
     True
+    >>> bool(abs(page.solve("clarabel") - qr.solve_step(step).delta_q).max() < 1e-12)
+    True
     """
 
     def __init__(self, template: StepData) -> None:
         self.template = template
+        self.step: StepData | None = None
         self.check_kind()
         n_a = template.n_a
         n_u = template.n_u
@@ -122,6 +136,7 @@ class StepProblem(Shown):
             If the step is of another kind, naming what differs.
         """
         self.check(step)
+        self.step = step
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
         self.parameters["K_q"].save_value(step.K_q)
         self.parameters["M_u"].save_value(step.M_u)
@@ -133,6 +148,37 @@ class StepProblem(Shown):
         self.parameters["J_1"].save_value(J_1)
         self.parameters["J_2"].save_value(J_2)
         self.parameters["J_w"].save_value(J_w)
+
+    def solve(self, solver: str = "clarabel", accuracy: float = ACCURACY) -> Array:
+        """A solver's answer to the step that the problem is filled with, in natural units.
+
+        It is the solver's own: nothing is proved. The variables and the multipliers of
+        ``contact_rows`` then have its values, in SI units.
+
+        Parameters
+        ----------
+        solver : str
+            A name of ``solve_step``'s; upper case, as in CVXPY, is as good.
+        accuracy : float
+            Of the answer, in natural units [-].
+
+        Returns
+        -------
+        ndarray, shape (n_v,)
+            delta_q [m, rad].
+
+        Raises
+        ------
+        StepDataError
+            If it is not filled.
+        BackendError
+            If the solver is unknown or not installed.
+        StepNotSolved
+            If it claims anything but a full solution.
+        """
+        if self.step is None:
+            raise StepDataError("is not filled: call fill(step) first", field="StepProblem")
+        return SOLVED_PAGE.needed("StepProblem.solve")(self, self.step, solver, accuracy)
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""

@@ -104,6 +104,7 @@ WALLS = {
         "certify",
         "model/angles.py",
         "optional/coulomb",
+        "optional/derivatives/step/barrier.py",
         "optional/ellipsoid",
         "optional/extensions",
         "optional/forces",
