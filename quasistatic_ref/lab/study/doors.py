@@ -5,7 +5,7 @@ import importlib.util
 import inspect
 import sys
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -82,9 +82,9 @@ def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
 
 def _in_arrays(form: StandardForm) -> StandardForm:
     """The same with H and A as arrays."""
-    matrices: Iterable[Any] = (form.H, form.A)
-    H, A = (M.toarray() if issparse(M) else M for M in matrices)
-    return form._replace(H=H, A=A)
+    H: Any = form.H
+    A: Any = form.A
+    return form._replace(H=H.toarray(), A=A.toarray()) if issparse(H) else form
 
 
 def _by_cvxpy(name: str) -> Call:

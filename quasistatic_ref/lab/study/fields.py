@@ -58,8 +58,8 @@ TABLES = WholeTables({
                             above=0.0, most=LONGEST_LIMIT),
         "warm_up": Field("number", "of the first call of a shape at a setting, in which a solver "
                          "may compile; not counted", "s", 10.0, above=0.0, most=LONGEST_LIMIT),
-        "budget": Field("number", "of one solver, all its calls together", "s", 600.0, above=0.0,
-                        most=LARGE),
+        "budget": Field("number", "of one solver, all its calls together, each time that the study "
+                        "runs", "s", 600.0, above=0.0, most=LARGE),
         "memory": Field("number", "of one solver's process", "GB", 4.0, above=0.0, most=LARGE),
         "repetitions": Field("integer", "calls that are timed, of each measurement", default=5,
                              least=1, most=1000),

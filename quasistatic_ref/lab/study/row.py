@@ -1,7 +1,7 @@
 """One measurement of a study: the columns of its Parquet file."""
 
 from dataclasses import dataclass
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
 SOLVED = "solved"
 """It says that it solved the problem, and returned numbers."""
@@ -122,11 +122,3 @@ KEY = ("problem", "solver", "door", "setting", "options", "units", "start")
 def key_of(row: Any) -> tuple[str, ...]:
     """What tells a row, or a measurement that has these attributes, from others."""
     return tuple(getattr(row, name) for name in KEY)
-
-
-def columns() -> dict[str, str]:
-    """The columns and their types in Parquet."""
-    kinds = {str: "string", int: "int64", bool: "bool", float: "float64"}
-    return {
-        name: kinds[(get_args(kind) or (kind,))[0]] for name, kind in get_type_hints(Row).items()
-    }

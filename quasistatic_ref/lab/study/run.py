@@ -19,13 +19,14 @@ from quasistatic_ref.lab.machine import machine
 from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.study.accepted import check_options
 from quasistatic_ref.lab.study.doors import neighbour
+from quasistatic_ref.lab.study.fields import COLD
 from quasistatic_ref.lab.study.grade import grades, problem_forms, ungraded_fields
 from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.row import NOT_RUN, TIMEOUT, Row, key_of
 from quasistatic_ref.lab.study.solvers import CVXPY, FUNCTION, Setting, Solver
 from quasistatic_ref.lab.study.store import ROWS, rows_read, rows_written
-from quasistatic_ref.lab.study.study_file import COLD, Limits, Study
+from quasistatic_ref.lab.study.study_file import Limits, Study
 from quasistatic_ref.lab.study.worker import Answer, Ended, Question, SolverProcess
 from quasistatic_ref.simulate.progress import progress_bar
 

@@ -103,17 +103,11 @@ class Solver:
         return {} if self.door == FUNCTION else table()[self.target]
 
     @property
-    def package(self) -> str:
-        """The package that it comes in; "" of a function."""
-        if self.door == FUNCTION:
-            return ""
-        known = BACKENDS.get(self.target)
-        return known.to_install if known else self.target
-
-    @property
     def version(self) -> str:
-        """Of that package."""
-        return _version(self.package) if self.package else ""
+        """Of the package that it comes in; "" of a function."""
+        known = BACKENDS.get(self.target)
+        package = known.to_install if known else self.target
+        return "" if self.door == FUNCTION else _version(package)
 
     @property
     def warm(self) -> bool:

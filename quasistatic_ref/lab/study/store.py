@@ -3,14 +3,16 @@
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
-from quasistatic_ref.lab.study.row import Row, columns
+from quasistatic_ref.lab.study.row import Row
 from quasistatic_ref.parts import needed_package
 
 ROWS = "rows.parquet"
+COLUMNS = get_type_hints(Row)
+"""Name -> type, or a union of one with None."""
 
 
 def rows_written(path: Path, rows: Iterable[Row]) -> Path:
@@ -22,9 +24,10 @@ def rows_written(path: Path, rows: Iterable[Row]) -> Path:
         If pyarrow is not installed, or the file cannot be written.
     """
     arrow, parquet = _parquet()
-    kinds = {"string": arrow.string(), "int64": arrow.int64(), "bool": arrow.bool_(),
-             "float64": arrow.float64()}  # fmt: skip
-    schema = arrow.schema([(name, kinds[kind]) for name, kind in columns().items()])
+    kinds = {str: arrow.string(), int: arrow.int64(), bool: arrow.bool_(), float: arrow.float64()}
+    schema = arrow.schema(
+        [(name, kinds[(get_args(kind) or (kind,))[0]]) for name, kind in COLUMNS.items()]
+    )
     table = arrow.Table.from_pylist([asdict(row) for row in rows], schema=schema)
     return written_whole(path, lambda file: parquet.write_table(table, file, compression="zstd"))
 
@@ -44,11 +47,11 @@ def rows_read(folder: str | Path) -> list[Row]:
     except (OSError, arrow.ArrowException) as error:
         words = str(error).partition("\n")[0][:120]
         raise InputError(f"holds no rows of a study: {words}", file=path) from None
-    if table.column_names != list(columns()):
+    if table.column_names != list(COLUMNS):
         raise InputError("has other columns than a study's rows", file=path)
     return [Row(**one) for one in table.to_pylist()]
 
 
-def _parquet() -> tuple[Any, Any]:
-    arrow = needed_package("pyarrow", "study", "the rows of a study")
-    return arrow, needed_package("pyarrow.parquet", "study", "the rows of a study")
+def _parquet() -> list[Any]:
+    names = ("pyarrow", "pyarrow.parquet")
+    return [needed_package(name, "study", "the rows of a study") for name in names]

@@ -10,7 +10,6 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.fields import (
-    COLD,
     COUNT,
     COUNTS,
     FORMAT,
@@ -36,8 +35,6 @@ from quasistatic_ref.lab.study.solvers import (
     check_installed,
     solvers_named,
 )
-
-__all__ = ["COLD", "Limits", "Part", "Study", "solver_study", "study_names", "study_path"]
 
 GB = 1e9
 """[bytes]"""

@@ -61,20 +61,14 @@ def sleeps(P, q, G, h):
     time.sleep(600)
 
 def eats(P, q, G, h):
-    held = []
-    while True:
-        held.append(np.ones(10**6))
-        time.sleep(1e-3)
+    held = np.ones(10**8)
+    time.sleep(600)
 
 def spoils(P, q, G, h):
     os.write(1, b"noise")
     answer = honest(P, q, G, h)
     P[:], q[:], G[:], h[:] = 0, 0, 0, 0
     return answer
-
-def fails_once(P, q, G, h, calls=[]):
-    calls.append(1)
-    return honest(P, q, G, h) if len(calls) != 3 else os._exit(7)
 '''
 SMALL = """
 time_limit = 20.0

@@ -1,8 +1,12 @@
 """What a function returns, and what its row says of it."""
 
+import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
+from quasistatic_ref.lab.study.compiled_problems import CompiledProblems
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.step.standard_form import StandardForm
 
 STUDY = """
 repetitions = 1
@@ -45,3 +49,12 @@ def test_a_function_that_is_not_there_is_one_sentence_before_the_study_runs(
     with pytest.raises(InputError, match=words):
         run(STUDY.format(function=function))
     assert not (tmp_path / "store").exists()
+
+
+def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
+    form = StandardForm(np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2),
+                        np.array([1.0, -9.0]))  # fmt: skip
+    programs = CompiledProblems("osqp")
+    options = BACKENDS["osqp"].first(1e-10)
+    first, warm, cold = (programs.reply(form, options, warm=w) for w in (False, True, False))
+    assert cold.iterations == first.iterations > warm.iterations

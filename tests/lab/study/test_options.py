@@ -18,17 +18,13 @@ HERE = [(door, name) for door in BY_NAME for name in installed_here(door)]
 
 WRONG = [
     ("qpsolvers", "piqp", "eps_absolute", 1e-12),
-    ("qpsolvers", "qpalm", "eps_absolute", 1e-12),
     ("qpsolvers", "osqp", "eps_absolute", 1e-12),
     ("qpsolvers", "daqp", "primal_tolerance", 1e-12),
     ("qpsolvers", "quadprog", "tolerance", 1e-12),
-    ("qpsolvers", "highs", "primal_tolerance", 1e-9),
     ("qpsolvers", "highs", "primal_feasibility_tolerance", 1e-12),
-    ("cvxpy", "highs", "dual_feasibility_tolerance", 1e-12),
     ("cvxpy", "daqp", "primal_tolerance", 1e-12),
     ("cvxpy", "proxqp", "eps_primal_inf", 1e-12),
     ("cvxpy", "clarabel", "tol_feasibility", 1e-12),
-    ("cvxpy", "clarabel", "max_iter", -1),
     ("cvxpy", "scs", "eps_abs", -1.0),
 ]  # fmt: skip
 

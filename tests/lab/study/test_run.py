@@ -1,6 +1,5 @@
 """A study from its file to its rows: complete, and the same however often it was stopped."""
 
-import json
 import os
 import signal
 import subprocess
@@ -18,8 +17,6 @@ import pytest
 
 import quasistatic_ref
 from quasistatic_ref import InputError
-from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.row import Row, key_of
 from quasistatic_ref.lab.study.run import measured
 from quasistatic_ref.lab.study.store import ROWS, rows_read
@@ -102,34 +99,10 @@ def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(study, small,
     assert len(rows_read(tmp_path / "study")) == CALLS - 5 * 2  # those of the other solver
 
 
-STEPS = """
-[problems]
-scenarios = ["block_push"]
-families = { scenarios = 3 }
-[[runs]]
-solvers = ["qpsolvers:daqp"]
-"""
-
-
-def test_the_making_of_problems_may_be_stopped(study, tmp_path, monkeypatch, capsys):
-    study(STEPS)
-    command = ["study", "run", str(tmp_path / "study.toml"), "--out", str(tmp_path / "store")]
-
-    def stopped(*_):
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(making, "exact_answer", stopped)
-        assert main(command) == 130
-    capsys.readouterr()
-    assert main([*command, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["outcomes"] == {"solved": 3}
-
-
 LIMITED = """
 time_limit = 0.3
-warm_up = 1.0
-memory = 1.0
+warm_up = 2.0
+memory = 0.3
 budget = 4.0
 repetitions = 2
 [problems]
@@ -152,25 +125,12 @@ def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(run, tm
     for row in rows:
         outcomes[row.solver].append(row.outcome)
     assert outcomes["sleeps"][0] == "timeout"
-    assert outcomes["sleeps"][-1] == "not run"  # after four calls of 1 s at most
-    assert set(outcomes["eats"]) <= {"timeout", "out of memory", "not run"}
+    assert outcomes["sleeps"][-1] == "not run"  # 4 s are two calls
+    assert outcomes["eats"][0] == "out of memory"
     assert outcomes["exits"] == ["crashed"] * 5
     assert outcomes["honest"] == ["solved"] * 5
     assert has_ended(int((tmp_path / "child").read_text()))
     assert {row.status for row in rows if row.solver == "exits"} == {"ended with 7"}
-
-
-def test_memory_is_limited(run):
-    text = LIMITED.replace("time_limit = 0.3", "time_limit = 60.0").replace("warm_up = 1.0", "")
-    rows = run(text.replace('["sleeps", "eats", "exits", "honest"]', '["eats"]'))
-    assert rows[0].outcome == "out of memory"
-
-
-def test_a_solver_starts_again_after_it_has_ended(run):
-    """Its third call ends it: of three calls a measurement the first and the last are whole."""
-    rows = run(LIMITED.replace("solvers.py:exits", "solvers.py:fails_once").replace(
-        '["sleeps", "eats", "exits", "honest"]', '["exits"]'))  # fmt: skip
-    assert [row.outcome for row in rows] == ["crashed"] * 5
 
 
 def test_on_a_cluster_the_rows_are_the_same(run, small, whole, tmp_path):

@@ -1,7 +1,5 @@
 """Sparse problems: in which matrices each door hands them on, and what comes back."""
 
-from time import perf_counter
-
 import pytest
 import qpsolvers
 from scipy.sparse import issparse
@@ -25,9 +23,8 @@ def test_every_solver_answers_a_wall_of_bricks(way, members):
     form = forms.forms["natural"]
     assert issparse(form.H)
     options = solver.settings_of(setting, 10.0)
-    begin = perf_counter()
     reply = call_of(solver, ".")[0](form, options, None)
-    assert 0 < reply.call_seconds < perf_counter() - begin
+    assert reply.call_seconds > 0
     row = grades(forms, "natural", reply, solver, solver.promise(setting, options), 1e-9)
     assert row["claim"] == "optimal"
     assert min(row["digits"], row["digits_net"]) > (3 if way in LESS else 6)

@@ -42,7 +42,7 @@ UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, Overf
 """What reading raises of files that agree with their manifest, and are something else."""
 
 
-def set_written(folder: Path, name: str, problems: Sequence[Problem], **more: Any) -> None:
+def set_written(folder: Path, name: str, problems: Sequence[Problem]) -> None:
     """Write a set: the numbers of each family, the lines of all, and the manifest.
 
     Parameters
@@ -52,8 +52,6 @@ def set_written(folder: Path, name: str, problems: Sequence[Problem], **more: An
         Of the set, with its version.
     problems : sequence of Problem
         In the order of their families.
-    more : object
-        What else the manifest says.
     """
     every: dict[str, list[Problem]] = {}
     for one in problems:
@@ -72,7 +70,6 @@ def set_written(folder: Path, name: str, problems: Sequence[Problem], **more: An
         "name": name,
         "count": len(problems),
         "families": families,
-        **more,
         "files": [
             {"path": path.relative_to(folder).as_posix(), "sha256": _hash(bytes_read(path))}
             for path in paths

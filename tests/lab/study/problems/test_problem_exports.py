@@ -9,14 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pyarrow.parquet import read_table
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref import InputError
-from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
-from quasistatic_ref.lab.study.problems.names import FORMATS
-from quasistatic_ref.lab.study.problems.problem import Problem
 
 
 @pytest.fixture
@@ -47,66 +42,11 @@ def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
                 np.testing.assert_array_equal(bundle[f"{k}/x"], one.answer.x)
 
 
-def of_rows(name, H, g, A, b):
-    """A problem of which nothing but its numbers is known."""
-    return Problem({"id": name, "tags": []}, csr_matrix(H), g, csr_matrix(A), b, None, None)
-
-
-ROWS = [
-    of_rows(
-        "two rows",
-        np.array([[2.0, 1.0], [1.0, 3.0]]),
-        np.array([1.0, 0.0]),
-        np.array([[1.0, 2.0], [3.0, 4.0]]),
-        np.array([-1.0, 0.0]),
-    ),
-    of_rows("no rows", np.eye(3), np.arange(3.0), np.zeros((0, 3)), np.zeros(0)),
-]
-
-
-def test_parquet_holds_qpbenchmarks_columns_with_its_signs(tmp_path):
-    # min 1/2 x'Px + q'x, Gx <= h against min 1/2 x'Hx - g'x, Ax >= b: q = -g, G = -A, h = -b.
-    table = read_table(exports.parquet_written(tmp_path / "qps.parquet", ROWS))
-    assert table.column_names == ["P", "q", "G", "h", "A", "b", "lb", "ub", "name"]
-    first, second = table.to_pylist()
-    assert first["P"] == [2.0, 1.0, 1.0, 3.0]
-    assert str(first["q"]) == "[-1.0, 0.0]"
-    assert first["G"] == [-1.0, -2.0, -3.0, -4.0]
-    assert str(first["h"]) == "[1.0, 0.0]"
-    assert [first[key] for key in ("A", "b", "lb", "ub")] == [None] * 4
-    assert second["q"] == [0.0, -1.0, -2.0]
-    assert (second["G"], second["h"]) == (None, None)
-    assert [row["name"] for row in (first, second)] == ["two rows", "no rows"]
-
-
-def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[parquet\]'"):
-        exports.parquet_written(tmp_path / "qps.parquet", ROWS)
-
-
-@pytest.mark.parametrize("to", FORMATS)
-def test_every_export_says_what_it_is_and_how_to_cite_it(to, few, tmp_path):
-    export(to, tmp_path, few[:1])
-    text = (tmp_path / "README.md").read_text("utf-8")
-    assert text.startswith(f"# contact-qp, as {to}\n")
-    assert "{" not in text.partition("```")[0]
-    licences = {path.name for path in problem_set_folder(CONTACT_QP).glob("LICENSE*")}
-    assert licences | {"CITATION.cff"} <= {path.name for path in tmp_path.iterdir()}
-
-
 def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     tmp_path, monkeypatch, capsys, cli
 ):
-    command = ["study", "problems", "export", "--to", "parquet", "--out", tmp_path]
-    some = [
-        "--families",
-        "condition,infeasible,capped_wedge",
-        "--every",
-        "15",
-        "--units",
-        "natural",
-    ]
+    command = ["study", "problems", "export", "--to", "parquet", "--units", "natural"]
+    some = ["--families", "condition,infeasible,capped_wedge", "--every", "15", "--out", tmp_path]
     assert "left out 4 problems" in cli(*command, *some).err
     program = Path(sys.executable).with_name("qpbenchmark")
     module = "contact_qp_natural.py"
@@ -121,7 +61,8 @@ def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", [module, "daqp"])
     runpy.run_path(module, run_name="__main__")
-    assert capsys.readouterr().out.startswith("daqp: median ")
+    digits = re.match(r"daqp: median ([\d.]+) digits", capsys.readouterr().out)
+    assert float(digits[1]) > 10  # of the module's x: every sign is right
 
 
 def test_the_module_of_qpbenchmark_judges_claims_by_residuals(tmp_path, members):
@@ -144,7 +85,4 @@ def test_the_module_of_qpbenchmark_sees_wrong_answers(tmp_path, members, part):
     ((problem),) = module["ContactQp"]()
     answer = {"x": one.answer.x, "z": one.answer.lam}
     assert module["excess"](problem, **answer) < 1e-9
-    answer[part] = answer[part] + 1.0
-    assert module["excess"](problem, **answer) > 1e-3
-    assert module["digits"](one.id, one.answer.x) == 16.0
-    assert module["digits"](one.id, one.answer.x * (1 + 1e-5)) < 6
+    assert module["excess"](problem, **{**answer, part: answer[part] + 1.0}) > 1e-3

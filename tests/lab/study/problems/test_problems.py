@@ -2,14 +2,12 @@
 
 from os.path import relpath
 
-import numpy as np
 import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER, study_problems
-from tests.closeness import assert_relative
 from tests.oracles.rational_kkt import refutation
 
 PROBLEMS = '[problems]\nscenarios = ["block_incline", "{own}"]\nfamilies.scenarios = 5\n'
@@ -31,9 +29,6 @@ def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmeti
         answer = one.answer
         x = answer.x, answer.net, answer.slack, answer.lam
         assert refutation(one.form.H, one.g, one.form.A, one.b, *x) is None
-        least, *_, largest = np.linalg.eigvalsh(one.form.H)
-        found = one.facts["measures"]["condition"]
-        assert_relative(found, largest / least, 1e-3)  # the table has four digits
     read = set_read(tmp_path / FOLDER)
     assert [dict(one.facts) for one in read] == [dict(one.facts) for one in made]
     again = study_problems(own, tmp_path / "again", progress=False)

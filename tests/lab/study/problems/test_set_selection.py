@@ -39,20 +39,6 @@ def test_sequences_are_taken_whole_and_in_order(members):
     assert [one.facts["sequence"]["place"] for one in found] == [*range(12), *range(12)]
 
 
-def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_path):
-    test_set = problems_of(study, "capped_wedge = { count = 3, most = 1e-3 }, gaps = 2, jammed = 2")
-    found = study_problems(test_set, tmp_path, progress=False)
-    families = [one.facts["family"] for one in found]
-    assert families == ["gaps"] * 2 + ["capped_wedge"] * 3 + ["jammed"] * 2
-    by_id = {one.id: one for one in members}
-    for one in study_problems(test_set, tmp_path, progress=False):
-        there = by_id[one.id]
-        assert dict(one.facts) == dict(there.facts)
-        np.testing.assert_array_equal(one.A.toarray(), there.A.toarray())
-        np.testing.assert_array_equal(one.answer.x, there.answer.x)
-        assert one.answer.farkas == there.answer.farkas
-
-
 def test_a_family_of_cones_is_refused():
     with pytest.raises(InputError, match="has cones; studies contain rows only"):
         problems_taken("contact-qp", {"ellipsoid": 2}, {})

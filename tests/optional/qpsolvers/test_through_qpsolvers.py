@@ -1,25 +1,11 @@
-"""Quadratic programs through CVXPY and qpsolvers, as studies ask: start, times, status."""
+"""What qpsolvers' solution says of times, of the solver's own word, and of iterations."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.compiled_problems import CompiledProblems
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import _account, _status
-from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.step.standard_form import StandardForm
-
-FORM = StandardForm(
-    np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2), np.array([1.0, -9.0])
-)
-
-
-def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
-    programs = CompiledProblems("osqp")
-    options = BACKENDS["osqp"].first(1e-10)
-    first, warm, cold = (programs.reply(FORM, options, warm=w) for w in (False, True, False))
-    assert cold.iterations == first.iterations > warm.iterations
 
 
 def solver_reply(**extras):

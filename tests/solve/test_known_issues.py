@@ -6,31 +6,12 @@ Then docs/studies.md, which lists them, is out of date, and the workaround may g
 import numpy as np
 import pytest
 
-from quasistatic_ref import StepProblem, standard_form
+from quasistatic_ref import StepProblem
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.compiled import CANON
-from tests.helpers import planted_step
-
-PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
-"""13 coordinates and 80 rows."""
-
-
-def highs_solved():
-    """How many of how many contact problems HiGHS solves; each was made around its solution.
-
-    HiGHS ends within milliseconds on each of them.
-    """
-    steps = [planted_step(np.random.default_rng(seed), *PAPERS)[0] for seed in range(20)]
-    replies = [qpsolvers_reply(standard_form(s), "highs", {"time_limit": 10.0}) for s in steps]
-    return sum(reply.solved for reply in replies), len(replies)
-
-
-def test_highs_still_does_not_solve_each_of_20_contact_problems():
-    solved, of = highs_solved()
-    assert 0 < solved < of
 
 
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():

@@ -1,0 +1,43 @@
+"""Parts of a program that nothing couples are solved one by one, with the bits of the whole."""
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag
+
+from quasistatic_ref.certify.exact import form_optimum
+from quasistatic_ref.lab.study.problems.answers import exact_answer
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.step.standard_form import StandardForm
+
+
+def random_parts(rng, sizes=(1, 3, 4)):
+    """A program of small integers, full of ties, whose parts are strewn over it; rows by part."""
+    L, A = (block_diag(*[rng.integers(-2, 3, (k * n, n)) for n in sizes]) for k in (1, 3))
+    strewn, of = (rng.permutation(len(M)) for M in (L, A))
+    H = (L @ L.T + np.eye(len(L)))[np.ix_(strewn, strewn)]
+    form = StandardForm(H, 1.0 * rng.integers(-2, 3, len(H)), 1.0 * A[np.ix_(of, strewn)],
+                        -1.0 * rng.integers(0, 3, len(A)))  # fmt: skip
+    return form, np.repeat(range(len(sizes)), 3 * np.array(sizes))[of]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_parts_that_nothing_couples_have_the_bits_of_the_whole(seed):
+    """Whatever rows they start from."""
+    rng = np.random.default_rng(seed)
+    form, of = random_parts(rng)
+    whole = form_optimum(exact_form_of(*form))
+    answer = exact_answer(form, rng.permutation(len(of))[:4].tolist())
+    for name, of_whole in (("x", "delta_q"), ("net", "net"), ("slack", "slack")):
+        assert getattr(answer, name).tobytes() == getattr(whole, of_whole).tobytes()
+    assert answer.unique == whole.multipliers_unique
+    assert answer.differentiable == whole.differentiable
+
+
+def test_a_part_without_a_solution_is_proof_that_the_whole_has_none():
+    """Its first row, twice: a x >= 1 and -a x >= 1."""
+    form, of = random_parts(np.random.default_rng(0))
+    one, other = np.flatnonzero(of == 1)[:2]
+    form.A[other] = -form.A[one]
+    form.b[[one, other]] = 1.0
+    y = exact_answer(form).farkas
+    assert y == {one: "1", other: "1"}
