@@ -21,6 +21,9 @@ from quasistatic_ref.tolerances import CONVEX_EXCESS
 BLOCK = 1 << 22
 """Points times planes handled at once: some tens of megabytes."""
 
+MOST_NEIGHBOURS = 254
+"""Most edges at a corner of a convex mesh of coal, which counts them in eight bits."""
+
 
 @dataclass(frozen=True, eq=False)
 class ConvexMesh(Shape):
@@ -63,7 +66,13 @@ class ConvexMesh(Shape):
 
     @cached_property
     def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
+        """The same shape as a coal geometry; ModelError where coal has no place for its edges."""
+        if np.bincount(self.triangles.ravel()).max() > MOST_NEIGHBOURS:
+            problem = (
+                f"has a corner with more than {MOST_NEIGHBOURS} edges, which distances to "
+                "cylinders, cones and ellipsoids cannot have; take a coarser mesh"
+            )
+            raise ModelError(problem, field="convex mesh", value=self.words())
         points = coal.StdVec_Vec3s()
         polygons = coal.StdVec_Triangle()
         points.extend(list(self.vertices))
@@ -157,7 +166,7 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
 
 
 def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
-    """Hull of a triangle mesh, knowing how much more it holds.
+    """Hull of all vertices of a triangle mesh, knowing how much more it holds.
 
     ``excess`` is the part of the hull's volume that the mesh does not enclose or, where that is
     next to nothing, the depth of the mesh's deepest vertex below the hull's surface relative to
@@ -176,14 +185,14 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
         If the vertices are not finite, or lie in one plane.
     """
     points = np.array(vertices, dtype=np.float64)
-    used = np.unique(points[np.unique(triangles)], axis=0)
-    hull = convex_hull(used)
+    every = np.unique(points, axis=0)
+    hull = convex_hull(every)
     a, b, c = (points[triangles] - hull.vertices.mean(axis=0)).transpose(1, 0, 2)
     enclosed = abs(float(np.sum(a * np.cross(b, c)))) / 6
     excess = abs(hull.volume - enclosed) / hull.volume
     if excess <= CONVEX_EXCESS:
-        excess = max(excess, _deepest(hull, used) / float(np.ptp(used, axis=0).max()))
-    return convex_hull(used, min(excess, 1.0))
+        excess = max(excess, _deepest(hull, every) / float(np.ptp(every, axis=0).max()))
+    return convex_hull(every, min(excess, 1.0))
 
 
 def _deepest(hull: ConvexMesh, points: Array) -> float:

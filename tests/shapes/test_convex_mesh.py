@@ -24,10 +24,22 @@ def test_triangles_of_a_hull_are_counter_clockwise_from_outside():
 
 def test_the_hull_of_a_mesh_has_its_corners():
     box = convex_hull(CORNERS)
-    spare = np.vstack([box.vertices, [[100, 100, 100]]])  # of no triangle
-    hull = hull_of_mesh(spare, box.triangles)
+    hull = hull_of_mesh(box.vertices, box.triangles)
     assert {tuple(corner) for corner in hull.vertices} == {tuple(corner) for corner in CORNERS}
     assert hull.is_convex
+    spare = np.vstack([box.vertices, [[100, 100, 100]]])  # of no triangle, and still a corner
+    hull = hull_of_mesh(spare, box.triangles)
+    assert (100, 100, 100) in {tuple(corner) for corner in hull.vertices}
+    assert not hull.is_convex
+
+
+def test_a_fan_of_many_edges_is_refused_by_coal_alone():
+    turn = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    rim = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(300)])
+    cone = convex_hull(np.vstack([rim, [[0, 0, 1]]]))
+    assert_relative(cone.volume, 300 / 2 * np.sin(2 * np.pi / 300) / 3, CLOSED_FORM)
+    with pytest.raises(ModelError, match="has a corner with more than 254 edges"):
+        _ = cone.coal
 
 
 @pytest.mark.parametrize("block", [convex_mesh.BLOCK, 24])

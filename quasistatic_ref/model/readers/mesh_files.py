@@ -1,22 +1,41 @@
-"""Mesh files: which file a URI means, and the convex hull of what it holds."""
+"""Mesh files: which file a URI means, what it holds, and the convex hull of that."""
 
-from collections.abc import Callable, Sequence
+import importlib.util
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 
-import coal
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import Slot
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
 
-MESHES = (".stl", ".obj", ".dae")
+MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf", ".3mf")
+WITH_UNITS = (".dae", ".3mf")
+"""Files that say in which unit their coordinates are; the others are in metres."""
 PACKAGE = "package://"
-CHECK_DAE: Slot[Callable[[Path], None]] = Slot("readers.dae")
 LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """What a mesh file holds, all of its objects where it places them.
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (V, 3)
+        [m].
+    triangles : ndarray of int, shape (T, 3)
+        Numbers of their vertices; none in a file of points alone.
+    """
+
+    vertices: Array
+    triangles: Indices
 
 
 def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -> Path:
@@ -36,8 +55,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     ModelError
         If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
         the package folders after symbolic links are resolved: what is loaded is never a surprise.
-        Or if it is too large, alone or with what is read together with it, or a COLLADA file that
-        would take a mesh library's memory.
+        Or if it is too large.
     """
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
@@ -70,9 +88,71 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     if size > LARGEST_MESH:
         problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
         raise ModelError(problem, value=uri)
-    if path.suffix.lower() == ".dae":
-        CHECK_DAE.needed("a .dae mesh")(path)
     return path
+
+
+def loaded_mesh(path: Path) -> Mesh:
+    """What a mesh file holds, as trimesh reads it.
+
+    Every object stands where the nodes of the file place it, in metres. A COLLADA file's ``Y_UP``
+    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh.
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be read, or a coordinate in it is not finite.
+    """
+    import trimesh  # takes as long as a short run
+
+    with about_file(path):
+        if path.suffix.lower() == ".dae" and importlib.util.find_spec("collada") is None:
+            raise ModelError("needs pycollada: pip install 'quasistatic-ref[dae]'")
+        try:
+            with warnings.catch_warnings(), np.errstate(all="ignore"):
+                warnings.simplefilter("ignore")  # each file that is not usable ends in an error
+                if path.suffix.lower() == ".dae":
+                    _check_collada(path)
+                scene = trimesh.load_scene(
+                    path, process=False, maintain_order=True, skip_materials=True
+                )
+                parts = list(_parts(scene.dump()))
+        except Exception as error:
+            # Each format's reader raises its own kinds of errors.
+            reason = " ".join(str(error).split()) or type(error).__name__
+            raise ModelError(f"cannot be read as a mesh: {reason}") from None
+        metres = 1.0
+        if path.suffix.lower() in WITH_UNITS and scene.units is not None:
+            metres = trimesh.units.unit_conversion(scene.units, "meters")
+        return _joined(parts, metres)
+
+
+def _check_collada(path: Path) -> None:
+    """An error of pycollada's where a geometry is malformed, which trimesh leaves out."""
+    from collada import Collada
+    from collada.common import DaeBrokenRefError, DaeUnsupportedError
+
+    Collada(str(path), ignore=[DaeUnsupportedError, DaeBrokenRefError])  # such as of images
+
+
+def _parts(placed: Sequence[object]) -> Iterator[tuple[Array, Indices]]:
+    """Vertices and triangles of each object; lines have none that count."""
+    for part in placed:
+        faces = getattr(part, "faces", np.zeros((0, 3)))
+        if type(part).__name__ in ("Trimesh", "PointCloud"):
+            vertices = np.asarray(getattr(part, "vertices"), dtype=np.float64)  # noqa: B009
+            yield vertices.reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3)
+
+
+def _joined(parts: Sequence[tuple[Array, Indices]], metres: float) -> Mesh:
+    starts = accumulate((len(vertices) for vertices, _ in parts), initial=0)
+    triangles = [faces + start for (_, faces), start in zip(parts, starts, strict=False)]
+    vertices = np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in parts)]) * metres
+    joined = np.concatenate([np.zeros((0, 3), dtype=np.int64), *triangles])
+    if not np.isfinite(vertices).all():
+        raise ModelError("must be finite numbers", field="vertices")
+    if joined.size and not (joined.min() >= 0 and joined.max() < len(vertices)):
+        raise ModelError("must be numbers of vertices", field="triangles")
+    return Mesh(vertices, joined)
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
@@ -81,42 +161,35 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
     Raises
     ------
     ModelError
-        If coal cannot read the file, or its vertices have no volume.
+        If the file cannot be read, or its vertices have no volume.
     """
     with about_file(path):
-        return hull_of_loaded(loaded_mesh(path, scale))
+        return hull_of_loaded(loaded_mesh(path), scale)
 
 
-def loaded_mesh(path: Path, scale: Array) -> coal.BVHModelBase:
-    """A mesh file as coal loads it, coordinates times `scale`, (3,) [-]; or ModelError."""
-    try:
-        return coal.MeshLoader().load(str(path), scale)
-    except (ValueError, RuntimeError) as error:
-        lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-        reason = lines[-2] if len(lines) > 1 else "".join(lines)
-        raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
+def hull_of_loaded(mesh: Mesh, scale: Array) -> ConvexMesh:
+    """Convex hull of all vertices, times `scale`, (3,) [-]; ModelError if there is none.
+
+    Points alone are their own hull.
+    """
+    if not len(mesh.vertices):
+        raise ModelError("is empty: the mesh has no vertices", field="vertices")
+    if len(mesh.vertices) < 4:
+        raise ModelError("must be at least four", field="vertices", value=len(mesh.vertices))
+    if not len(mesh.triangles):
+        return convex_hull(np.unique(mesh.vertices * scale, axis=0))
+    return hull_of_mesh(mesh.vertices * scale, mesh.triangles)
 
 
-def triangles_of(geometry: coal.BVHModelBase) -> Indices:
-    """Numbers of the vertices of its triangles, shape (T, 3)."""
-    corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
-    return np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
-
-
-def hull_of_loaded(geometry: coal.BVHModelBase) -> ConvexMesh:
-    """Convex hull of a mesh as coal loaded it; ModelError if it is too small."""
-    if geometry.num_vertices < 4 or geometry.num_tris < 1:
-        problem = "must be at least four, with at least one triangle"
-        raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))
-    return hull_of_mesh(np.array(geometry.vertices()), triangles_of(geometry))
-
-
-def hull_note(name: str, mesh: ConvexMesh) -> str:
+def hull_note(name: str, hull: ConvexMesh, mesh: Mesh) -> str:
     """What became of a mesh, as one line."""
-    if mesh.is_convex:
-        return f"{name}: convex mesh, {len(mesh.vertices)} corners"
-    more = 100 * mesh.excess
+    corners = f"{len(hull.vertices)} corners"
+    if not len(mesh.triangles):
+        return f"{name}: a mesh of points alone, whose convex hull is taken, {corners}"
+    if hull.is_convex:
+        return f"{name}: convex mesh, {corners}"
+    more = 100 * hull.excess
     return (
-        f"{name}: mesh replaced by its convex hull, {len(mesh.vertices)} corners; "
+        f"{name}: mesh replaced by its convex hull, {corners}; "
         f"it is not convex (by {more:.2g} %), so a contact with it must say hull = true"
     )

@@ -19,7 +19,12 @@ from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.twist_joint import TwistJoint
 from quasistatic_ref.model.urdf.urdf_file import UrdfFile, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
-from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
+from quasistatic_ref.model.urdf.urdf_shapes import (
+    checked_shapes,
+    resolved_text,
+    same_pose,
+    with_spheres,
+)
 from quasistatic_ref.model.urdf.urdf_tree import link_poses, visiting_order
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.tolerances import LOADED
@@ -103,7 +108,7 @@ def loaded_urdf(
         _check_inertias(file, model)
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
-        shapes, hulls = checked_shapes(file, model, geometry, links, frames)
+        shapes, hulls = checked_shapes(file, model, geometry, links, frames, package_dirs)
     return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls))
 
 
@@ -211,14 +216,12 @@ def _loaded(text: str, base: str) -> tuple[pin.Model, pin.GeometryModel]:
     try:
         model = urdf_model(text, base)
         geometry = pin.buildGeomFromUrdfString(
-            model, _readable(text)[0], pin.GeometryType.COLLISION
+            model, with_spheres(_readable(text)[0]), pin.GeometryType.COLLISION
         )
     except (ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         if "valid URDF" in reason:
             reason = "its URDF parser refuses it, for the reason printed on standard error"
-        else:  # what a mesh library says, without where in its source it says so
-            reason = reason.rpartition("message: ")[2]
         raise ModelError(f"pinocchio cannot load it: {reason}") from None
     return model, geometry
 

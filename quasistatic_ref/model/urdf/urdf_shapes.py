@@ -1,33 +1,41 @@
 """The collision shapes of a URDF as pinocchio loaded them, compared with what its file says."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from xml.etree.ElementTree import tostring
+from xml.etree.ElementTree import SubElement, tostring
 
 import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
+from quasistatic_ref.formats.together import once
+from quasistatic_ref.model.readers.mesh_files import (
+    hull_note,
+    hull_of_loaded,
+    loaded_mesh,
+    mesh_path,
+)
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh
-from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
+from quasistatic_ref.shapes.placed_shape import PlacedShape, Sphere
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
+IN_PLACE = Sphere(1.0)
+"""What pinocchio is given in place of a mesh: where it puts that is compared, the mesh is ours."""
+
 
 def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
-    """What pinocchio is given: the file's text without what the model ignores in its links.
+    """The file's text without what the model ignores in its links, such as visuals.
 
-    Visuals are left out, and so is <collision_checking>, by which pinocchio takes a shape for
-    another than the one written. The URI of a collision mesh is replaced by the file that
-    it means: pinocchio would read a relative path from the working folder, and follow any.
+    <collision_checking> goes too, by which pinocchio takes a shape for another than the one
+    written. The URI of a collision mesh is replaced by the file that it means.
 
     Raises
     ------
     ModelError
-        If a mesh is not to be found where it may be, or they are too large.
+        If a mesh is not to be found where it may be, or is too large.
     """
     robot = xml_root(file.text)
     for link in robot.findall("link"):
@@ -41,19 +49,30 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
     return tostring(robot, encoding="unicode")
 
 
+def with_spheres(text: str) -> str:
+    """A URDF's text with a sphere in place of each mesh."""
+    robot = xml_root(text)
+    for geometry in robot.findall("link/collision/geometry"):
+        if geometry.find("mesh") is not None:
+            geometry.clear()
+            SubElement(geometry, "sphere", radius=f"{IN_PLACE.radius!r}")
+    return tostring(robot, encoding="unicode")
+
+
 def checked_shapes(
     file: UrdfFile,
     model: pin.Model,
     geometry: pin.GeometryModel,
     links: Sequence[str],
     frames: Sequence[int],
+    package_dirs: Sequence[str | Path],
 ) -> tuple[tuple[PlacedShape, ...], tuple[str, ...]]:
     """Every collision shape in the frame of its link, as loaded; and notes on its meshes.
 
     Raises
     ------
     ModelError
-        If shapes are missing, or differ from what the file says.
+        If shapes are missing, or differ from what the file says, or a mesh cannot be read.
     """
     shapes = []
     notes = []
@@ -72,17 +91,27 @@ def checked_shapes(
             raise ModelError(problem, field=where, value=len(collisions))
         for count, ((shape, R, t), of_pinocchio) in enumerate(zip(collisions, loaded, strict=True)):
             placement = model.frames[frame].placement.actInv(of_pinocchio.placement)
-            same = same_pose(placement, R, t)
-            solid = _solid(shape, of_pinocchio, f"{where}[{count}]") if same else None
-            if solid is None:
+            written = IN_PLACE if isinstance(shape, FileMesh) else shape
+            same = (of_pinocchio.meshScale == 1).all() and of_pinocchio.geometry == written.coal
+            if not (same and same_pose(placement, R, t)):
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
-            given_name = file.links[link].named[count]
-            name = given_name if given_name and _usable(given_name, every) else f"{link}#{count}"
-            if isinstance(solid, ConvexMesh):
-                notes.append(hull_note(name, solid))
+            written_name = file.links[link].named[count]
+            usable = written_name and _usable(written_name, every)
+            name = written_name if written_name and usable else f"{link}#{count}"
+            if isinstance(shape, FileMesh):
+                with about_field(f"{where}[{count}].mesh"):
+                    path = mesh_path(shape.uri, file.path.parent, package_dirs)
+                    mesh = once(("mesh", path), partial(loaded_mesh, path))
+                if not len(mesh.vertices):
+                    notes.append(f"{name}: left out, since {shape.uri} is empty")
+                    continue
+                with about_field(f"{where}[{count}].mesh.vertices"):
+                    hull = hull_of_loaded(mesh, shape.scale)
+                notes.append(hull_note(name, hull, mesh))
+                shape = hull
             shapes.append(
-                PlacedShape(name, number, placement.rotation, placement.translation, solid)
+                PlacedShape(name, number, placement.rotation, placement.translation, shape)
             )
     return tuple(shapes), tuple(notes)
 
@@ -96,14 +125,3 @@ def same_pose(placement: pin.SE3, R: Array, t: Array) -> bool:
     """Whether pinocchio's placement is that of a file, (3, 3) and (3,) [m], but for rounding."""
     off = np.abs(placement.translation - t).max() > LOADED * (1 + np.abs(t).max())
     return not (off or np.abs(placement.rotation - R).max() > LOADED)
-
-
-def _solid(shape: Shape | FileMesh, given: pin.GeometryObject, where: str) -> Shape | None:
-    """The shape, or None where another one was loaded."""
-    if not isinstance(shape, FileMesh):
-        same = (given.meshScale == 1).all() and given.geometry == shape.coal
-        return shape if same else None
-    if not hasattr(given.geometry, "tri_indices") or (given.meshScale != shape.scale).any():
-        return None
-    with about_field(f"{where}.mesh.vertices"):
-        return hull_of_loaded(given.geometry)

@@ -7,7 +7,8 @@ import numpy as np
 
 from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.start import Start, body, sizes
-from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.data import Array
 
 DENSITIES = 10.0, 25_000.0
@@ -27,7 +28,7 @@ RATIO = 1000.0
 def density(start: Start) -> Iterator[Said]:
     """Free links that are lighter than foam or heavier than gold."""
     for link, name, shapes in start.free_links:
-        volume = sum(placed.shape.coal.computeVolume() for placed in shapes)
+        volume = sum(_volume(placed.shape) for placed in shapes)
         mass = float(start.system.masses[link])
         if not DENSITIES[0] <= mass / volume <= DENSITIES[1]:
             yield Said(
@@ -36,6 +37,11 @@ def density(start: Start) -> Iterator[Said]:
                 f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
                 {"density_kg_per_m3": mass / volume},
             )
+
+
+def _volume(shape: Shape) -> float:
+    """Volume [m^3]; a mesh knows its own, and may have more edges at a corner than coal counts."""
+    return shape.volume if isinstance(shape, ConvexMesh) else float(shape.coal.computeVolume())
 
 
 def inertia(start: Start) -> Iterator[Said]:

@@ -1,1 +1,1 @@
-"""Further formats of files: clouds in PLY, PCD and NumPy's arrays, meshes in COLLADA."""
+"""Further formats of files: clouds in PLY, PCD and NumPy's arrays."""

@@ -11,7 +11,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh, triangles_of
+from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_mesh, solid_of_points
@@ -202,9 +202,10 @@ def _surface_and_solid(
     vertices = np.zeros((0, 3))
     triangles = np.zeros((0, 3), dtype=np.int64)
     if path.suffix.lower() in MESHES:
-        mesh = loaded_mesh(path, np.ones(3)) if _has_faces(path) else None
-        if mesh is not None:
-            vertices, triangles = np.array(mesh.vertices()), triangles_of(mesh)
+        mesh = loaded_mesh(path)
+        vertices, triangles = mesh.vertices, mesh.triangles
+        if not len(vertices):
+            raise InputError("is empty: the file holds no vertices", field="vertices")
     if len(triangles):
         vertices = vertices * _metres(vertices, unit)
         solid = solid_of_mesh(vertices, triangles)
@@ -238,11 +239,6 @@ def _enclosed(points: Array, notes: list[str]) -> Solid | None:
             f"the solid is what a ball of radius {1e3 * solid.gap:.3g} mm cannot enter{doubt}"
         )
     return solid
-
-
-def _has_faces(path: Path) -> bool:
-    """Whether a mesh file has triangles: an OBJ may hold points alone."""
-    return path.suffix.lower() != ".obj" or b"\nf " in path.read_bytes()
 
 
 def _metres(points: Array, unit: str | None) -> float:

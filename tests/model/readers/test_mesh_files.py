@@ -1,16 +1,15 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
 import os
-from types import SimpleNamespace
 
-import coal
 import numpy as np
 import pytest
+import trimesh
 
 from quasistatic_ref import ModelError
-from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
+from quasistatic_ref.model.readers.mesh_files import Mesh, mesh_hull, mesh_path
+from quasistatic_ref.model.urdf import urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from quasistatic_ref.optional.readers.dae import check_dae
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
@@ -73,7 +72,7 @@ OUTSIDE = {
     "file": ("file:///a.obj", "must be package://NAME/PATH or a relative path"),
     "no package": ("package://arm/a.obj", r"needs package_dirs \(--root FOLDER\), which contain"),
     "missing": ("b.obj", "no such file"),
-    "kind": ("a.blend", "is not a known kind of mesh; known: .dae, .obj, .stl"),
+    "kind": ("a.blend", "is not a known kind of mesh; known: .3mf, .dae, .glb"),
 }
 
 
@@ -110,16 +109,12 @@ COLLADA = """<?xml version="1.0"?>
 </visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#sc"/></scene></COLLADA>
 """
-# Each of these took all of the memory, or lost a triangle without a word.
-HOSTILE = {
-    "a letter for an index": ("0 3 2 1", "0 3 x 1", r"<p>: must be a whole number.*\(got 'x'\)"),
-    "a fraction": ("0 3 2 1", "0 3 2.5 1", "<p>: must be a whole number"),
-    "a negative index": ("0 3 2 1", "0 3 -1 1", "<p>: must be a whole number"),
-    "an index of 33 bits": ("0 3 2 1", "0 3 4294967296 1", "<p>: is larger than 2147483647"),
-    "triangles that are not there": ('"4"><input', '"4000000000"><input', "<triangles count>"),
-    "numbers that are not there": ('count="12"', 'count="4000000000"', "<float_array count>"),
-    "an offset": ('offset="0"', 'offset="4000000000"', "<input offset>: is larger than"),
-    "a bomb": ("<COLLADA", "<!DOCTYPE a [<!ENTITY b 'c'>]><COLLADA", "DOCTYPE is not allowed"),
+# Each of these lost a triangle or a corner without a word, or took memory for what is not there.
+MALFORMED = {
+    "a letter for an index": ("0 3 2 1", "0 3 x 1"),
+    "a fraction": ("0 3 2 1", "0 3 2.5 1"),
+    "an index that is not there": ("0 3 2 1", "0 3 99 1"),
+    "no XML": ("</COLLADA>", ""),
 }
 
 
@@ -130,42 +125,104 @@ def test_a_collada_mesh_is_loaded(tmp_path):
     assert_within(hull.volume, 1 / 6, CLOSED_FORM)
 
 
-def test_an_index_may_be_the_largest_of_31_bits(tmp_path):
-    check_dae(urdf_of_text(tmp_path, "<mesh><p>2147483647</p></mesh>", "a.dae"))
-
-
-@pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)
-def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(tmp_path, right, wrong, words):
+@pytest.mark.parametrize(("right", "wrong"), MALFORMED.values(), ids=MALFORMED)
+def test_a_malformed_collada_mesh_is_refused_by_name(tmp_path, right, wrong):
     assert COLLADA.count(right) == 1
-    urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
-    with pytest.raises(ModelError, match=words) as caught:
-        mesh_path("a.dae", tmp_path, ())
-    assert "a.dae" in str(caught.value)
+    path = urdf_of_text(tmp_path, COLLADA.replace(right, wrong), "a.dae")
+    with pytest.raises(ModelError, match=r"a\.dae: cannot be read as a mesh"):
+        mesh_hull(path, np.ones(3))
 
 
-def test_an_unreadable_mesh_is_named_without_places_in_a_library(tmp_path):
+@pytest.mark.parametrize(
+    ("asset", "metres"),
+    [('<unit name="u" meter="0.001"/>', 0.001), ('<unit name="inch" meter="0.0254"/>', 0.0254)],
+)
+def test_the_unit_of_a_collada_mesh_is_applied(tmp_path, asset, metres):
+    text = COLLADA.replace('<unit name="meter" meter="1"/>', asset)
+    for up in ("Z_UP", "Y_UP"):  # which is left as it is
+        path = urdf_of_text(tmp_path, text.replace("Z_UP", up), "a.dae")
+        hull = mesh_hull(path, np.ones(3))
+        assert_within(hull.vertices, metres * CORNERS, 1e-15)
+
+
+CORNERS = np.array([[0, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]])
+"""Of the tetrahedron, sorted."""
+TWO = """o a
+v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1
+usemtl red\nf 1 3 2\nf 1 2 4
+usemtl blue\nf 1 4 3\nf 2 3 4
+o b
+v 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 0 1
+f 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8
+"""
+
+
+def test_a_hull_is_of_all_vertices_of_all_objects(tmp_path):
+    hull = mesh_hull(urdf_of_text(tmp_path, TWO, "a.obj"), np.ones(3))
+    corners = {(0, 0, 0), (0, 0, 1), (0, 1, 0), (4, 0, 0), (3, 1, 0), (3, 0, 1)}
+    assert {tuple(p) for p in hull.vertices} == corners  # the others are on an edge
+    assert not hull.is_convex
+
+
+def test_two_materials_are_one_convex_mesh(tmp_path):
+    hull = mesh_hull(urdf_of_text(tmp_path, TWO.split("o b")[0], "a.obj"), np.ones(3))
+    assert hull.is_convex
+    assert_within(hull.volume, 1 / 6, CLOSED_FORM)
+
+
+def test_two_nodes_of_a_collada_file_stand_where_it_places_them(tmp_path):
+    node = '<node><instance_geometry url="#g"/></node>'
+    text = COLLADA.replace("</node>\n", f"</node>{node}".replace("<node>", MOVED) + "\n")
+    hull = mesh_hull(urdf_of_text(tmp_path, text, "a.dae"), np.ones(3))
+    assert_within(hull.vertices.max(axis=0), np.array([4.0, 2.0, 2.0]), CLOSED_FORM)
+
+
+MOVED = "<node><translate>2 0 0</translate><scale>2 2 2</scale>"
+POINTS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.1 0.1 0.1\n"
+
+
+def test_an_obj_of_points_alone_is_their_hull_and_noted(tmp_path):
+    urdf_of_text(tmp_path, POINTS, "a.obj")
+    text = robot(link("a", collision('<mesh filename="a.obj"/>')))
+    urdf = loaded_urdf(urdf_of_text(tmp_path, text))
+    assert_within(urdf.shapes[0].shape.volume, 1 / 6, CLOSED_FORM)
+    note = "a#0: a mesh of points alone, whose convex hull is taken, 4 corners"
+    assert urdf.notes == (note,)
+
+
+def test_an_empty_mesh_is_left_out_of_a_urdf_and_noted(tmp_path):
     urdf_of_text(tmp_path, "solid\nendsolid\n", "a.stl")
-    body = urdf_of_text(tmp_path, robot(link("a", collision('<mesh filename="a.stl"/>'))))
-    with pytest.raises(ModelError, match=r"a\.stl") as caught:
-        loaded_urdf(body)
-    assert "line" not in str(caught.value)
-    assert "function" not in str(caught.value)
-
-
-LIBRARY = {
-    "places, reason, hint": "From file: /a.cpp\nat line: 9\nFile is empty\nHint: look elsewhere\n",
-    "reason and hint": "File is empty\nHint: look elsewhere",
-    "one line": "File is empty",
-    "one line and an empty one": "File is empty\n\n",
-}
-"""What a mesh library says of an empty file; coal's own words have the form of the first."""
-
-
-@pytest.mark.parametrize("said", LIBRARY.values(), ids=LIBRARY)
-def test_the_reason_of_a_mesh_library_is_the_line_before_its_hint(tmp_path, monkeypatch, said):
-    def load(*_):
-        raise RuntimeError(said)
-
-    monkeypatch.setattr(coal, "MeshLoader", lambda: SimpleNamespace(load=load))
-    with pytest.raises(ModelError, match=r"a\.stl: cannot be read as a mesh: File is empty$"):
+    text = robot(link("a", collision('<mesh filename="a.stl"/>')))
+    urdf = loaded_urdf(urdf_of_text(tmp_path, text))
+    assert urdf.shapes == ()
+    assert urdf.notes == ("a#0: left out, since a.stl is empty",)
+    with pytest.raises(ModelError, match=r"a\.stl: vertices: is empty: the mesh has no vertices"):
         mesh_hull(tmp_path / "a.stl", np.ones(3))
+
+
+@pytest.mark.parametrize("kind", ["off", "ply", "glb", "stl"])
+def test_a_format_is_read_as_trimesh_wrote_it(tmp_path, kind):
+    path = tmp_path / f"a.{kind}"
+    box = trimesh.creation.box((1, 2, 4))
+    path.write_bytes(trimesh.Scene(box).export(file_type=kind) if kind == "glb" else
+                     _bytes(box.export(file_type=kind)))  # fmt: skip
+    hull = mesh_hull(path, np.ones(3))
+    assert_within(hull.volume, 8.0, 1e-6)
+    assert hull.is_convex
+
+
+def _bytes(content):
+    return content.encode() if isinstance(content, str) else content
+
+
+def test_a_mesh_that_is_named_often_is_read_once(tmp_path, monkeypatch):
+    urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
+    read = []
+    monkeypatch.setattr(urdf_shapes, "loaded_mesh", lambda path: read.append(path) or MESH)
+    meshes = "".join(collision(f'<mesh filename="a.obj" scale="{k} 1 1"/>') for k in (1, 2, 3))
+    urdf = loaded_urdf(urdf_of_text(tmp_path, robot(link("a", meshes))))
+    assert [round(6 * shape.shape.volume) for shape in urdf.shapes] == [1, 2, 3]
+    assert len(read) == 1
+
+
+MESH = Mesh(CORNERS.astype(float), np.array([[0, 2, 3], [0, 3, 1], [0, 1, 2], [3, 2, 1]]))

@@ -10,7 +10,7 @@ from matplotlib.colors import to_hex
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, triangles_of
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_file import (
     FileMesh,
@@ -77,8 +77,8 @@ def _corners(shape: Shape | FileMesh, folder: Path, package_dirs: Sequence[str |
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
-    loaded = loaded_mesh(mesh_path(shape.uri, folder, package_dirs), shape.scale)
-    return np.asarray(np.array(loaded.vertices())[triangles_of(loaded).ravel()])
+    mesh = loaded_mesh(mesh_path(shape.uri, folder, package_dirs))
+    return np.asarray((mesh.vertices * shape.scale)[mesh.triangles.ravel()])
 
 
 def _colour(material: Element | None, named: dict[str | None, Element]) -> str | None:
