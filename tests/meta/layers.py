@@ -57,7 +57,6 @@ LAB = (
     "lab/machine",
     "lab/cluster",
     "lab/processes",
-    "lab/supervised",
     "lab/page",
     "lab/figures",
     "lab/sweep",

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from quasistatic_ref.lab.vectors.challenge.rounds import challenge
+from quasistatic_ref.lab.vectors.challenge.run import challenge
 from quasistatic_ref.lab.vectors.check.folder import check_answers
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.tools.scripts import ROOT

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.folders import vectors_folder
 
 ACTIONS = {
     "check": "compare a folder of answers with the vectors, layer by layer",
-    "challenge": "ask a program new cases, and show the smallest that it gets wrong",
+    "challenge": "ask a program new cases, and show those that it gets wrong",
     "generate": "compute every expected output from the inputs, and write the whole folder",
     "own": "write this package's own float64 answers, as anybody else's",
 }
@@ -59,8 +59,6 @@ def _add_challenge(action: argparse.ArgumentParser) -> None:
     say("--seconds", type=float, metavar="S", help="for how long")
     say("--seed", type=int, default=0, metavar="K", help="of the cases (0)")
     say("--timeout", type=float, default=10.0, metavar="S", help="for each answer (10 s)")
-    say("--jobs", type=int, default=1, metavar="J", help="processes that make cases (1)")
-    say("--first", action="store_true", help="end after the first round that finds something")
     say("--again", type=Path, metavar="FILE", help="ask the case of a counterexample once more")
     _add_digits(action)
     shared.add(action, "--out", default=Path("counterexamples"))

@@ -55,9 +55,13 @@ def test_what_challenges_found_in_programs_is_mended():
     with program:
         for i, case in enumerate(json.loads(FOUND.read_text())):
             reply = program.ask(str(i), "qp", case)
-            assert reply.kind == "output", (i, reply.said)
+            assert reply.kind == "output", (i, reply.reason)
             one = answer_judged(
-                "qp", Case(str(i), "", case), record_of("qp", case), reply.output, program.said
+                "qp",
+                Case(str(i), "", case),
+                record_of("qp", case),
+                reply.output,
+                program.declaration,
             )
             assert one.verdict.verdict != FAILED, one.verdict
 

@@ -26,6 +26,15 @@ def test_the_package_meets_half_of_the_vectors(part):
     assert report.count("passed") == len(some)
 
 
+def test_r35_random_steps_change_as_steps_without_rounding_do(rng):
+    random = [case for case in cases("derivative") if "/random/" in case.id]
+    some = [random[i] for i in rng.permutation(len(random))[:6]]
+    report = report_on(
+        "derivative", {case.id: layer("derivative").own(case.input) for case in some}
+    )
+    assert report.count("passed") == len(some), report.trouble
+
+
 def test_derivatives_do_not_move_the_simulator():
     simulator, q, q_bar_a = vector_scene("floating/push")
     before = simulator.step(q, q_bar_a)

@@ -6,10 +6,9 @@ import sys
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read
-from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
-from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
+from quasistatic_ref.lab.vectors.challenge.finding import FORMAT
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from quasistatic_ref.lab.vectors.challenge.rounds import challenge, sent_again
+from quasistatic_ref.lab.vectors.challenge.run import Outcome, asked_again, challenge
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 
 
@@ -23,7 +22,7 @@ def challenge_status(options: argparse.Namespace) -> int:
     """
     if options.program is None:
         raise InputError("is missing: the program that is challenged", field="--command")
-    for name in ("cases", "seconds", "timeout", "jobs", "digits"):
+    for name in ("cases", "seconds", "timeout", "digits"):
         value = getattr(options, name)
         if value is not None and not 0 < value < float("inf"):
             raise InputError("must be positive", field=f"--{name}", value=value)
@@ -36,7 +35,7 @@ def challenge_status(options: argparse.Namespace) -> int:
         record = json_read(options.again)
         if not isinstance(record, dict) or record.get("format") != FORMAT:
             raise InputError("is not a counterexample", file=options.again)
-        outcome = sent_again(program, record, options.digits)
+        outcome = asked_again(program, record, options.digits)
     else:
         outcome = challenge(
             program,
@@ -45,33 +44,31 @@ def challenge_status(options: argparse.Namespace) -> int:
             seconds=options.seconds,
             seed=options.seed,
             digits=options.digits,
-            jobs=options.jobs,
-            first=options.first,
-            say=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
+            report=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
         )
     _print_outcome(outcome, options)
     return outcome.status
 
 
 def _print_outcome(outcome: Outcome, options: argparse.Namespace) -> None:
-    """Print what was found, and write its counterexamples."""
+    """Print what came of it, and write the counterexamples."""
     written = [] if options.again else [
         finding.write_folder(options.out, options.program) for finding in outcome.findings
     ]  # fmt: skip
     if options.json:
-        record = {
-            "implementation": outcome.implementation,
-            "asked": dict(outcome.sent),
-            "findings": [finding.record for finding in outcome.findings],
-        }
-        shared.print_json(record | {"remarks": outcome.remarks})
+        shared.print_json(
+            {
+                "implementation": outcome.implementation,
+                "findings": [finding.record for finding in outcome.findings],
+                "remark": outcome.remark,
+            }
+        )
         return
     shared.print_rows(outcome.rows)
-    for finding in outcome.findings:
-        print(f"quasistatic-ref: {finding.title}", file=sys.stderr)
-        for sentence in finding.sentences:
-            print(f"    {sentence}", file=sys.stderr)
-    for remark in outcome.remarks:
-        print(f"quasistatic-ref: {remark}", file=sys.stderr)
+    if options.again or options.quiet:
+        for finding in outcome.findings:
+            print(f"quasistatic-ref: {finding.title}", file=sys.stderr)
+    if outcome.remark:
+        print(f"quasistatic-ref: {outcome.remark}", file=sys.stderr)
     for path in written:
         print(path)

@@ -1,25 +1,18 @@
-"""A program that answers line by line, started again whenever it has to be.
-
-Whatever it does, crash, hang, print what is no answer, answer twice, late or to a case that was not
-sent, or flood its standard error, is survived and reported.
-"""
+"""A program that answers line by line; one that ends or hangs is started again."""
 
 import contextlib
 import json
-import math
 import os
-import queue
 import shlex
 import signal
 import subprocess
 import threading
-import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import IO
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import plain
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -28,14 +21,9 @@ START = 6.0
 """The first answer may take so many times longer [-]: a program starts, perhaps compiles itself."""
 LINE = 64 * 2**20
 """Longest line of an answer [bytes]; the answer to 1,000 contacts has a hundredth."""
-GRACE = 1.0
-"""So many times the time for an answer [-] is a late one still waited for: then it is a hang."""
-STRAY = 20
-"""Lines that are no answer to the case, after which the program is started again."""
-FLOOD = 2**20
-"""Standard error beyond that [bytes] is said to be a flood."""
-TAIL = 2000
-"""The size of the part that is kept [bytes]."""
+
+Simulator = Callable[[str, Json], Json]
+"""(layer, input) -> output, or None for a layer that it does not answer; arrays are lists."""
 
 
 @dataclass(frozen=True)
@@ -45,20 +33,16 @@ class Reply:
     Parameters
     ----------
     kind : str
-        ``output``, ``error``, ``unsupported``; or what went wrong: ``crash``, ``hang``, ``late``,
-        ``garbage``.
+        ``output``, ``error``, ``unsupported``; or what went wrong: ``end``, ``hang``, ``garbage``.
     output : object
         Of an ``output``.
-    said : str
+    reason : str
         Of an error, or of what went wrong.
-    strays : tuple of str
-        What else it answered meanwhile: twice, or to a case that was not sent.
     """
 
     kind: str
     output: Json = None
-    said: str = ""
-    strays: tuple[str, ...] = ()
+    reason: str = ""
 
 
 class Program:
@@ -80,23 +64,17 @@ class Program:
         if not self._words:
             raise InputError("is empty", field="command", value=command)
         self._timeout = timeout
-        self._warming = (START - 1) * timeout
-        self._process: Supervised | None = None
-        self._heard = False
-        self.until = math.inf
-        """By the monotonic clock, when nobody waits for a slow start any more [s]."""
-        self._answered: set[str] = set()
-        self.said = Answers()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._answers_seen = 0
+        self._starts = 0
+        self.declaration = Answers()
         self.layers: tuple[str, ...] = LAYERS
-        self.flood = 0
-        self.tail = b""
-        self.starts = 0
 
     def __enter__(self) -> "Program":
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._stop()
+        self.close()
 
     def ask(self, id: str, layer: str, case: Json) -> Reply:
         """What it answers to a case.
@@ -106,73 +84,68 @@ class Program:
         InputError
             If the program cannot be started, or ends at its first start without an answer.
         """
-        if self._process is None:
-            self._start()
-        began = time.monotonic()
-        warming = 0.0 if self._heard else self._warming
-        allowed = self._timeout + max(min(warming, self.until - began - self._timeout), 0.0)
-        waited = allowed + GRACE * self._timeout
-        line = json.dumps({"id": id, "layer": layer, "input": case}, allow_nan=False)
-        self._inbox.put(line.encode() + b"\n")
-        strays: list[str] = []
-        while True:
-            left = began + waited - time.monotonic()
-            try:
-                got = self._lines.get(timeout=max(left, 1e-3))
-            except queue.Empty:
-                self._stop()
-                why = f"no answer within {waited:g} s; is each line flushed?"
-                return Reply("hang", said=why, strays=tuple(strays))
-            if got is None:
-                return self._crash(strays)
-            warming = not self._heard
-            took = time.monotonic() - began
-            reply = self._reply(id, got, strays)
-            if reply is not None:
-                if warming:  # started again, it may take twice that
-                    self._warming = 2 * took
-                return reply if took <= allowed else _late_reply(reply, took, allowed)
-            if len(strays) >= STRAY:
-                self._stop()
-                return Reply("garbage", said=strays[0], strays=tuple(strays[:1]))
+        process = self._process or self._start()
+        seconds = self._timeout * (1 if self._answers_seen else START)
+        hung = threading.Event()
 
-    def _reply(self, id: str, line: bytes, strays: list[str]) -> Reply | None:
-        """The reply that a line is, if it is one to the case; otherwise what it is."""
+        def end() -> None:
+            hung.set()
+            _kill(process)
+
+        timer = threading.Timer(seconds, end)
+        timer.start()
         try:
-            record = json.loads(line)
-        except (ValueError, RecursionError):
-            record = None
-        if not isinstance(record, dict):
-            text = line[:60].decode("utf-8", "replace").strip()
-            strays.append(f"printed {text!r}, which is no JSON object on a line")
+            reply = self._reply(process, id, {"id": id, "layer": layer, "input": case})
+        finally:
+            timer.cancel()
+        if hung.is_set():
+            self.close()
+            return Reply("hang", reason=f"no answer within {seconds:g} s; is each line flushed?")
+        if reply is None:
+            return self._end(process)
+        if reply.kind == "garbage":
+            self.close()
+        else:
+            self._answers_seen += 1
+        return reply
+
+    def _reply(self, process: "subprocess.Popen[bytes]", id: str, question: Json) -> Reply | None:
+        """Send a case and read a line; None if the program has ended."""
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            process.stdin.write(json.dumps(question, allow_nan=False).encode() + b"\n")
+            process.stdin.flush()
+        except OSError:
             return None
-        if "protocol" in record and "id" not in record and not self._heard:
+        line = process.stdout.readline(LINE)
+        record = _record(line)
+        if record and "protocol" in record and "id" not in record and not self._answers_seen:
             self._greet(record)
+            line = process.stdout.readline(LINE)
+            record = _record(line)
+        if not line:
             return None
-        self._heard = True
-        name = record.get("id")
-        if name != id:
-            twice = str(name) in self._answered
-            what = f"{name!r} twice" if twice else f"{str(name)[:40]!r}, which was not sent"
-            strays.append(f"answered {what}")
-            return None
-        self._answered.add(id)
-        others = tuple(strays)
+        if record is None:
+            text = line[:60].decode("utf-8", "replace").strip()
+            return Reply("garbage", reason=f"printed {text!r}, which is no JSON object on a line")
+        if record.get("id") != id:
+            name = str(record.get("id"))[:60]
+            return Reply("garbage", reason=f"answered {name!r} where {id!r} was asked")
         if record.get("unsupported") is True:
-            return Reply("unsupported", strays=others)
+            return Reply("unsupported")
         if "error" in record:
-            return Reply("error", said=str(record["error"])[:200], strays=others)
+            return Reply("error", reason=str(record["error"])[:200])
         if "output" in record:
-            return Reply("output", output=record["output"], strays=others)
-        said = "an answer has output, error or unsupported"
-        return Reply("garbage", said=said, strays=others)
+            return Reply("output", output=record["output"])
+        return Reply("garbage", reason="an answer has output, error or unsupported")
 
     def _greet(self, record: Json) -> None:
         """Read the line that declares what the program is."""
         top = TableReader(record, "the first line of the program")
         if top.take("protocol") != 1:
             raise top.error_about("protocol", "must be 1", record["protocol"])
-        self.said = Answers(
+        self.declaration = Answers(
             implementation=top.text("implementation", ""),
             tangent=top.text("tangent", "body", choices=TANGENTS),
             quaternion=top.text("quaternion", "xyzw", choices=QUATERNIONS),
@@ -181,91 +154,81 @@ class Program:
         top.close()
         self.layers = tuple(name for name in LAYERS if name in supported)
 
-    def _crash(self, strays: list[str]) -> Reply:
-        process = self._process
-        heard = self._heard
-        assert process is not None
-        status = process.status()
-        self._stop()
+    def _end(self, process: "subprocess.Popen[bytes]") -> Reply:
+        """What is said of a program whose output has ended."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=1.0)
+        status = process.poll()
+        self.close()
         how = "closed its output" if status is None else f"ended with status {status}"
         if status is not None and status < 0:
             how = f"ended by {signal.Signals(-status).name}"
-        last = self.tail.decode("utf-8", "replace").strip().splitlines()
-        said = f"{how}{': ' + last[-1][:160] if last else ''}"
-        if not heard and self.starts == 1 and not strays:
-            raise InputError(f"does not answer: it {said}", field="command", value=self._words[0])
-        return Reply("crash", said=said, strays=tuple(strays))
+        if self._starts == 1 and not self._answers_seen:
+            raise InputError(f"does not answer: it {how}", field="command", value=self._words[0])
+        return Reply("end", reason=how)
 
-    def _start(self) -> None:
+    def _start(self) -> "subprocess.Popen[bytes]":
+        pipe = subprocess.PIPE
         try:
-            self._process = Supervised(self._words, subprocess.PIPE)
+            process = subprocess.Popen(self._words, stdin=pipe, stdout=pipe, start_new_session=True)
         except OSError as error:
             problem = f"cannot be started: {error.strerror or error}"
             raise InputError(problem, field="command", value=self._words[0]) from None
-        self.starts += 1
-        self._heard = False
-        self._lines: queue.Queue[bytes | None] = queue.Queue(maxsize=1000)
-        self._inbox: queue.Queue[bytes | None] = queue.Queue()
-        own = self._process.process
-        pipes = own.stdin, own.stdout, own.stderr
-        assert all(pipe is not None for pipe in pipes)
-        self._threads = [
-            threading.Thread(target=target, args=arguments, daemon=True)
-            for target, arguments in (
-                (_send_lines, (pipes[0], self._inbox)),
-                (_read, (pipes[1], self._lines)),
-                (self._drain, (pipes[2],)),
-            )
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._process = process
+        self._answers_seen = 0
+        self._starts += 1
+        return process
 
-    def _drain(self, pipe: IO[bytes]) -> None:
-        with contextlib.suppress(OSError, ValueError):
-            while part := os.read(pipe.fileno(), 65536):
-                self.flood += len(part)
-                self.tail = (self.tail + part)[-TAIL:]
-
-    def _stop(self) -> None:
-        """End the program and all that it started, and what reads and feeds it."""
+    def close(self) -> None:
+        """End the program and what it started; the next question starts it again."""
         process = self._process
         self._process = None
         if process is None:
             return
-        self._inbox.put(None)
-        process.end()
-        until = (
-            time.monotonic() + 1.0
-        )  # what it started may hold its pipes, and be no child of ours
-        while self._threads[1].is_alive() and time.monotonic() < until:
-            with contextlib.suppress(queue.Empty):  # it may wait for room
-                self._lines.get(timeout=0.02)
-        own = process.process
-        for thread, pipe in zip(self._threads, (own.stdin, own.stdout, own.stderr), strict=True):
-            thread.join(timeout=1.0)
-            if pipe is not None and not thread.is_alive():
-                with contextlib.suppress(OSError, ValueError):
+        _kill(process)
+        process.wait()
+        for pipe in (process.stdin, process.stdout):
+            with contextlib.suppress(OSError):  # what was not yet written has no reader
+                if pipe:
                     pipe.close()
 
 
-def _late_reply(reply: Reply, took: float, allowed: float) -> Reply:
-    """What an answer is that came too late: not judged."""
-    said = f"answered after {took:.3g} s; {allowed:g} s are allowed"
-    return Reply("late", said=said, strays=reply.strays)
+class Function:
+    """A Python function with the face of a program; what it raises is an error that it answers.
+
+    Parameters
+    ----------
+    simulator : callable
+    """
+
+    declaration = Answers()
+    layers: tuple[str, ...] = LAYERS
+
+    def __init__(self, simulator: Simulator) -> None:
+        self._simulator = simulator
+
+    def ask(self, id: str, layer: str, case: Json) -> Reply:
+        """What it returns for a case."""
+        try:
+            output = self._simulator(layer, case)
+        except Exception as error:
+            return Reply("error", reason=f"{type(error).__name__}: {error}"[:200])
+        return Reply("unsupported") if output is None else Reply("output", output=plain(output))
+
+    def close(self) -> None:
+        """There is nothing to end."""
 
 
-def _send_lines(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:
-    """Send the cases: a program that does not read holds up nobody else."""
-    with contextlib.suppress(OSError, ValueError):
-        while (line := lines.get()) is not None:
-            pipe.write(line)
-            pipe.flush()
+def _record(line: bytes) -> Json:
+    """The JSON object that a line is; None if it is none."""
+    try:
+        record = json.loads(line)
+    except (ValueError, RecursionError):
+        return None
+    return record if isinstance(record, dict) else None
 
 
-def _read(pipe: IO[bytes], lines: queue.Queue[bytes | None]) -> None:
-    """Read line by line; None at the end."""
-    with contextlib.suppress(OSError, ValueError):
-        while line := pipe.readline(LINE):
-            if line.strip():
-                lines.put(line)
-    lines.put(None)
+def _kill(process: "subprocess.Popen[bytes]") -> None:
+    """End a program and what it started, which is in its session."""
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)

@@ -2,11 +2,9 @@
 
 import json
 
-import numpy as np
 import pytest
 
-from quasistatic_ref.lab.vectors.challenge.findings import Finding
-from quasistatic_ref.lab.vectors.challenge.rounds import challenge
+from quasistatic_ref.lab.vectors.challenge.finding import Finding
 from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
 
 # min x^2/2 - g x with x + 1 >= 0, x* = g: at g = 1/64 the row is idle. The free step's energy is
@@ -32,7 +30,7 @@ def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
     given = {"x": [float("nan"), 1.0]}
     bound = {"error_bound": float("inf")}
     expected = {"x": [0.5, 1.0], "certificate": bound}
-    finding = Finding("qp", "wrong", "x", (), (), "it is", {}, expected, given, "first", 1)
+    finding = Finding("qp/1", "qp", "wrong", "x", "it is", {}, expected, given)
     folder = finding.write_folder(tmp_path, "./sim")
 
     def refused(word):
@@ -43,16 +41,3 @@ def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
     assert record["given"]["x"] == ["nan", 1.0]
     assert record["expected"]["certificate"]["error_bound"] == "inf"
     assert "certificate" not in (folder / "README.md").read_text()
-
-
-def test_cases_that_are_not_supported_are_named_with_their_layer():
-    def every_second(layer, case):
-        every_second.turn = not every_second.turn
-        order = [np.lexsort((range(len(phi)), phi))[: case["k"]] for phi in case["phi"]]
-        return {"indices": [o.tolist() for o in order]} if every_second.turn else None
-
-    every_second.turn = False
-    found = challenge(every_second, layers=["selection"], cases=6)
-    assert not found.findings
-    (remark,) = found.remarks
-    assert remark.startswith("selection: 3 cases are not supported, selection/")

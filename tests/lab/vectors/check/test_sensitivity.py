@@ -1,8 +1,9 @@
 """Any one number changed beyond its tolerance is found."""
 
+import copy
+
 import pytest
 
-from quasistatic_ref.lab.vectors.challenge.removals import replaced
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
@@ -12,6 +13,16 @@ from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 def numbers_in(value):
     """Every number of an output, with the keys and indices that lead to it."""
     return [(path, leaf) for path, leaf in nodes(value) if isinstance(leaf, int | float)]
+
+
+def replaced(value, path, number):
+    """A copy with another number in one place."""
+    changed = copy.deepcopy(value)
+    inner = changed
+    for key in path[:-1]:
+        inner = inner[key]
+    inner[path[-1]] = number
+    return changed
 
 
 @pytest.mark.parametrize("layer", LAYERS)

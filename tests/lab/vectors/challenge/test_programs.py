@@ -1,0 +1,83 @@
+"""A program that ends, hangs or prints what is no answer is reported and started again."""
+
+import pytest
+
+from quasistatic_ref import InputError
+from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.run import EASY_CASES, MOST, challenge
+from tests.lab.vectors.challenge.programs import command
+
+SECONDS = {"hangs": 0.2, "does not flush": 0.05, "does not read": 0.05}
+"""For an answer, ten for others."""
+
+
+def outcome(name, folder):
+    program = Program(command(name, folder), timeout=SECONDS.get(name, 10.0))
+    return challenge(program, layers=["selection"], cases=12)
+
+
+@pytest.mark.parametrize("name", ["right", "declares"])
+def test_a_program_that_is_right_has_no_findings(name, tmp_path):
+    found = outcome(name, tmp_path)
+    assert (found.findings, found.status) == ([], 0)
+    assert found.verdicts == {("selection", "passed"): 12}
+    assert found.implementation == ("mine 3" if name == "declares" else "")
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "words"),
+    [
+        ("wrong", "wrong", "indices"),
+        ("ends", "end", "ended with status 3"),
+        ("is killed", "end", "ended by SIGSEGV"),
+        ("closes its output", "end", "closed its output"),
+        ("hangs", "hang", "no answer within 0.2 s"),
+        ("does not flush", "hang", "is each line flushed?"),
+        ("does not read", "hang", "no answer within 0.3 s"),
+        ("prints garbage", "garbage", "printed 'NaN detected, resetting', which is no JSON"),
+        ("prints what is no text", "garbage", "which is no JSON object on a line"),
+        ("answers twice", "garbage", "answered 'selection/easy/0-0' where 'selection/easy/0-1'"),
+        ("answers neither", "garbage", "an answer has output, error or unsupported"),
+        ("refuses", "error", "not today"),
+    ],
+)
+def test_it_is_reported(name, kind, words, tmp_path):
+    found = outcome(name, tmp_path)
+    assert found.status == 1
+    assert {finding.kind for finding in found.findings} == {kind}
+    assert len(found.findings) <= MOST
+    assert all(words in finding.reason for finding in found.findings[:1])
+
+
+def test_after_an_end_the_other_cases_are_asked(tmp_path):
+    found = outcome("is killed", tmp_path)
+    # It answers three cases after each start, and the layer has no more after three findings.
+    assert found.verdicts == {("selection", "passed"): 9, ("selection", "end"): 3}
+
+
+def test_a_line_without_end_is_garbage(tmp_path, monkeypatch):
+    monkeypatch.setattr("quasistatic_ref.lab.vectors.challenge.program.LINE", 2000)
+    found = outcome("prints what is no text", tmp_path)
+    assert {finding.kind for finding in found.findings} == {"garbage"}
+
+
+def test_a_layer_that_is_not_supported_gets_the_easy_cases_alone(tmp_path):
+    found = outcome("supports nothing", tmp_path)
+    assert found.verdicts == {("selection", "unsupported"): EASY_CASES}
+    assert found.status == 0
+
+
+def test_layers_that_a_program_does_not_declare_are_not_asked(tmp_path):
+    program = Program(command("declares another layer", tmp_path))
+    found = challenge(program, layers=["rows", "selection", "wrench"], cases=12)
+    assert (found.findings, found.verdicts) == ([], {("selection", "passed"): 12})
+
+
+def test_a_program_that_ends_at_once_is_bad_input(tmp_path):
+    with pytest.raises(InputError, match="does not answer: it ended with status 3"):
+        outcome("ends at once", tmp_path)
+
+
+def test_a_first_line_that_cannot_be_is_bad_input(tmp_path):
+    with pytest.raises(InputError, match="tangent"):
+        outcome("declares nonsense", tmp_path)
