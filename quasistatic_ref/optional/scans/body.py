@@ -12,9 +12,11 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.optional.scans.closed import solid_of_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
-from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_mesh, solid_of_points
+from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_points
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254}
@@ -27,6 +29,8 @@ FEWEST = 50
 """Fewest points of which a solid is made."""
 WIDE = 0.25
 """Gap over extent [-] from which it is doubted that the points enclose the solid."""
+COARSE = 0.01
+"""Step of a grid of coordinates over the extent [-] from which it is said."""
 ON_MESH = 10_000
 """Points that are drawn on a mesh, uniform over its area, before they are thinned."""
 
@@ -48,6 +52,8 @@ class ScannedBody(Plain):
         About the centre of mass [kg m^2].
     k : int
         Suggested number of contacts of a pair.
+    below : ndarray, shape (3,)
+        Outward normal of the face of its hull on which it lies, in the frame of the scan [-].
     notes : tuple of str
         What was done and what is doubtful, in sentences with their numbers.
     """
@@ -58,10 +64,11 @@ class ScannedBody(Plain):
     centre: Array
     inertia: Array
     k: int
+    below: Array
     notes: tuple[str, ...]
 
     def __post_init__(self) -> None:
-        freeze_copies(self, "points", "centre", "inertia")
+        freeze_copies(self, "points", "centre", "inertia", "below")
 
     @property
     def urdf(self) -> str:
@@ -76,12 +83,18 @@ class ScannedBody(Plain):
         )
 
     @property
+    def rpy(self) -> Array:
+        """Roll, pitch and yaw by which it lies on a floor, shape (3,) [rad]."""
+        x, y, z = self.below.tolist()  # R's last row is -below: R below points down
+        return np.array([np.arctan2(-y, -z), np.arcsin(np.clip(x, -1.0, 1.0)), 0.0]) + 0.0
+
+    @property
     def height(self) -> float:
         """Of the scan's origin where its lowest point is on a floor at z = 0 [m]."""
-        return -float(self.points[:, 2].min())
+        return -float((self.points @ rotation(self.rpy)[2]).min())
 
     def scenario(self) -> str:
-        """A scenario (TOML) in which it stands on a floor as it was scanned."""
+        """A scenario (TOML) in which it lies on a floor, where it is hardest to tip."""
         return (
             'format = "quasistatic-ref/scenario"\n'
             "version = 1\n"
@@ -91,7 +104,7 @@ class ScannedBody(Plain):
             f"[bodies.{self.name}]\n"
             f'urdf = "{self.name}.urdf"\n'
             f'base = "floating"\n'
-            f"pose = {{ xyz = [0, 0, {self.height + 0.0:.6g}] }}\n"
+            f"pose = {{ xyz = [0, 0, {self.height + 0.0:.6g}], rpy = {self.rpy.tolist()} }}\n"
             f'cloud = "{self.name}.csv"\n'
             "\n"
             "[shapes.floor]\n"
@@ -130,8 +143,8 @@ def scanned_body(
     Parameters
     ----------
     scan : str or Path
-        A cloud (CSV, XYZ, PLY, PCD, NPY, NPZ) or a mesh (STL, OBJ, DAE); an OBJ without faces is a
-        cloud.
+        A cloud (CSV, XYZ, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, 3MF, DAE); one without
+        faces is a cloud.
     mass : float, optional
         [kg].
     density : float, optional
@@ -185,13 +198,13 @@ def scanned_body(
         f"a volume of {1e6 * solid.volume:.4g} cm^3: {mass:.4g} kg are "
         f"{mass / solid.volume:.4g} kg/m^3"
     )
-    k, ways = points_to_lie_on(cloud[kept], solid.centre)
+    k, ways, below = points_to_lie_on(cloud[kept], solid.centre)
     notes.append(
         f"k = {k}: it can lie in {ways} ways, and in each of them its centre of mass is over the "
         f"{k} lowest points"
     )
     return ScannedBody(
-        name, cloud[kept], mass, solid.centre, mass * solid.gyration, k, tuple(notes)
+        name, cloud[kept], mass, solid.centre, mass * solid.gyration, k, below, tuple(notes)
     )
 
 
@@ -208,7 +221,7 @@ def _surface_and_solid(
             raise InputError("is empty: the file holds no vertices", field="vertices")
     if len(triangles):
         vertices = vertices * _metres(vertices, unit)
-        solid = solid_of_mesh(vertices, triangles)
+        solid = solid_of_mesh(vertices, triangles, notes)
         on_surface = _points_on(vertices, triangles)
         if solid is not None:
             notes.append(f"a closed mesh of {len(triangles)} triangles")
@@ -219,6 +232,12 @@ def _surface_and_solid(
     points = found * _metres(found, unit)
     if len(points) < FEWEST:
         raise InputError(f"must be at least {FEWEST}", field="points", value=len(points))
+    grid = _grid(points)
+    if grid is not None:
+        notes.append(
+            f"its coordinates lie on a grid of {1e3 * grid:.3g} mm, as rounding leaves it, which "
+            "is too coarse for its volume and its corners; take a file with more digits"
+        )
     strays = stray(points)
     if strays.any():
         places = 1e3 * points[strays][:3]
@@ -239,6 +258,15 @@ def _enclosed(points: Array, notes: list[str]) -> Solid | None:
             f"the solid is what a ball of radius {1e3 * solid.gap:.3g} mm cannot enter{doubt}"
         )
     return solid
+
+
+def _grid(points: Array) -> float | None:
+    """The step of a coarse grid on which all coordinates lie [m], or None."""
+    steps = np.concatenate([np.diff(np.unique(axis.round(9))) for axis in points.T])
+    step = float(steps.min(initial=np.inf))
+    extent = float(np.ptp(points, axis=0).max())
+    on_grid = np.isfinite(step) and abs(steps / step - (steps / step).round()).max() < COARSE**2
+    return step if on_grid and step > COARSE * extent else None
 
 
 def _metres(points: Array, unit: str | None) -> float:

@@ -67,14 +67,15 @@ def smoothed(points: Array) -> Array:
 def thinned(points: Array, count: int) -> Indices:
     """Numbers of `count` of the points, shape (N, 3) [m]: corners of the hull, then the farthest.
 
-    Corners of the convex hull are what the body can lie on. Each further point is, of all, the
-    farthest from those before it, so that the whole surface is covered evenly.
+    Corners of the convex hull are what the body can lie on, and stand first: of equally low points
+    the first ones become contacts. Each further point is, of all, the farthest from those before
+    it, so that the whole surface is covered evenly.
     """
-    if len(points) <= count:
-        return np.arange(len(points))
     corners = ConvexHull(points).vertices
+    if len(points) <= count:
+        return np.concatenate([np.sort(corners), np.setdiff1d(np.arange(len(points)), corners)])
     chosen = _farthest(points[corners], [], min(count // 2, len(corners)))
-    return np.sort(_farthest(points, corners[chosen].tolist(), count))
+    return _farthest(points, corners[chosen].tolist(), count)
 
 
 def _farthest(points: Array, chosen: list[int], count: int) -> Indices:

@@ -12,8 +12,10 @@ DECIMALS = 8
 """Points of a face are equally low to so many decimals of a metre."""
 
 
-def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int]:
+def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int, Array]:
     """The least k with which a cloud stands still in each way it can lie, and how many ways.
+
+    The third value is the outward normal of the face, shape (3,), that it is hardest to tip from.
 
     It can lie on a face of its hull if the centre of mass is over that face. The k lowest points,
     of equally low ones the first, must then be around the centre as well.
@@ -28,6 +30,7 @@ def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int]:
     planes = np.unique(ConvexHull(points).equations.round(DECIMALS), axis=0)
     d1, d2 = tangents(planes[:, :3])
     needed = []
+    stable = []
     for normal, along, across in zip(planes[:, :3], d1, d2, strict=True):
         below = (points @ normal).round(DECIMALS)
         flat = (points - centre) @ np.stack([along, across], axis=1)
@@ -39,7 +42,11 @@ def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int]:
             middle = (least + most) // 2
             least, most = (least, middle) if _around(flat[:middle]) else (middle + 1, most)
         needed.append(most)
-    return max([FEWEST, *needed]), len(needed)
+        # The tangent of the angle at which it tips; of equal ones, rather as it was scanned.
+        edges = ConvexHull(flat[:most]).equations[:, 2]
+        tips = float(-edges.max() / (below.max() - centre @ normal))
+        stable.append((round(tips, 6), -normal[2], *(normal + 0.0).tolist()))
+    return max([FEWEST, *needed]), len(needed), np.array(max(stable)[2:])
 
 
 def _around(flat: Array) -> bool:

@@ -1,4 +1,4 @@
-"""Volume, centre and inertia of a homogeneous solid: of a closed mesh, or enclosed by points."""
+"""Volume, centre and inertia of a homogeneous solid, and the one that points enclose."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -67,22 +67,18 @@ class Solid(Plain):
         spread = second / 20 / volume - np.outer(centre, centre)
         return cls(float(volume), centre, np.trace(spread) * np.eye(3) - spread, gap)
 
+    @classmethod
+    def of_mesh(cls, vertices: Array, triangles: Indices) -> Self:
+        """The inside of a closed mesh of vertices, (V, 3) [m], wound outwards, (T, 3)."""
+        middle = vertices[triangles].mean(axis=(0, 1))
+        tops = np.full((len(triangles), 1, 3), middle)
+        return cls.of_tetrahedra(np.concatenate([tops, vertices[triangles]], axis=1))
 
-def solid_of_mesh(vertices: Array, triangles: Indices) -> Solid | None:
-    """The inside of a mesh of V vertices, (V, 3) [m], and triangles, (T, 3); None if it is open.
-
-    A mesh is closed if each edge of a triangle is that of another one, in the other direction.
-    """
-    _, same = np.unique(vertices, axis=0, return_inverse=True)  # STL repeats corners
-    corners = same.ravel()[triangles]
-    edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
-    there, back = (np.unique(way, axis=0, return_counts=True) for way in (edges, edges[:, ::-1]))
-    if not (np.array_equal(there[0], back[0]) and np.array_equal(there[1], back[1])):
-        return None
-    middle = vertices.mean(axis=0)
-    tops = np.full((len(triangles), 1, 3), middle)
-    solid = Solid.of_tetrahedra(np.concatenate([tops, vertices[triangles]], axis=1))
-    return solid if solid.volume > 0 else None
+    @staticmethod
+    def volume_of_mesh(vertices: Array, triangles: Indices) -> float:
+        """Volume inside of a closed mesh [m^3], negative if it is wound inwards."""
+        a, b, c = np.moveaxis(vertices[triangles] - vertices[triangles[0, 0]], 1, 0)
+        return float(np.vecdot(a, np.cross(b, c)).sum()) / 6
 
 
 def solid_of_points(points: Array) -> Solid | None:

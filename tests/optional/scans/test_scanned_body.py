@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
@@ -142,7 +143,7 @@ def test_as_many_points_as_a_cube_lies_on(each, expected):
     needed. Faces whose first corners are opposite need fewer.
     """
     cube = np.array(np.meshgrid(*[[-0.05, 0.05]] * 3)).reshape(3, 8).T
-    k, ways = points_to_lie_on(np.repeat(cube, each, axis=0), np.zeros(3))
+    k, ways, _ = points_to_lie_on(np.repeat(cube, each, axis=0), np.zeros(3))
     assert ways == 6
     assert k == expected
 
@@ -163,3 +164,25 @@ def test_the_command_writes_a_scene_that_runs(tmp_path, cli):
     with pytest.raises(SystemExit):
         main(["body", str(scene)])  # neither mass nor density
     cli("body", tmp_path / "none.csv", "--mass", "1", status=2)
+
+
+def test_a_box_has_four_contacts_and_lies_on_its_largest_face(tmp_path, cli):
+    """Its corners come first, so the lowest four points of a face are its corners."""
+    path = tmp_path / "box.stl"
+    trimesh.creation.box((0.04, 0.2, 0.1)).export(path)  # it stands on 0.04 x 0.2 m
+    made = qr.scanned_body(path, density=1000.0)
+    assert made.k == 4
+    assert abs(made.below).tolist() == [1.0, 0.0, 0.0]
+    assert made.height == pytest.approx(0.02)
+    said = cli("body", path, "--density", "1000", "--out", tmp_path)
+    (tmp_path / "scene.toml").write_text(said.out)
+    run = qr.load_scenario(tmp_path / "scene.toml").run(progress=False)
+    assert abs(run["q"][-1] - run["q"][0]).max() < 1e-6
+    assert not [one for one in run.findings if one.grave]
+
+
+def test_a_cloud_on_a_coarse_grid_is_told_so(tmp_path):
+    points = on_block(np.random.default_rng(8), 4000, (0.06, 0.06, 0.06))
+    assert not [note for note in body(tmp_path, points).notes if "grid" in note]
+    made = body(tmp_path, np.unique(points.round(2), axis=0))
+    assert [note for note in made.notes if "on a grid of 10 mm" in note]
