@@ -140,7 +140,10 @@ def pool(found: Sequence[Near], k: int, *, least: float | None) -> list[int]:
 
 
 def tied_indices(found: Sequence[Near], k: int, *, least: float | None) -> list[int]:
-    """Indices of candidates as near as one another of which some are kept and some are not."""
+    """Indices of candidates as near as one another of which some are kept and some are not.
+
+    `least` [m] as in :func:`ordered_candidates`.
+    """
     order = ordered_candidates(found, least=least)
     if len(order) <= k or order[k][0] != order[k - 1][0]:
         return []
