@@ -89,6 +89,11 @@ WITNESS: Final = 1e-10
 """Largest disagreement of a convex pair's closest points with its distance and normal, relative to
 the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""
 
+PROVED_NORMAL: Final = 1e-6
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+that distance [-]: the normal is right to about as much [rad]. Below 1e-14 of the pair's size it is
+rounding."""
+
 INERTIA_TRIANGLE: Final = 1e-6
 """How far the largest principal moment of inertia may exceed the sum of the other two, relative.
 

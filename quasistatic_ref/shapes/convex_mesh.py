@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import coal
 import numpy as np
 from coal import CollisionGeometry
 from numpy.typing import ArrayLike
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.hull import distance_to_hull, levels
-from quasistatic_ref.shapes.shape import Shape, lengths
+from quasistatic_ref.shapes.shape import Shape, coal_polytope, lengths
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import dot, product
 from quasistatic_ref.tolerances import CONVEX_EXCESS
@@ -73,11 +72,7 @@ class ConvexMesh(Shape):
                 "cylinders, cones and ellipsoids cannot have; take a coarser mesh"
             )
             raise ModelError(problem, field="convex mesh", value=self.words())
-        points = coal.StdVec_Vec3s()
-        polygons = coal.StdVec_Triangle()
-        points.extend(list(self.vertices))
-        polygons.extend([coal.Triangle(*map(int, corners)) for corners in self.triangles])
-        return coal.Convex(points, polygons)
+        return coal_polytope(self.vertices, self.triangles)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], to planes inside and to triangles outside."""

@@ -2,12 +2,13 @@
 
 from functools import cached_property
 
+import coal
 import numpy as np
 from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
 
@@ -153,6 +154,23 @@ class Shape(Plain):
     def lacks(self, problem: str) -> ContactError:
         """The error that says what a shape of this kind does not have."""
         return ContactError(problem, field="shape", value=type(self).__name__)
+
+
+def coal_polytope(vertices: Array, triangles: Indices) -> CollisionGeometry:
+    """A convex polytope as a coal geometry.
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (V, 3)
+        [m].
+    triangles : ndarray of int, shape (T, 3)
+        Corners counter-clockwise from outside.
+    """
+    points = coal.StdVec_Vec3s()
+    polygons = coal.StdVec_Triangle()
+    points.extend(list(vertices))
+    polygons.extend([coal.Triangle(*map(int, corners)) for corners in triangles])
+    return coal.Convex(points, polygons)
 
 
 def lengths(values: Array) -> str:

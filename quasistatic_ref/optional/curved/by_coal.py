@@ -5,6 +5,9 @@ distance. So points on both that are phi n apart, with s(n) = phi, prove themsel
 is the distance; in penetration, n parts the solids after a translation by -phi. Answers are held
 against that with closed-form support points, which never share coal's mistakes.
 
+A gap that is proved to w proves its normal only to sqrt(2 w / phi): of points that are nearly in
+contact it is the direction of a difference that cancels. So an answer has to prove its normal.
+
 coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two, which rounds
 nothing, until its size is about one; every number below is relative to that size.
 """
@@ -26,8 +29,9 @@ from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
 from quasistatic_ref.shapes.revolved import Revolved
+from quasistatic_ref.shapes.shape import coal_polytope
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import SUPPORT_DEFECT, WITNESS
+from quasistatic_ref.tolerances import PROVED_NORMAL, SUPPORT_DEFECT, WITNESS
 
 ACCURACIES = (1e-10, 1e-8, 1e-6)
 """Tolerances of coal, tried in turn: the tighter ones sometimes end without an answer."""
@@ -44,6 +48,17 @@ SAME = 1 - 1e-4
 ENOUGH = 1e-14
 """Defect at which refining ends: rounding of the farthest points."""
 
+BOX_TRIANGLES = np.array(
+    [
+        [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5],
+        [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3],
+        [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6],
+    ]
+)  # fmt: skip
+"""Of a box's corners: two of each face, counter-clockwise from outside."""
+
+UP = np.array([0.0, 0.0, 1.0])
+
 ROUNDS = 30
 """Refinements of a normal in penetration; shallow ones settle in two or three."""
 
@@ -56,6 +71,14 @@ class Judged(NamedTuple):
     defect : float
         |s(n) - phi| or the disagreement of the points, the larger [m].
     """
+
+    @property
+    def proves_its_normal(self) -> bool:
+        """Whether the points are phi n apart to PROVED_NORMAL of phi, or to rounding.
+
+        They miss that by e across n, so that n is right to about e / phi.
+        """
+        return self.defect <= min(WITNESS, max(ENOUGH, PROVED_NORMAL * abs(self.phi)))
 
     phi: float
     alpha: Array
@@ -73,7 +96,7 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
         If coal has no answer that proves itself.
     """
     best, _, scale = _answers(a, b)
-    if best.defect > WITNESS:
+    if not best.proves_its_normal:
         raise ContactError(
             "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
             "a capsule, a convex mesh or a cloud",
@@ -132,11 +155,45 @@ def _resized(shape: Shape, scale: float) -> Shape:
     raise shape.lacks("has no closest points with this solid")
 
 
+@lru_cache(maxsize=256)
+def _geometry(shape: Shape) -> coal.CollisionGeometry:
+    """The shape as coal gets it: of a box the polytope.
+
+    A `coal.Box` is 1e-10 larger, or not, by what its process asked coal before.
+    """
+    if isinstance(shape, Box):
+        return coal_polytope(shape.corners(UP)[0], BOX_TRIANGLES)
+    return shape.coal
+
+
 def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
     """Of an answer and the maxima near it, the widest gap that is proved."""
-    every = [start]
-    if np.isfinite(start.n).all():
-        every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
+    if not np.isfinite(start.n).all():
+        return start
+    best = _widest([start, *(judged(a, b, *way) for way in settled(a, b, Witness(*start[:4])))])
+    if best.proves_its_normal or best.phi < 0:
+        return best
+    # A corner or a tip near a rim: Newton's method has next to nothing to hold on to there.
+    on_b = [judged(a, b, *way.swapped()) for way in _nearest_corner(b, a, -best.n)]
+    on_a = [judged(a, b, *way) for way in _nearest_corner(a, b, best.n)]
+    return _widest([best, *on_b, *on_a])
+
+
+def _nearest_corner(solid: ShapeInWorld, other: ShapeInWorld, n: Array) -> list[Witness]:
+    """The closest points of a solid and the nearest corner of another, n being out of the solid."""
+    corners, radius = other.shape.corners(-n @ other.R)
+    if not len(corners):
+        return []
+    points = corners @ other.R.T + other.t
+    distance, normals = solid.shape.signed_distance((points - solid.t) @ solid.R)
+    i = int(distance.argmin())
+    out = solid.R @ normals[i]
+    phi = float(distance[i])
+    return [Witness(phi - radius, points[i] - phi * out, points[i] - radius * out, out)]
+
+
+def _widest(every: list[Judged]) -> Judged:
+    """The widest gap that is proved, or what misses its proof by least."""
     for tolerance in (ENOUGH, WITNESS):
         proved = [found for found in every if found.defect <= tolerance]
         if proved:  # no gap exceeds the distance
@@ -156,7 +213,8 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
         request.gjk_tolerance = request.epa_tolerance = accuracy
         request.gjk_max_iterations = request.epa_max_iterations = 1000
         phi = coal.distance(
-            a.shape.coal, coal.Transform3s(a.R, a.t), b.shape.coal, coal.Transform3s(b.R, b.t),
+            _geometry(a.shape), coal.Transform3s(a.R, a.t),
+            _geometry(b.shape), coal.Transform3s(b.R, b.t),
             request, result,
         )  # fmt: skip
         alpha = np.array(result.getNearestPoint1())

@@ -50,7 +50,7 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
         assert refusal.startswith("p: the contact normal is not reliable")
         assert spoil != "distance"
         return
-    assert spoil not in REFUSED
+    assert spoil not in REFUSED or gap >= 0  # apart, the nearest corner mends it
     # The lower cone's tip is at z = 0.2, the upper one's base at 0.2 + gap.
     assert_within(found.phi, [gap], CURVED_PAIR)
     assert_within(found.n, [[0, 0, 1]], CURVED_PAIR)
