@@ -227,6 +227,22 @@ def installed(interface: str) -> tuple[str, ...]:
     return tuple(b.name for b in BACKENDS.values() if b.cvxpy and b.name in here)
 
 
+def others_installed() -> tuple[str, ...]:
+    """Names of what CVXPY, and behind ``qpsolvers:`` qpsolvers, have that is not in the table."""
+    import cvxpy
+
+    available = AVAILABLE.found()
+    there = [] if available is None else available()
+    names = [name.lower() for name in cvxpy.installed_solvers()]
+    names += [QPSOLVERS + name for name in there]
+    return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
+
+
+def is_function(name: object) -> bool:
+    """Whether a backend's name is that of a function, ``MODULE:FUNCTION``."""
+    return isinstance(name, str) and ":" in name and not name.startswith(QPSOLVERS)
+
+
 def installed_backends() -> tuple[str, ...]:
     """Names of the solvers here: those through CVXPY first, then those through qpsolvers."""
     names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
@@ -241,6 +257,9 @@ def backend_names() -> tuple[str, ...]:
 def backend(name: str) -> Backend:
     """The table's entry for a name with or without ``qpsolvers:``.
 
+    A solver that is not in the table, but that CVXPY or qpsolvers has installed, is called with its
+    own options; so is a function, ``MODULE:FUNCTION``.
+
     Raises
     ------
     BackendError
@@ -248,8 +267,12 @@ def backend(name: str) -> Backend:
     """
     if str(name).startswith(QPSOLVERS):
         AVAILABLE.needed(name)
+    elif is_function(name):
+        return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     known = backend_names()
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
+    if entry is None and isinstance(name, str) and name in others_installed():
+        return Backend(name, "not in this table", lambda _: ({},))
     if entry is None or not entry.steps:
         hint = suggestion(str(name), known)
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -31,13 +32,16 @@ FACTOR_LIMIT = 2.0**200
 NOTHING_CLAIMED = Certificate("none")
 
 EXTENDED_STEP: Slot[
-    Callable[[StepData, Extension, str | Solver | None, bool, float, str], StepSolution]
+    Callable[
+        [StepData, Extension, str | Callable[..., Any] | Solver | None, bool, float, str],
+        StepSolution,
+    ]
 ] = Slot("extensions.extended")
 
 
 def solve_step(
     step: StepData,
-    solver: str | Solver | None = None,
+    solver: str | Callable[..., Any] | Solver | None = None,
     *,
     fast: bool = False,
     accuracy: float = ACCURACY,
@@ -50,12 +54,14 @@ def solve_step(
     ----------
     step : StepData
         SI units.
-    solver : str or Solver, optional
+    solver : str, callable or Solver, optional
         A name from :func:`~quasistatic_ref.solve.backends.backend_names`, by default
         Clarabel's, with `fast` DAQP's; ``"none"``, with ``certify="full"`` only, is the exact
-        method from a cold start; or what :func:`~quasistatic_ref.solve.solver.solver_for` makes of
-        a name: an object that holds a compiled problem and is kept between steps of one kind. What
-        is certified does not depend on it.
+        method from a cold start. Any other solver that CVXPY has installed, or qpsolvers behind
+        ``qpsolvers:``. A function (P, q, G, h) -> (x, z, status). Or what
+        :func:`~quasistatic_ref.solve.solver.solver_for` makes of these: an object that holds a
+        compiled problem and is kept between steps of one kind. What is certified does not depend
+        on it.
     fast : bool
         As for :func:`~quasistatic_ref.solve.solver.solver_for`; not with a Solver, which is made
         fast or not.
@@ -106,7 +112,8 @@ def solve_step(
     if isinstance(solver, Solver) and fast:
         problem = "has no effect on an existing solver; pass it to solver_for"
         raise InputError(problem, field="fast", value=fast)
-    check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
+    name = solver.name if isinstance(solver, Solver) else solver
+    check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
         extended = EXTENDED_STEP.needed("extension")
         return extended(step, extension, solver, fast, accuracy, certify)

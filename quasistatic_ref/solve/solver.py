@@ -8,12 +8,12 @@ of its own, and :func:`solver_for` chooses among them.
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from quasistatic_ref.certify.solution import SolverStatistics
-from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.parts import Slot, compiled
 from quasistatic_ref.solve.backends import (
     AVAILABLE,
@@ -23,7 +23,9 @@ from quasistatic_ref.solve.backends import (
     QPSOLVERS,
     UNSAFE,
     Options,
+    backend,
     check_backend,
+    is_function,
 )
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.prover import OnwardProver, Prover
@@ -192,7 +194,7 @@ class BackendSolver(Solver):
     def option_sets(self, accuracy: float) -> list[OptionSet]:
         """The sets of options for an accuracy in natural units [-], in the order to be tried."""
         if accuracy not in self._option_sets:
-            entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
+            entry = BACKENDS.get(self.name.removeprefix(QPSOLVERS)) or backend(self.name)
             least = max(accuracy, entry.floor)
             factors = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
             self._option_sets[accuracy] = [
@@ -292,15 +294,18 @@ FAST_SOLVER: Slot[Callable[[StepData, str | None], Solver]] = Slot("fast.solver"
 QPSOLVERS_SOLVER: Slot[Callable[[StepData, str], Solver]] = Slot(AVAILABLE.module)
 
 
-def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:
+def solver_for(
+    step: StepData, name: str | Callable[..., Any] | None = None, fast: bool = False
+) -> Solver:
     """A solver of steps like this one.
 
     Parameters
     ----------
     step : StepData
-    name : str, optional
+    name : str or callable, optional
         Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
-        CVXPY. By default Clarabel; with `fast` DAQP.
+        CVXPY. By default Clarabel; with `fast` DAQP. Or a function (P, q, G, h) -> (x, z, status),
+        also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.solve.by_function`.
     fast : bool
         Whether to solve as ``optional/fast`` does: by the backend's own
         interface where it has one, and with a quick proof of the optimum before the exact method;
@@ -313,6 +318,13 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     InputError
         If `fast` is wanted, and its folder is not there.
     """
+    if name is not None and (callable(name) or is_function(name)):
+        from quasistatic_ref.solve.by_function import FunctionSolver
+
+        if not cone(step.cone).polyhedral:
+            problem = f"is a function, which takes linear rows only; not the {step.cone}"
+            raise BackendError(problem, field="backend", value=str(name))
+        return FunctionSolver(step, name)
     fast_solver = compiled(FAST_SOLVER) if fast else None
     if fast_solver is not None:
         return fast_solver(step, name)

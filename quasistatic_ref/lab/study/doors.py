@@ -1,22 +1,18 @@
 """Three doors to a solver: qpsolvers, CVXPY, and a function of one's own."""
 
-import importlib
-import importlib.util
 import inspect
-import sys
 import zlib
 from collections.abc import Callable
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 from scipy.sparse import issparse
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
 from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
 from quasistatic_ref.solve.backends import Options
+from quasistatic_ref.solve.by_function import function_at
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -100,35 +96,6 @@ def _by_qpsolvers(name: str) -> Call:
     return lambda form, options, before: qpsolvers_reply(
         form, name, options, None if before is None else before.x
     )
-
-
-def function_at(target: str, folder: str) -> Callable[..., Any]:
-    """The function of ``FILE.py:FUNCTION`` or ``MODULE:FUNCTION``.
-
-    Raises
-    ------
-    InputError
-        If there is none, or its module cannot be imported.
-    """
-    place, _, name = target.rpartition(":")
-    try:
-        if place.endswith(".py"):
-            path = Path(folder, place).resolve()
-            spec = importlib.util.spec_from_file_location(path.stem, path)
-            assert spec is not None
-            assert spec.loader is not None
-            module = importlib.util.module_from_spec(spec)
-            sys.path.insert(0, str(path.parent))  # for what it imports itself
-            spec.loader.exec_module(module)
-        else:
-            module = importlib.import_module(place)
-        function: Callable[..., Any] = getattr(module, name)
-    except Exception as error:  # a module may raise anything when it is imported
-        words = f"cannot be imported: {type(error).__name__}: {error}"
-        raise InputError(words[:WORDS], value=target) from None
-    if not callable(function):
-        raise InputError("is not a function", value=target)
-    return function
 
 
 def takes_start(function: Callable[..., Any]) -> bool:

@@ -7,8 +7,10 @@ Private rises are coordinates and rows of the step, too.
 """
 
 import warnings
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import cache
+from typing import Any
 
 import cvxpy as cp
 import numpy as np
@@ -102,7 +104,7 @@ def with_rows(step: StepData, own: Extra) -> StepData:
 def extended_step(
     step: StepData,
     extension: Extension,
-    solver: str | Solver | None,
+    solver: str | Callable[..., Any] | Solver | None,
     fast: bool,
     accuracy: float,
     certify: str,
@@ -122,10 +124,11 @@ def extended_step(
     step, whole = posed(step, extension)
     if whole:
         return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
-    if isinstance(solver, Solver):
+    if isinstance(solver, Solver) or callable(solver):
+        words = f"{solver.name}, {solver.interface}" if isinstance(solver, Solver) else "function"
         problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
         problem += "the name of a backend"
-        raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.interface}")
+        raise BackendError(problem, field="solver", value=words)
     name = DEFAULT if solver is None else solver
     return extended_solution(step, extension, name, accuracy, certify)
 

@@ -1,0 +1,143 @@
+"""A solver that is a function of the user's: (P, q, G, h) -> (x, z, status)."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
+from quasistatic_ref.step.data import Mask, StepData
+from quasistatic_ref.step.standard_form import standard_form
+
+Function = Callable[..., Any]
+OPTIMAL = "optimal"
+"""The status of a function that claims a full solution."""
+WORDS = 200
+"""Characters of what a function raised or returned that are kept."""
+
+
+class FunctionSolver(BackendSolver):
+    """A function (P, q, G, h) -> (x, z, status) that solves steps in natural units.
+
+    It gets min 1/2 x'Px + q'x, G x <= h, and returns x (n_v,), the multipliers z >= 0 (m,), and
+    ``"optimal"`` or another word.
+
+    Parameters
+    ----------
+    template : StepData
+        A step in the cone of those that are to be solved.
+    function : callable or str
+        The function, or ``MODULE:FUNCTION``, or ``FILE.py:FUNCTION``.
+    """
+
+    interface = "function"
+    fixed = ("cone",)
+
+    def __init__(self, template: StepData, function: Function | str) -> None:
+        name = function if isinstance(function, str) else called(function)
+        super().__init__(template, name)
+        self.wanted = function
+        self.function = function_at(function, ".") if isinstance(function, str) else function
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.template, self.wanted)
+
+    def option_sets(self, accuracy: float) -> list[OptionSet]:
+        """One set without options, at the accuracy of the call [-]."""
+        return [OptionSet(accuracy, {})]
+
+    def write(self, both: StepInBothUnits) -> Mask:
+        """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
+        assert isinstance(both, DenseStepInBothUnits)
+        near, out_of_reach = within_reach(both.natural_step)
+        self.form = standard_form(near)
+        return out_of_reach
+
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
+        """What the function returns."""
+        H, g, A, b = self.form
+        begin = perf_counter()
+        returned = self.function(H.copy(), -g, -A, -b)
+        return reply_of(returned, len(g), len(b), perf_counter() - begin)
+
+
+def reply_of(returned: object, n: int, m: int, seconds: float) -> Reply:
+    """What a function has returned, if it is (x, z, status) of the right shapes.
+
+    Parameters
+    ----------
+    returned : object
+    n, m : int
+        Of coordinates and of rows.
+    seconds : float
+        It took [s].
+    """
+    if not isinstance(returned, tuple) or len(returned) != 3:
+        words = f"returned a {type(returned).__name__} in place of (x, z, status)"
+        return Reply(None, None, False, words, call_seconds=seconds)
+    x, z, status = returned
+    if x is None or z is None:
+        return Reply(None, None, False, str(status)[:WORDS], call_seconds=seconds)
+    x, z = (np.array(v, dtype=np.float64).reshape(-1) for v in (x, z))
+    if (len(x), len(z)) != (n, m):
+        words = f"returned {len(x)} and {len(z)} numbers in place of {n} and {m}"
+        return Reply(None, None, False, words, call_seconds=seconds)
+    return Reply(x, z, status == OPTIMAL, str(status)[:WORDS], call_seconds=seconds)
+
+
+def called(function: Function) -> str:
+    """A name of a function for messages."""
+    name = getattr(function, "__qualname__", type(function).__name__)
+    return f"{getattr(function, '__module__', 'function')}:{name}"
+
+
+def function_at(target: str, folder: str) -> Function:
+    """The function of ``FILE.py:FUNCTION`` or ``MODULE:FUNCTION``.
+
+    Parameters
+    ----------
+    target : str
+    folder : str
+        Where files and modules are looked for.
+
+    Raises
+    ------
+    InputError
+        If there is none, or its module cannot be imported.
+    """
+    place, _, name = target.rpartition(":")
+    try:
+        if place.endswith(".py"):
+            path = Path(folder, place).resolve()
+            spec = importlib.util.spec_from_file_location(path.stem, path)
+            assert spec is not None
+            assert spec.loader is not None
+            module = importlib.util.module_from_spec(spec)
+            _look_in(path.parent)  # for what it imports itself
+            spec.loader.exec_module(module)
+        else:
+            _look_in(Path(folder).resolve())
+            module = importlib.import_module(place)
+        function: Function = getattr(module, name)
+    except Exception as error:  # a module may raise anything when it is imported
+        words = f"cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(words[:WORDS], value=target) from None
+    if not callable(function):
+        raise InputError("is not a function", value=target)
+    return function
+
+
+def _look_in(folder: Path) -> None:
+    """Let Python find modules in a folder, before others."""
+    if str(folder) not in sys.path:
+        sys.path.insert(0, str(folder))

@@ -1,0 +1,121 @@
+"""Solvers that the table does not have: CVXPY's, qpsolvers', and functions of the user's."""
+
+import pickle
+
+import cvxpy as cp
+import numpy as np
+import pytest
+import qpsolvers
+
+import quasistatic_ref as qr
+from quasistatic_ref.solve import backends
+from quasistatic_ref.solve.solver import solver_for
+from tests.helpers import one_sentence, pinch
+
+STEP = pinch()
+EXACT = qr.solve_step(STEP)
+
+
+def by_daqp(P, q, G, h):
+    """A function that solves."""
+    answer = qpsolvers.solve_problem(qpsolvers.Problem(P, q, G, h), "daqp")
+    return answer.x, answer.z, "optimal"
+
+
+MINE = """
+import numpy as np
+import qpsolvers
+
+def solve(P, q, G, h):
+    answer = qpsolvers.solve_problem(qpsolvers.Problem(P, q, G, h), "daqp")
+    return answer.x, answer.z, "optimal"
+
+def gives_up(P, q, G, h):
+    return None, None, "tired"
+
+def raises(P, q, G, h):
+    raise RuntimeError("no licence")
+
+number = 3
+"""
+
+
+@pytest.fixture
+def mine(tmp_path, monkeypatch):
+    """A file of functions, in the folder where commands run."""
+    (tmp_path / "mine.py").write_text(MINE)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_function_solves_steps_as_a_backend_does():
+    solution = qr.solve_step(STEP, by_daqp)
+    assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
+    said = solution.statistics
+    assert (said.interface, said.status) == ("function", "optimal")
+    assert said.digits > 9
+    residual = qr.solve_step(STEP, by_daqp, certify="residual")
+    np.testing.assert_allclose(residual.delta_q, EXACT.delta_q, atol=1e-9)
+    solver = pickle.loads(pickle.dumps(solver_for(STEP, by_daqp)))
+    assert solver.fits(STEP)
+    again = qr.solve_step(STEP, solver)
+    assert again.delta_q.tobytes() == EXACT.delta_q.tobytes()
+
+
+@pytest.mark.parametrize("name", ["mine:solve", "mine.py:solve"])
+def test_a_function_has_a_name_on_the_command_line(name, mine, cli):
+    qr.step_written(mine / "step.json", STEP)
+    assert "correct digits" in cli("solve", "step.json", "--backend", name, "-o", "s.json").err
+    run = qr.load_scenario("sphere_spin", {"solver.backend": name}, steps=2).run(progress=False)
+    assert set(run.certificate) == {"exact"}
+
+
+WRONG = {
+    "of another shape": (lambda P, q, G, h: (q[:1], h, "optimal"), "in place of"),
+    "no three": (lambda P, q, G, h: q, "in place of"),
+    "of another status": (lambda P, q, G, h: (q, h, "almost"), "almost"),
+    "not finite": (lambda P, q, G, h: (q * np.nan, h, "optimal"), "not finite"),
+    "nothing": (lambda P, q, G, h: (None, None, "tired"), "tired"),
+    "raised": (lambda P, q, G, h: 1 / 0, "division by zero"),
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_a_function_returns_is_not_believed(wrong):
+    function, says = WRONG[wrong]
+    solution = qr.solve_step(STEP, function)
+    assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
+    assert says in solution.statistics.status
+    with pytest.raises(qr.StepNotSolved, match=says):
+        qr.solve_step(STEP, function, certify="off")
+
+
+@pytest.mark.parametrize(
+    "name", ["missing:solve", "mine:missing", "mine:number", "none.py:solve", "mine.py:number"]
+)
+def test_a_function_that_is_not_there_is_named(name, mine, cli):
+    qr.step_written(mine / "step.json", STEP)
+    assert name in one_sentence(cli("solve", "step.json", "--backend", name, status=2).err)
+
+
+def test_a_function_takes_neither_cones_nor_costs():
+    with pytest.raises(qr.BackendError, match="function"):
+        qr.solve_step(STEP.replace(cone="ellipsoid"), by_daqp)
+    cone = qr.Extension(lambda s: [cp.norm(s.delta_q_a) <= 1e-3])
+    with pytest.raises(qr.BackendError, match="function"):
+        qr.solve_step(STEP, by_daqp, extension=cone)
+
+
+OTHERS = [name for name in backends.others_installed() if "gurobi" not in name]
+
+
+@pytest.mark.parametrize("name", ["quadprog_again", *OTHERS])
+def test_solvers_that_the_table_does_not_have_are_called_by_their_names(name, monkeypatch):
+    """Whatever CVXPY and qpsolvers have here; and one that is made up is refused."""
+    if name == "quadprog_again":
+        with pytest.raises(qr.BackendError, match="is not a backend"):
+            qr.solve_step(STEP, name)
+        return
+    solution = qr.solve_step(STEP, name)
+    assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
+    assert solution.statistics.backend == name
