@@ -88,8 +88,8 @@ def run(options: argparse.Namespace) -> int:
     writable_folder(options.out)  # known before the work, not after it
     if options.view:
         with needing("--view"):
-            from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_script
-        viewer_script()  # so that a missing extra is known before the work, too
+            from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_package
+        viewer_package()  # so that a missing extra is known before the work, too
     given = {"--table": options.table, "--contacts-table": options.contacts_table}
     tables = {option: path for option, path in given.items() if path is not None}
     for option, file in tables.items():

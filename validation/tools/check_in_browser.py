@@ -116,13 +116,14 @@ def viewer_faults(page: Page) -> Iterator[str]:
             page.goto((folder / f"{name}.html").as_uri())
             page.wait_for_function("typeof viewer !== 'undefined' && viewer.animator.duration > 0")
         moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
-        scale = force_scale(moments, None, middle(focus(moments, visuals(scenario)))[1], LONGEST)
+        centre, half = middle(focus(moments, visuals(scenario)))
+        scale = force_scale(moments, None, half, LONGEST)
         page.wait_for_function("viewer.animator.time > 0")  # it plays by itself
         page.evaluate("viewer.animator.pause()")
         pictures = []
         for k in (0, len(moments) // 2, len(moments) - 1):
             page.evaluate(f"(viewer.animator.seek({k / fps!r}), viewer.render())")
-            far = largest_distance(page, moments[k], scale)
+            far = largest_distance(page, moments[k], centre, scale)
             pictures.append(page.screenshot())
             if far > PLACE:
                 yield f"{name}: something of frame {k} is {far:.1e} m from its place"
@@ -130,17 +131,20 @@ def viewer_faults(page: Page) -> Iterator[str]:
             yield f"{name}: nothing moves"
 
 
-def largest_distance(page: Page, moment: Moment, scale: float) -> float:
-    """Largest difference of any link's pose or contact's force from those of a moment."""
+def largest_distance(page: Page, moment: Moment, centre: np.ndarray, scale: float) -> float:
+    """Largest difference of any link's pose or contact's force from those of a moment.
+
+    The page's origin is the centre of what is looked at.
+    """
     errors = [0.0]
     for link in sorted({placed.link for placed in moment.shapes} - {0}):
-        M = matrix(page, ["links", str(link)])
+        M = matrix(page, ["meshcat", "links", str(link)])
         errors.append(np.abs(M[:3, :3] - moment.R[link]).max())
-        errors.append(np.abs(M[:3, 3] - moment.t_links[link]).max())
+        errors.append(np.abs(M[:3, 3] + centre - moment.t_links[link]).max())
     for j, contact in enumerate(moment.contacts):
-        M = matrix(page, ["forces", str(j)])
-        errors.append(np.abs(M[:3, 3] - contact.beta).max())
-        errors.append(np.abs(M[:3, 2] - scale * contact.force).max())
+        M = matrix(page, ["meshcat", "forces", str(j)])
+        errors.append(np.abs(M[:3, 3] + centre - contact.beta).max())
+        errors.append(np.abs(M[:3, 1] - scale * contact.force).max())
     return float(max(errors))
 
 

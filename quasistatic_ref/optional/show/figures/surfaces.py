@@ -3,7 +3,6 @@
 from functools import lru_cache
 
 import numpy as np
-from scipy.sparse import csr_array
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.contact.jacobian import tangents
@@ -15,9 +14,6 @@ AROUND, UP = 48, 24
 """Corners of round shapes around their axis and along it: no level is in the middle of a side."""
 DECIMALS = 12
 """To which corners that are found several times agree [m]."""
-
-ROUND = 0.8
-"""Cosine of the angle between triangles at a corner above which the surface is round there [-]."""
 
 
 @lru_cache(maxsize=256)
@@ -69,25 +65,3 @@ def triangles(points: Array) -> Array:
     inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
     corners[inward] = corners[inward][:, [0, 2, 1]]
     return np.asarray(corners.reshape(-1, 3))
-
-
-def normals(corners: Array) -> Array:
-    """Normals at the corners of a surface's triangles, shape (3T, 3): means where it is round.
-
-    Parameters
-    ----------
-    corners : ndarray, shape (3T, 3)
-        Three of each triangle [m].
-    """
-    first, second, third = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
-    flat = np.cross(second - first, third - first).repeat(3, axis=0)
-    _, place = np.unique(corners.round(DECIMALS), axis=0, return_inverse=True)
-    at = csr_array((np.ones(len(corners)), (np.arange(len(corners)), place.ravel())))
-    one, other = (at @ at.T).nonzero()  # corners that are at one place
-    alike = np.einsum("ci,ci->c", _unit(flat)[one], _unit(flat)[other]) > ROUND
-    near = csr_array((np.ones(alike.sum()), (one[alike], other[alike])), shape=(len(corners),) * 2)
-    return _unit(near @ flat)
-
-
-def _unit(vectors: Array) -> Array:
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300))

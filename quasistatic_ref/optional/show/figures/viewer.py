@@ -1,56 +1,38 @@
-"""A scene or a run as one HTML file in 3-D that needs no network, by meshcat's viewer.
+"""A scene or a run as one HTML file in 3-D that needs no network, by meshcat.
 
-meshcat is needed for one file of JavaScript only, its viewer; the commands for that file are made
-here, as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
+meshcat's own server keeps what is drawn, and writes the file; it runs while the file is made.
 """
 
+import warnings
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
 from html import escape
-from importlib.util import find_spec
+from importlib import import_module
+from io import StringIO
 from pathlib import Path
-from string import Template
+from types import ModuleType
 from typing import Any, Final
 
 import numpy as np
-from matplotlib.colors import to_rgb
 
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text, text_written
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import (
     CAMERA,
-    FIXED,
     FLOOR,
     OPACITY,
     STATES,
     body_colours,
     by_depth,
 )
-from quasistatic_ref.optional.show.figures.moments import (
-    DrawnContact,
-    Moment,
-    focus,
-    frames,
-    middle,
-    still,
-)
+from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames, middle, still
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
-from quasistatic_ref.optional.show.figures.three import (
-    clip,
-    colour_clip,
-    material,
-    object_set,
-    thing,
-    z_along,
-)
-from quasistatic_ref.optional.show.figures.visuals import (
-    AROUND,
-    UP,
-    Visual,
-    visuals,
-)
+from quasistatic_ref.optional.show.figures.visuals import AROUND, UP, Visual, visuals
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.shapes.placed_shape import Cone, HalfSpace, PlacedShape, PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -61,8 +43,6 @@ LONGEST = 0.25
 
 THICK, DOT = 0.02, 0.012
 """Radii of a force, drawn as a slim cone, and of a contact over half that size [-]."""
-SMALL = 12, 7
-"""Corners of these around their axis and along it."""
 
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
@@ -82,7 +62,10 @@ EYE: Final = 5.0 * CAMERA.axes()[2]
 """The eye from the middle of what is looked at, over half its size [-]."""
 ANGLE: Final = 40
 """Of what the eye sees from top to bottom [deg]: so far away, little is distorted."""
-PAGE: Final = Path(__file__).parent / "viewer.html"
+CAPTION: Final = (
+    '<div style="position: fixed; left: 1em; bottom: 1em; font-family: sans-serif; '
+    'background: rgba(255, 255, 255, 0.8)">{}</div>'
+)
 
 
 def view_written(
@@ -115,20 +98,41 @@ def view_written(
     if not isinstance(path, str | Path):
         problem = "must be a file; give what is shown, then the file, then the run"
         raise InputError(problem, field="path", value=type(path).__name__)
-    viewer = viewer_script()
+    meshcat = viewer_package()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
     looks = visuals(scene)
     centre, half = middle(focus(moments, looks))
     scale = force_scale(moments, None, half, LONGEST)
-    commands = scene_commands(scene, moments, fps, half, scale, looks)
+    with _visualizer(meshcat) as visualizer:
+        scene_drawn(visualizer, moments, fps, centre, half, scale, looks)
+        page = visualizer.static_html()
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
-    page = Template(PAGE.read_text("utf-8")).substitute(
-        title=escape(title), caption=_caption(title, scene, run, scale), viewer=viewer,
-        commands=json_text(commands).replace("</", "<\\/"),
-        eye=_y_up(centre + half * EYE), angle=ANGLE, centre=_y_up(centre),
-    )  # fmt: skip
-    return text_written(path, page)
+    before, end, after = page.rpartition("</body>")
+    before = before.replace("<title>MeshCat</title>", f"<title>{escape(title)}</title>", 1)
+    caption = CAPTION.format(_caption(title, scene, run, scale))
+    return text_written(path, f"{before}{caption}{end}{after}")
+
+
+def viewer_package() -> ModuleType:
+    """meshcat; InputError where the extra ``view`` is not installed."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # of how it imports pyzmq
+        return needed_package("meshcat", "view", "--view")
+
+
+@contextmanager
+def _visualizer(meshcat: ModuleType) -> Iterator[Any]:
+    """A visualizer whose server ends with it; what meshcat prints of its address is not shown."""
+    with redirect_stdout(StringIO()):
+        visualizer = meshcat.Visualizer()
+    try:
+        yield visualizer
+    finally:
+        window = visualizer.window
+        window.zmq_socket.close(linger=0)
+        window.server_proc.kill()
+        window.server_proc.communicate()
 
 
 def _scene(
@@ -158,129 +162,132 @@ def _coloured(word: str, colour: str) -> str:
     return f'<b style="color: {colour}">&#9632;</b> {escape(word)}'
 
 
-def viewer_script() -> str:
-    """Meshcat's viewer as JavaScript; InputError where the extra ``view`` is not installed."""
-    found = find_spec("meshcat")
-    if found is None or found.origin is None:
-        problem = "needs meshcat: pip install 'quasistatic-ref[view]'"
-        raise InputError(problem, field="--view")
-    return (Path(found.origin).parent / "viewer" / "dist" / "main.min.js").read_text("utf-8")
-
-
-def scene_commands(
-    scene: HasScene,
-    moments: list[Moment],
+def scene_drawn(
+    visualizer: Any,
+    moments: Sequence[Moment],
     fps: float,
+    centre: Array,
     half: float,
     scale: float,
     looks: Sequence[Visual] = (),
-) -> list[dict[str, Any]]:
-    """Commands for the viewer: every object once, where it is at first, and how all move.
+) -> None:
+    """Every object once, and how all move.
+
+    Links are at ``links/K``, contacts at ``contacts/J`` and their forces at ``forces/J``, each of
+    these with an object for each state, of which one is visible at a time.
 
     Parameters
     ----------
-    scene : Scenario or Simulator
-    moments : list of Moment
+    visualizer : meshcat.Visualizer
+    moments : sequence of Moment
         One a frame.
     fps : float
         Frames a second [1/s].
+    centre : ndarray, shape (3,)
+        The middle of what is looked at [m].
     half : float
-        Half the size of what is looked at [m].
+        Half its size [m].
     scale : float
         [m/N].
     looks : sequence of Visual
-
-    Returns
-    -------
-    list of dict
-        meshcat's commands; links are at ``/links/K``, contacts at ``/contacts/J`` and their forces
-        at ``/forces/J``.
     """
-    contacts = range(len(moments[0].contacts))
-    commands: list[dict[str, Any]] = [
-        {"type": "set_property", "path": path, "property": name, "value": value}
-        for path, name, value in SURROUNDINGS
-    ]
-    commands += _links(scene, moments[0], half, looks)
-    for j in contacts:
-        commands.append(object_set(f"/contacts/{j}", _over(Sphere(DOT * half), 0.0)))
-        commands.append(object_set(f"/forces/{j}", _over(Cone(THICK * half, 0.5), 0.5)))
+    for path, name, value in SURROUNDINGS:
+        visualizer[path].set_property(name, value)
+    camera = visualizer["/Cameras/default/rotated/<object>"]
+    x, y, z = half * EYE
+    camera.set_property("position", [x, z, -y])  # in a frame whose y is the world's z
+    camera.set_property("fov", ANGLE)
+    visualizer.set_transform(_place(-centre))  # the camera looks at the origin
+    _draw_links(visualizer["links"], moments[0], half, looks)
+    geometry = import_module("meshcat.geometry")
+    for j, _ in enumerate(moments[0].contacts):
+        for state, colour in STATES.items():
+            look = geometry.MeshBasicMaterial(_number(colour), transparent=True, depthTest=False)
+            dot = visualizer[f"contacts/{j}/{state}"]
+            dot.set_object(geometry.Sphere(DOT * half), look)
+            force = visualizer[f"forces/{j}/{state}"]
+            force.set_object(geometry.Cylinder(1.0, radiusBottom=THICK * half, radiusTop=0.0), look)
+            force.set_transform(_place(np.array([0.0, 0.5, 0.0])))
     links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
-    t = np.array([m.t_links for m in moments])
-    R = np.array([m.R for m in moments])
-    clips = [clip(f"/links/{link}", fps, t[:, link], R[:, link]) for link in sorted(links - {0})]
-    for j in contacts:
-        clips += _contact_clips(j, [m.contacts[j] for m in moments], fps, scale)
-    options = {"play": True, "repetitions": REPETITIONS}
-    play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
-    return [*commands, play]
+    animation = import_module("meshcat.animation").Animation(default_framerate=fps)
+    start = animation.at_frame(visualizer, 0)
+    for j, _ in enumerate(moments[0].contacts):
+        for path in (f"{kind}/{j}/{state}" for kind in ("contacts", "forces") for state in STATES):
+            # After what could hide it. meshcat writes the names of properties in lower case, but
+            # not of those that are animated.
+            start[path].set_property("renderOrder", "number", 1)
+    for k, moment in enumerate(moments):
+        frame = animation.at_frame(visualizer, k)
+        for link in sorted(links - {0}):
+            frame[f"links/{link}"].set_transform(_place(moment.t_links[link], moment.R[link]))
+        for j, contact in enumerate(moment.contacts):
+            force = scale * contact.force
+            length = max(float(np.linalg.norm(force)), NOTHING)
+            frame[f"contacts/{j}"].set_transform(_place(contact.beta))
+            frame[f"forces/{j}"].set_transform(_place(contact.beta, _y_along(force)))
+            frame[f"forces/{j}"].set_property("scale", "vector3", [1.0, length, 1.0])
+            for state in STATES:
+                for path in ("contacts", "forces"):
+                    visible = state == contact.state
+                    frame[f"{path}/{j}/{state}"].set_property("visible", "boolean", visible)
+    visualizer.set_animation(animation, play=True, repetitions=REPETITIONS)
 
 
-def _contact_clips(
-    j: int, contacts: Sequence[DrawnContact], fps: float, scale: float
-) -> Iterator[dict[str, Any]]:
-    """How a contact and its force move, and take the colours of its states."""
-    beta = np.array([c.beta for c in contacts])
-    force = scale * np.array([c.force for c in contacts])
-    length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
-    stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-    colour = np.array([to_rgb(STATES[c.state]) for c in contacts])
-    upright = np.tile(np.eye(3), (len(beta), 1, 1))
-    yield clip(f"/contacts/{j}", fps, beta, upright)
-    yield clip(f"/forces/{j}", fps, beta, z_along(force), stretch)
-    yield colour_clip(f"/contacts/{j}", fps, colour)
-    yield colour_clip(f"/forces/{j}", fps, colour)
-
-
-def _links(
-    scene: HasScene, first: Moment, half: float, looks: Sequence[Visual]
-) -> Iterator[dict[str, Any]]:
-    """Objects of all links: what their URDFs show, or else what touches."""
-    shown = {visual.link for visual in looks}
+def _draw_links(links: Any, first: Moment, half: float, looks: Sequence[Visual]) -> None:
+    """All links: what their URDFs show, or else what touches; clouds besides."""
     for k, visual in enumerate(looks):
-        yield object_set(f"/links/{visual.link}/visual{k}", _lit(visual.corners, visual.colour))
+        links[f"{visual.link}/visual{k}"].set_object(*_lit(visual.corners, visual.colour))
+    visible = {visual.link for visual in looks}
     for k, placed in enumerate(first.shapes):
-        cloud = isinstance(placed.shape, PointCloud)
-        if placed.link in shown and not cloud:
-            continue
-        yield object_set(f"/links/{placed.link}/{k}", _shape(placed, first, half))
+        if isinstance(placed.shape, PointCloud):
+            links[f"{placed.link}/{k}"].set_object(_cloud(placed, placed.shape, first, half))
+        elif placed.link not in visible:
+            links[f"{placed.link}/{k}"].set_object(*_solid(placed, first, half))
 
 
-def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
-    """A shape in the frame of its link; the points of a cloud are paler by depth."""
+def _solid(placed: PlacedShape, of: Moment, half: float) -> tuple[Any, Any]:
+    """The surface of a solid, or a patch of a half-space, in the frame of its link."""
     shape = placed.shape
-    colour = of.colours[placed.link]
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return _lit(corners, FLOOR)
-    own = surface_points(shape, AROUND, UP)
-    points = own @ placed.R.T + placed.t
-    if isinstance(shape, PointCloud):
-        look = {"type": "PointsMaterial", "size": POINT * half, "vertexColors": True}
-        return thing(points, "Points", look, by_depth(colour, of.world(placed, own) @ EYE))
-    return _lit(triangles(points), colour)
+    points = surface_points(shape, AROUND, UP) @ placed.R.T + placed.t
+    return _lit(triangles(points), of.colours[placed.link])
 
 
-def _lit(corners: Array, colour: str) -> dict[str, Any]:
-    """A surface that is lit."""
-    return thing(corners, "Mesh", material(_number(colour), OPACITY.get(colour, 1.0)))
+def _cloud(placed: PlacedShape, cloud: PointCloud, of: Moment, half: float) -> Any:
+    """The points of a cloud in the frame of its link; the paler the deeper."""
+    geometry = import_module("meshcat.geometry")
+    points = cloud.points @ placed.R.T + placed.t
+    colours = by_depth(of.colours[placed.link], of.world(placed, cloud.points) @ EYE)
+    return geometry.PointCloud(points.T, colours.T, size=POINT * half)
 
 
-def _over(shape: Sphere | Cone, z: float) -> dict[str, Any]:
-    """A small shape that nothing hides, its centre at a height z [m]."""
-    corners = triangles(surface_points(shape, *SMALL) + np.array([0.0, 0.0, z]))
-    look = {"type": "MeshBasicMaterial", "depthTest": False, "transparent": True}
-    found = thing(corners, "Mesh", look | {"color": _number(FIXED)})
-    found["object"]["renderOrder"] = 1
-    return found
+def _lit(corners: Array, colour: str) -> tuple[Any, Any]:
+    """A surface that is lit, of triangles (3T, 3) [m]: geometry and material."""
+    geometry = import_module("meshcat.geometry")
+    faces = np.arange(len(corners)).reshape(-1, 3)
+    material = geometry.MeshPhongMaterial(_number(colour), opacity=OPACITY.get(colour, 1.0))
+    return geometry.TriangularMeshGeometry(corners, faces), material
+
+
+def _place(t: Array, R: Array | None = None) -> Array:
+    """A pose as a matrix, shape (4, 4)."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = t
+    if R is not None:
+        matrix[:3, :3] = R
+    return matrix
+
+
+def _y_along(direction: Array) -> Array:
+    """A rotation (3, 3) that takes y, the axis of meshcat's cylinders, to a direction (3,)."""
+    length = np.linalg.norm(direction)
+    y = direction / length if length > 0 else np.array([0.0, 0.0, 1.0])
+    d1, d2 = (axis[0] for axis in tangents(y[None]))  # with d1 x d2 = y
+    return np.column_stack([d2, y, d1])
 
 
 def _number(colour: str) -> int:
     """A colour as three.js has it, a byte each."""
     return int(colour.removeprefix("#"), 16)
-
-
-def _y_up(point: Array) -> str:
-    """Coordinates in the frame of meshcat's camera, whose y is the world's z."""
-    x, y, z = point
-    return f"{x:.6g}, {z:.6g}, {-y:.6g}"
