@@ -284,7 +284,7 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     corner: on the middle of an edge that lies on a floor, that of the next corner.
 
     Points of one plane have x in their hull if no line parts it from them. Of the ways out of x the
-    farthest is towards a corner of the hull, or across one of its edges.
+    farthest is towards one of them, or across the line through two.
 
     Parameters
     ----------
@@ -300,35 +300,12 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     away = others.alpha[level] - nearest.alpha
     if not len(away):
         return False
-    # Seen along an axis that is not in their plane, they have the same corners.
-    flat = np.delete(away, np.abs(n).argmax(), axis=1)
-    corners = away[polygon(flat)]
-    across = crossed(n[None], np.roll(corners, -1, axis=0) - corners)
-    ways = np.concatenate([corners, across, -across])
+    between = (away[:, None] - away).reshape(-1, 3)
+    ways = np.concatenate([away, crossed(n[None], between)])
     length = norm(ways)
     ways = ways / np.where(length > 0, length, 1.0)[:, None]
     apart = product(ways, away.T).min(axis=1).max()
     return bool(apart <= SPANNED * pair.size)
-
-
-def polygon(points: Array) -> Indices:
-    """Numbers of the corners of the convex hull of points of a plane, (N, 2), counter-clockwise."""
-    order = np.lexsort((points[:, 1], points[:, 0])).tolist()
-    places = points.tolist()
-    corners: list[int] = []
-    for way in (order, order[::-1]):  # the lower side, then the upper one
-        side: list[int] = []
-        for i in way:
-            while len(side) > 1 and _turn(places[side[-2]], places[side[-1]], places[i]) <= 0:
-                side.pop()
-            side.append(i)
-        corners += side[:-1]
-    return np.array(corners or order[:1], dtype=np.int64)
-
-
-def _turn(a: list[float], b: list[float], c: list[float]) -> float:
-    """Twice the area of a triangle, positive if its corners are counter-clockwise."""
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _crossings(
@@ -367,15 +344,9 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
 
 def repeated(candidates: ClosestPoints) -> Mask:
     """Which candidates repeat an earlier one: they rank last."""
-    from scipy.spatial import cKDTree
-
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
-    near = cKDTree(every).query_pairs(2 * REPEATED, p=np.inf, output_type="ndarray")
-    first, later = near.T  # the lower number first
-    same = np.abs(every[later] - every[first]).max(axis=1) <= REPEATED
-    last = np.zeros(len(every), dtype=bool)
-    last[later[same]] = True
-    return last
+    same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
+    return np.asarray(np.tril(same, -1).any(axis=1))
 
 
 def _cloud_on_solid(

@@ -21,7 +21,7 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from quasistatic_ref.lab.vectors.unrounded.strictly_active import strictly_active
+from tests.oracles.strictly_active import strictly_active
 
 ULP = 2.0**-52
 LEAST = 5e-324

@@ -1,7 +1,5 @@
 """Closest points of pairs in the world frame: methods, signs, placements, the guard on coal."""
 
-import tracemalloc
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -14,7 +12,6 @@ from quasistatic_ref.contact.distance import (
     joined_contacts,
     number_within,
     repeated,
-    spanned,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.system import Kinematics
@@ -100,42 +97,6 @@ def test_a_candidate_that_repeats_an_earlier_one_ranks_last():
     x = np.array([0.0, REPEATED, 3 * REPEATED, 1.0])
     found = repeated(candidates_at(np.zeros(4), x, np.arange(4)))
     assert found.tolist() == [False, True, False, False]
-
-
-def test_what_repeats_is_that_of_every_two_compared():
-    rng = np.random.default_rng(0)
-    n = 200
-    one = candidates_at(np.zeros(n), REPEATED * rng.integers(0, 300, n) / 2, np.arange(n))
-    every = np.column_stack([one.phi, one.alpha, one.n])
-    same = abs(every[:, None] - every).max(axis=2) <= REPEATED
-    assert repeated(one).tolist() == np.tril(same, -1).any(axis=1).tolist()
-
-
-def test_many_candidates_take_memory_with_their_number():
-    n = 4000
-    one = candidates_at(np.zeros(n), np.linspace(0, 1, n), np.arange(n))
-    tracemalloc.start()
-    assert not repeated(one).any()
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 50 * 2**20  # all pairs at once: 900 MiB
-
-
-@pytest.mark.parametrize("n", [3, 4, 17, 1000])
-def test_a_closest_pair_within_a_polygon_of_others_is_spanned(n):
-    turn = 2 * np.pi * np.arange(n) / n
-    x = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(n)])
-    others = candidates_at(np.zeros(n), np.zeros(n), np.arange(n))._replace(alpha=x)
-    one = pair(placed_shape(FLOOR), placed_shape(CUBE, 1))
-    apothem = np.cos(np.pi / n)  # of the edge between the first two corners
-    way = np.array([np.cos(np.pi / n), np.sin(np.pi / n), 0])
-    for share, expected in ((0.0, True), (0.999 * apothem, True), (1.001 * apothem, False)):
-        nearest = candidates_at(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
-        nearest = nearest._replace(alpha=share * way[None])
-        assert spanned(nearest, others, one) == expected
-    line = others._replace(alpha=x * [1, 0, 0])  # all on one line
-    for y, expected in ((0.0, True), (1e-3, False)):
-        assert spanned(nearest._replace(alpha=np.array([[0.1, y, 0]])), line, one) == expected
 
 
 def test_zero_is_never_minus_zero():

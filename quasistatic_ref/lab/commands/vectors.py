@@ -110,9 +110,9 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
         if case.id == options.case and case.id in answers.outputs:
             record = expected_read(source, layer)[case.id]
             given = answers.outputs[case.id]
-            one = answer_judged(layer, case, record, given, answers, options.digits)
-            print(f"{case.id}: {case.provenance}: {one.verdict.verdict} {one.verdict.reason}")
-            shared.print_rows(side_by_side(record["output"], one.output))
+            verdict, output = answer_judged(layer, case, record, given, answers, options.digits)
+            print(f"{case.id}: {case.provenance}: {verdict.verdict} {verdict.reason}")
+            shared.print_rows(side_by_side(record["output"], output))
 
 
 def _vectors(options: argparse.Namespace) -> Path:

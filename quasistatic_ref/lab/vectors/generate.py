@@ -15,11 +15,14 @@ from quasistatic_ref.lab.vectors.files import (
     inputs_read,
     lines,
 )
-from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS, layer
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.simulate.progress import progress_bar
 
-COPIED = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
+COPIED = (
+    "README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json",
+    "expected/derivative.json",
+)  # fmt: skip
 """What is taken over as it is."""
 
 
@@ -48,19 +51,27 @@ def generate_folder(source: Path, out: Path, progress: bool = True) -> dict[str,
     -------
     dict of str to int
         Number of cases of each layer.
+
+    Raises
+    ------
+    InputError
+        If an input is bad, or the answers of derivatives, which are copied, are not there.
     """
+    answers = source / "expected" / "derivative.json"
+    if (source / "inputs" / "derivative.json").exists() and not answers.exists():
+        problem = "is missing: answers of derivatives are files, which are copied"
+        raise InputError(problem, file=answers)
     writable_folder(out)
     files = {
         path.relative_to(source).as_posix(): bytes_read(path)
         for pattern in COPIED
         for path in sorted(source.glob(pattern))
     }
-    counts = {}
-    for name in LAYERS:
+    counts = {name: len(inputs_read(source, name)) for name in LAYERS}
+    for name in COMPUTED:
         cases = inputs_read(source, name)
         records = [expected_record(name, case) for case in _with_progress(cases, name, progress)]
         files[f"expected/{name}.json"] = expected_text(name, records).encode()
-        counts[name] = len(cases)
     for path, content in files.items():
         bytes_written(out / path, content)
     text_written(out / MANIFEST, manifest_text(files))

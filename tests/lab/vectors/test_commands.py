@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.committed_cases import by_size, cases, inputs_file
+from tests.lab.vectors.committed_cases import VECTORS, by_size, cases, inputs_file
 
 
 @pytest.fixture
@@ -17,6 +17,8 @@ def few(tmp_path):
         # The first quadratic programs have a solution.
         chosen = cases("qp") if layer == "qp" else by_size(layer)
         inputs_file(tmp_path / "source", layer, chosen[:2])
+    files = VECTORS / "expected" / "derivative.json"
+    text_written(tmp_path / "source" / "expected" / "derivative.json", files.read_text("utf-8"))
     source = str(tmp_path / "source")
     out = str(tmp_path / "vectors")
     assert main(["vectors", "generate", "--vectors", source, "--out", out]) == 0

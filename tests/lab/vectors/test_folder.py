@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from quasistatic_ref import verify
+from quasistatic_ref import InputError, verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
 from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, own_written
-from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from tests.lab.vectors.committed_cases import (
     ROOT,
@@ -27,7 +27,8 @@ from tests.lab.vectors.committed_cases import (
 
 MEBIBYTES = 25
 """Promised size of the folder."""
-EVERY = {"distance": 24, "qp": 6, "step": 24, "derivative": 80}
+FILE_ALONE = "expected/derivative.json"
+EVERY = {"distance": 24, "qp": 6, "step": 24}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 
@@ -92,12 +93,19 @@ def test_the_manifest_names_every_file_by_its_content(tmp_path):
     assert size < MEBIBYTES * 2**20
 
 
-@pytest.mark.parametrize("layer", LAYERS)
+@pytest.mark.parametrize("layer", COMPUTED)
 def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
     committed = (VECTORS / "expected" / f"{layer}.json").read_text().splitlines()
     records = {text.rstrip(",") for text in committed}
     for case in cases(layer)[:: EVERY.get(layer, 1)]:
         assert line(expected_record(layer, case)) in records, case.id
+
+
+def test_derivatives_without_their_answers_are_refused(tmp_path):
+    inputs_file(tmp_path / "a", "derivative", by_size("derivative")[:1])
+    with pytest.raises(InputError, match=r"expected/derivative\.json.*is missing"):
+        generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
+    assert not (tmp_path / "b").exists()
 
 
 def test_every_quadratic_program_is_verified_again_without_a_solver():
@@ -119,7 +127,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
 def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     for layer in LAYERS:
         inputs_file(tmp_path / "a", layer, by_size(layer)[:3])
-    for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
+    for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json", FILE_ALONE):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
     counts = generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
     assert counts == dict.fromkeys(LAYERS, 3)
@@ -141,7 +149,7 @@ def test_answers_of_the_package_are_files_as_the_schema_says(tmp_path):
 
 
 def test_outputs_are_computed_without_robotics_stack_backends_and_blas(tmp_path):
-    few = {layer: cases(layer)[0].id for layer in LAYERS}
+    few = {layer: cases(layer)[0].id for layer in COMPUTED}
     source = f"""
 import sys
 for name in ("pinocchio", "coal", "cvxpy", "qpsolvers", "scipy"): sys.modules[name] = None

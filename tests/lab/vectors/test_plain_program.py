@@ -56,14 +56,14 @@ def test_what_challenges_found_in_programs_is_mended():
         for i, case in enumerate(json.loads(FOUND.read_text())):
             reply = program.ask(str(i), "qp", case)
             assert reply.kind == "output", (i, reply.reason)
-            one = answer_judged(
+            verdict, _ = answer_judged(
                 "qp",
                 Case(str(i), "", case),
                 record_of("qp", case),
                 reply.output,
                 program.declaration,
             )
-            assert one.verdict.verdict != FAILED, one.verdict
+            assert verdict.verdict != FAILED, verdict
 
 
 def test_boxes_that_touch_with_their_faces_are_not_apart():

@@ -199,16 +199,15 @@ def _asked(
         return None
     if reply.kind == "output":
         with np.errstate(all="ignore"):  # answers may be any numbers
-            one = answer_judged(
+            verdict, output = answer_judged(
                 layer, Case(id, "", case), record, reply.output, player.declaration, digits
             )
-        verdict = one.verdict
         outcome.verdicts[layer, verdict.verdict] += 1
         if verdict.verdict != FAILED:
             return None
         expected = record["output"]
         finding = Finding(
-            id, layer, "wrong", verdict.field, verdict.reason, case, expected, one.output
+            id, layer, "wrong", verdict.field, verdict.reason, case, expected, output
         )
     else:
         outcome.verdicts[layer, reply.kind] += 1

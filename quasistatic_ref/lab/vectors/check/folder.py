@@ -8,11 +8,9 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
-from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
 from quasistatic_ref.lab.vectors.check.verdict import (
     DIGITS,
-    FAILED,
     MISSING,
     UNSUPPORTED,
     Verdict,
@@ -103,7 +101,7 @@ def layer_report(
     answers: Answers,
     digits: float | None = None,
 ) -> LayerReport:
-    """The verdicts on all answers of one layer, and what is wrong in those that fail.
+    """The verdicts on all answers of one layer.
 
     Parameters
     ----------
@@ -116,8 +114,6 @@ def layer_report(
         [-] An answer that is right to so many digits is acceptable.
     """
     verdicts: list[Verdict] = []
-    failed: list[Failed] = []
-    right: list[Failed] = []
     for case in cases:
         record = expected[case.id]
         if case.id in answers.unsupported:
@@ -127,14 +123,11 @@ def layer_report(
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
             continue
         given = answers.outputs[case.id]
-        one = answer_judged(layer, case, record, given, answers, digits)
-        verdict = one.verdict
+        verdict, _ = answer_judged(layer, case, record, given, answers, digits)
         verdicts.append(verdict)
-        (failed if verdict.verdict == FAILED else right).append(one)
     answered = [*answers.outputs, *answers.unsupported]
     unknown = [name for name in answered if name not in expected]
     problem = answers.problem
-    named = mistakes_of(layer, failed, right)
     if unknown and not problem:
         problem = f"{layer}.json answers {unknown[0]!r}, which is no case of the layer"
     return LayerReport(
@@ -143,7 +136,6 @@ def layer_report(
         present=answers.present,
         problem=problem,
         verdicts=tuple(verdicts),
-        mistakes=named,
     )
 
 
@@ -154,8 +146,8 @@ def answer_judged(
     given: Json,
     answers: Answers,
     digits: float | None = None,
-) -> Failed:
-    """One answer, in the package's conventions, and its verdict.
+) -> tuple[Verdict, Json]:
+    """The verdict on one answer, and the answer in the package's conventions.
 
     Parameters
     ----------
@@ -177,4 +169,4 @@ def answer_judged(
         # Of a shape that only a conversion meets before its shape is checked.
         output = given
         verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)
-    return Failed(case.id, case.input, record, output, verdict)
+    return verdict, output

@@ -1,6 +1,6 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 
 from quasistatic_ref.lab.vectors.check.usual import usual_sentence
 from quasistatic_ref.lab.vectors.check.verdict import (
@@ -18,28 +18,6 @@ HEADER = ("layer", *KINDS, "worst digits", "first failure")
 
 
 @dataclass(frozen=True)
-class Named:
-    """A classic mistake that explains failures.
-
-    Parameters
-    ----------
-    name : str
-        E.g. ``unsigned phi``.
-    sentence : str
-        What was done, and what to do.
-    cases : int
-        How many failing cases it explains.
-    of : int
-        How many cases fail.
-    """
-
-    name: str
-    sentence: str
-    cases: int
-    of: int
-
-
-@dataclass(frozen=True)
 class LayerReport:
     """What became of one layer.
 
@@ -54,8 +32,6 @@ class LayerReport:
         What is wrong with the file itself; empty if nothing is.
     verdicts : tuple of Verdict
         Of every case, in the order of the inputs.
-    mistakes : tuple of Named
-        What explains the failures, the best explanation first.
     must : bool
         Whether a layer without a file is a failure.
     """
@@ -65,7 +41,6 @@ class LayerReport:
     present: bool
     problem: str
     verdicts: tuple[Verdict, ...]
-    mistakes: tuple[Named, ...] = ()
     must: bool = False
 
     def required(self) -> "LayerReport":
@@ -209,7 +184,6 @@ class LayerReport:
             "worst_digits": self.worst.digits if self.worst else None,
             "worst_case": self.worst.id if self.worst else None,
             "first_failure": self.first.record if self.present and self.first else None,
-            "mistakes": [asdict(mistake) for mistake in self.mistakes],
             "cases": [v.record for v in self.verdicts] if self.present else [],
         }
 
@@ -248,19 +222,14 @@ class Report:
 
     @property
     def sentences(self) -> list[str]:
-        """What the table does not say: why a layer fails, which mistake it is, what is missing."""
+        """What the table does not say: why a layer fails, where to look first, what is missing."""
         said = []
         for layer in self.layers:
             if layer.trouble and not layer.ok:
                 said.append(f"{layer.layer}: {layer.trouble}")
-            for m in layer.mistakes:
-                said.append(
-                    f"{layer.layer}: looks like {m.name} ({m.cases} of {m.of} failures): "
-                    f"{m.sentence}"
-                )
             said += [words for words in (layer.partial, layer.unasked) if words]
         wrong = [layer for layer in self.layers if layer.count(FAILED)]
-        if wrong and not wrong[0].mistakes:
+        if wrong:
             said.append(usual_sentence(wrong[0].layer))
         if self.digits is not None:
             said.append(f"acceptable are answers that are right to {self.digits:g} digits")
@@ -288,7 +257,7 @@ class Report:
         """The JSON report."""
         return {
             "format": "quasistatic-ref/vectors-report",
-            "version": 1,
+            "version": 2,
             "answers": self.answers,
             "ok": self.ok,
             "digits": self.digits,

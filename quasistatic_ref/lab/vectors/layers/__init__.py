@@ -10,8 +10,7 @@ held against it. The oracle is
 - for distances: ``vectors/distances``, which shares with the plain program rotations, the corners
   of shapes and the rules by which contacts are kept, and no distance;
 - for optima: the core's exact method. The plain program checks the conditions of each optimum;
-- for derivatives: differences of steps of ``vectors/unrounded``, by the plain program's formulas
-  and the two oracles above.
+- for derivatives: the files, which were made once.
 """
 
 from importlib import import_module
@@ -33,8 +32,12 @@ LAYERS = (
 """In the order in which a step goes through them; `step` is all of them at once."""
 
 
+COMPUTED = LAYERS[:-1]
+"""Those whose answers are computed; the answers of `derivative` are files."""
+
+
 class Layer(Protocol):
-    """What each module of this package offers."""
+    """What each module of this package offers; that of `derivative` has no `expected`."""
 
     def expected(self, case_input: Json, /) -> Expected:
         """The answer, exact or in high precision and rounded correctly."""

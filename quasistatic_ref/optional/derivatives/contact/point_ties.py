@@ -29,11 +29,9 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
     worst = points.phi.max()
-    # Contacts rank by gaps that are rounded: those of neighbouring multiples change places, too.
-    within = max(TIED * of.size, pair.resolution)
-    as_near = of.search.number[np.abs(of.search.rank - worst) <= within]
+    as_near = of.search.number[np.abs(of.search.rank - worst) <= TIED * of.size]
     left_out = as_near[~(as_near[:, None] == points.point).any(axis=1)].tolist()
     if not left_out:
         return [], []
-    level = np.abs(points.phi - worst) <= within
+    level = np.abs(points.phi - worst) <= TIED * of.size
     return points.point[level].tolist(), left_out

@@ -14,9 +14,9 @@ from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
 from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, at
-from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working_precision
 from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, expected_of
+from tests.oracles.grid import on_grid, working_precision
 
 CUBE = {"kind": "box", "size": [1.0, 1.0, 1.0]}
 BALL = {"kind": "sphere", "radius": 1.0}
