@@ -51,6 +51,13 @@ _HOMES = {
     "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",
     "optional.forces.forces": "contact_forces",
+    # A run in pictures and numbers.
+    "optional.show.figures.animation": "animate",
+    "optional.show.figures.contact_pictures": "cone_with_load stick_slip_map",
+    "optional.show.figures.draw": "draw_scene draw_scenes",
+    "optional.show.figures.moments": "moment",
+    "optional.show.figures.viewer": "view_written",
+    "optional.account.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.rotation import quaternion, rotation
-from quasistatic_ref.optional.account.motions import rotation_angle
+from quasistatic_ref.optional.account.motions import LinkMotion, rotation_angle
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
@@ -26,3 +26,17 @@ def test_the_angle_of_a_rotation_about_any_axis_is_the_angle_turned(angle):
     R = Rotation.from_rotvec(angle * axes).as_matrix().reshape(2, 5, 3, 3)
     assert_within(rotation_angle(R), np.full((2, 5), angle), ROUNDING)
     assert_within(rotation_angle(R[0]), np.full(5, angle), ROUNDING)
+
+
+def test_what_turns_with_a_link_does_not_turn_relative_to_it():
+    """The link turns about z by 0, 1, 2 rad; the other in its frame about x by 0, 0, 0.3 rad."""
+    hand = Rotation.from_rotvec(np.outer([0.0, 1.0, 2.0], [0, 0, 1]))
+    object_in_hand = Rotation.from_rotvec(np.outer([0.0, 0.0, 0.3], [1, 0, 0]))
+    t_hand = np.array([[0.0, 0, 0], [0.1, 0, 0], [0.2, 0, 0]])
+    t_in_hand = np.array([[0.0, 0.05, 0]] * 3)
+    times = np.arange(3.0)
+    seen = LinkMotion(
+        times, (hand * object_in_hand).as_matrix(), t_hand + hand.apply(t_in_hand)
+    ).relative_to(LinkMotion(times, hand.as_matrix(), t_hand))
+    assert_within(seen.rotation_since(0.0), [0.0, 0.0, 0.3], ROUNDING)
+    assert_within(seen.t, t_in_hand, ROUNDING)

@@ -7,8 +7,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from quasistatic_ref.lab.figures.labels import caption, note_below
+from quasistatic_ref.lab.grasp import CLOSED, lift_motion
 from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
-from quasistatic_ref.optional.show.figures.looks import CAMERA
+from quasistatic_ref.optional.show.figures.looks import CAMERA, FORCE
 from quasistatic_ref.optional.show.figures.moments import Moment, moment
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.scenario.scenario import Scenario
@@ -63,11 +64,17 @@ def grasp_strip(
         for axes, of in zip(row, moments, strict=False):
             draw_scene(axes, of, metres_per_newton=scale, **SHOWN)
         row[0].set_ylabel(title.replace(" ", "\n"))
-        _spread_plot(row[-1], spread[title], last=k == rows - 1)
+        motion, lift = lift_motion(scenario, runs[title])
+        turn = float(np.degrees(motion.rotation_since(CLOSED)[lift].max()))
+        row[-2].set_xlabel(f"turns by {turn:.1f}$\\degree$")
+        _spread_plot(row[-1], spread[title], turn, last=k == rows - 1)
     for axes, instant in zip(grid, instants, strict=False):
         axes.set_title(f"{instant:g} s")
     grid[columns - 1].set_title(f"{len(next(iter(spread.values())))} clouds")
-    key = f"arrows: contact forces on the bunny, 1 N is {1e3 * scale:g} mm; open dots bear no load"
+    key = (
+        f"arrows: contact forces on the bunny, 1 N is {1e3 * scale:g} mm; open dots bear no load; "
+    )
+    key += "star: this bunny, dots: other clouds of it"
     note_below(grid, f"{caption(scenario.h, scenario.cone)}; {key}")
     return page
 
@@ -77,14 +84,19 @@ def _at(scenario: Scenario, run: Trajectory, t: float) -> Moment:
     return moment(scenario, run, min(max(round(t / scenario.h) - 1, 0), run.steps - 1))
 
 
-def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
-    """One mark for each rotation, on a logarithmic axis, moved up and down so that all are seen."""
+def _spread_plot(axes: Any, rotations: Array, turn: float, last: bool) -> None:
+    """A dot for each rotation and a star for this bunny's, on a logarithmic axis [deg].
+
+    Dots are moved up and down so that all are seen.
+    """
     aside = np.random.default_rng(0).uniform(-1, 1, len(rotations))
     axes.plot(np.maximum(rotations, LEAST), aside, ".", color="black", alpha=0.5,
               markersize=scaled(2.5))  # fmt: skip
+    axes.plot(max(turn, LEAST), 1.5, "*", color=FORCE, markeredgecolor="black",
+              markeredgewidth=scaled(0.5), markersize=scaled(7))  # fmt: skip
     axes.set(xscale="log", xlim=(LEAST / 1.5, 150), ylim=(-2, 2), yticks=[])
-    axes.set_xticks([0.1, 10], ["0.1", "10"] if last else [])
+    axes.set_xticks([0.1, 1, 10, 100], ["0.1", "1", "10", "100"] if last else [])
     axes.minorticks_off()
     axes.spines["left"].set_visible(False)
     if last:
-        axes.set_xlabel("turn [deg]")
+        axes.set_xlabel("turn in the lift [deg]")

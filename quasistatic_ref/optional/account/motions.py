@@ -31,6 +31,12 @@ class LinkMotion:
         reference = self.R[self.index(time)]
         return rotation_angle(self.R @ reference.T)
 
+    def relative_to(self, other: "LinkMotion") -> "LinkMotion":
+        """The same motion as another link of the trajectory sees it, in that link's frame."""
+        back = other.R.swapaxes(1, 2)
+        away = (back @ (self.t - other.t)[:, :, None])[:, :, 0]
+        return LinkMotion(self.times, back @ self.R, away)
+
     def index(self, time: float) -> int:
         """Index of the instant nearest to `time` [s]."""
         return int(np.abs(self.times - time).argmin())
@@ -43,6 +49,29 @@ def link_motion(system: System, trajectory: Trajectory, link: str) -> LinkMotion
     R = np.array([pose.R[number] for pose in poses])
     t = np.array([pose.t[number] for pose in poses])
     return LinkMotion(times=np.concatenate([[0.0], trajectory["t"]]), R=R, t=t)
+
+
+def relative_turn(
+    system: System, trajectory: Trajectory, link: str, to: str, since: float = 0.0
+) -> Array:
+    """How far a link has turned as another link sees it, such as an object in a hand.
+
+    Parameters
+    ----------
+    system : System
+    trajectory : Trajectory
+    link, to : str
+        Names of links, or of bodies, whose root links are meant.
+    since : float
+        The time from which the turn counts [s].
+
+    Returns
+    -------
+    ndarray, shape (steps + 1,)
+        Angles from 0 to pi [rad], the start included.
+    """
+    motion = link_motion(system, trajectory, link)
+    return motion.relative_to(link_motion(system, trajectory, to)).rotation_since(since)
 
 
 def rotation_angle(R: Array) -> Array:

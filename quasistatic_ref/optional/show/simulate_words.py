@@ -12,6 +12,7 @@ from quasistatic_ref.optional.show.show import Page, Row, counted, direction, nu
 from quasistatic_ref.optional.show.step_words import (
     CONTACT,
     FORCE,
+    bearing_first,
     certificate_facts,
     contact_rows,
     force_rows,
@@ -48,7 +49,8 @@ def result_page(result: StepResult) -> Page:
     )
     each = zip(contact_rows(step.contacts), force_rows(result.solution), strict=True)
     rows = [(*contact[:3], *force) for contact, force in each]
-    return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
+    shown = bearing_first(rows, result.solution.wrench[:, 2])
+    return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), shown
 
 
 def recorder_page(recorder: Recorder) -> Page:
@@ -134,4 +136,5 @@ def trajectory_page(trajectory: Trajectory) -> Page:
             names, trajectory["phi"][-1], trajectory["n"][-1], forces, strict=True
         )
     ]
-    return title, facts, ("contact, last step", *CONTACT[1:3], *FORCE[:4]), rows
+    shown = bearing_first(rows, forces[:, 2])
+    return title, facts, ("contact, last step", *CONTACT[1:3], *FORCE[:4]), shown

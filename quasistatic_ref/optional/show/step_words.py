@@ -10,7 +10,7 @@ from quasistatic_ref.optional.show.show import Page, Row, counted, direction, nu
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from quasistatic_ref.certify.certificate import Certificate
     from quasistatic_ref.certify.solution import StepSolution
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
 ARRAY = ("array", "shape", "largest entry", "NaN")
+BEARING = 1e-3
+"""A contact bears load above this share of the largest normal force [-]."""
 FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]", "active rows")
 
 
@@ -75,6 +77,19 @@ def force_rows(solution: StepSolution) -> list[Row]:
     ]
 
 
+def bearing_first(rows: Sequence[Row], f_n: Array) -> list[Row]:
+    """Rows of contacts: first those that bear load, then the others, each in their order.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+    f_n : ndarray, shape (n_c,)
+        Normal forces [N].
+    """
+    idle = f_n <= BEARING * f_n.max(initial=0.0)
+    return [rows[j] for j in np.argsort(idle, kind="stable")]
+
+
 def array_rows(arrays: Mapping[str, Array]) -> list[Row]:
     """Of each of `arrays`, any shapes [-]: name, shape, largest magnitude, number of NaN."""
     return [
@@ -127,4 +142,5 @@ def solution_page(solution: StepSolution) -> Page:
         f"{number(largest)}; backend {solution.backend}, certificate: {certificate.kind}"
     )
     rows = [(str(j), *row) for j, row in enumerate(force_rows(solution))]
-    return title, certificate_facts(certificate), ("contact", *FORCE), rows
+    shown = bearing_first(rows, solution.wrench[:, 2])
+    return title, certificate_facts(certificate), ("contact", *FORCE), shown

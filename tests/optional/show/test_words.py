@@ -32,6 +32,7 @@ from quasistatic_ref.optional.show.show import (
     number,
     text_page,
 )
+from quasistatic_ref.optional.show.step_words import bearing_first
 from quasistatic_ref.step.cones import cone
 from tests.helpers import (
     changed,
@@ -175,6 +176,11 @@ def test_a_step_that_was_taken_shows_forces_and_active_rows():
         active = [names[i] for contact, i in result.solution.certificate.active if contact == j]
         assert row[7] == (" ".join(active) or "none")
     assert {row[7] for row in rows} != {"none"}
+
+
+def test_contacts_that_bear_stand_first():
+    assert bearing_first("abcd", np.array([0.0, 3.0, 0.0, 5.0])) == ["b", "d", "a", "c"]
+    assert bearing_first("ab", np.zeros(2)) == ["a", "b"]
 
 
 STRANGE = {

@@ -18,6 +18,7 @@ from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import box_of, extent, frames, middle
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
 from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 FRAMES_PER_SECOND = 20
@@ -36,6 +37,7 @@ def animate(
     view: str | Camera = CAMERA,
     fps: float = FRAMES_PER_SECOND,
     speed: float = 1.0,
+    progress: bool = True,
     **options: Any,
 ) -> Path:
     """Write a film of a run, in real time or slower or faster, with the scale of its forces.
@@ -52,6 +54,8 @@ def animate(
         Frames in a second of the film [1/s]; no more than there are steps.
     speed : float
         Seconds of the run in a second of the film [-]: 0.25 is slow motion.
+    progress : bool
+        Whether to show a progress bar on standard error, where that is a terminal.
     options
         Further arguments of :func:`~quasistatic_ref.optional.show.figures.draw.draw_scene`.
 
@@ -72,7 +76,7 @@ def animate(
     moments, shown = frames(scenario, run, fps / speed)
     centre, half = middle(box_of(np.concatenate([extent(m) for m in moments])))
     fixed: dict[str, Any] = {
-        "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
+        "view": view, "around": (centre, half),
         "metres_per_newton": force_scale(moments, view, half),
     } | options  # fmt: skip
     writer = WRITERS[path.suffix](fps=speed * shown)
@@ -80,12 +84,16 @@ def animate(
     with figure_style(), plt.rc_context({"savefig.bbox": None}), TemporaryDirectory() as folder:
         figure, axes = plt.subplots(figsize=sized(4.0, 4.4), layout="constrained")
         draw_scene(axes, moments[0], **fixed)  # before there is a film: a wrong option says so
+        title = figure.suptitle(" ")
+        figure.canvas.draw()
+        figure.set_layout_engine("none")  # one layout, the first frame's, serves all
         film = Path(folder) / path.name
         with writer.saving(figure, str(film), DOTS_PER_INCH):
-            for m in moments:
-                axes.clear()
-                draw_scene(axes, m, **fixed)
-                figure.suptitle(f"t = {m.t:.2f} s{pace}")
+            for m in progress_bar(moments, unit="frame", words=path.name, shown=progress):
+                for drawn in (*axes.collections, *axes.patches, *axes.lines, *axes.texts):
+                    drawn.remove()
+                draw_scene(axes, m, **fixed | {"legend": False})  # the first frame's legend stays
+                title.set_text(f"t = {m.t:.2f} s{pace}")
                 writer.grab_frame()
         plt.close(figure)
         return bytes_written(path, film.read_bytes())

@@ -1,7 +1,7 @@
 """Any scene at one instant: bodies, clouds, contact frames, friction cones and forces, to scale."""
 
 from collections.abc import Collection, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -28,6 +28,9 @@ from quasistatic_ref.optional.show.figures.style import room, scaled
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
+"""What of contacts can be drawn."""
+DRAWN: Final = ("contacts", "forces")
+"""What of them is drawn by default: a cone is often larger than the object that it hides."""
 LONGEST, FRAME = 0.4, 0.1
 """Of the scene's size: the longest force, where no scale is given; the axes of a contact frame."""
 
@@ -46,17 +49,18 @@ def draw_scene(
     of: Moment,
     *,
     view: str | Camera = "xz",
-    parts: Collection[str] = PARTS,
+    parts: Collection[str] = DRAWN,
     metres_per_newton: float | None = None,
     around: tuple[Array, float] | None = None,
     legend: bool = True,
 ) -> None:
     """Draw a moment on axes, in millimetres, as a camera sees it.
 
-    Robots are grey, what they act on is coloured. At each contact that bears load: its frame (n
-    solid, d1 dashed, d2 dotted), the cone of forces that friction allows at its normal force, and
-    the force on beta's body. Where mu_omega is not 0, a circle of that radius in the tangent plane:
-    drawn in full when the torque about n is at its limit, in part below.
+    Robots are grey, what they act on is coloured. At each contact that bears load stands the force
+    on beta's body. The part ``"frames"`` adds its frame (n solid, d1 dashed, d2 dotted). The part
+    ``"cones"`` adds the cone of forces that friction allows at its normal force and, where mu_omega
+    is not 0, a circle of that radius in the tangent plane: drawn in full when the torque about n is
+    at its limit, in part below.
 
     Parameters
     ----------
@@ -66,7 +70,7 @@ def draw_scene(
         ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose axes have no coordinates:
         ``CAMERA`` of ``looks`` is that of all figures here.
     parts : collection of str
-        Of ``PARTS``.
+        Of ``"contacts"``, ``"frames"``, ``"cones"`` and ``"forces"``.
     metres_per_newton : float, optional
         Length of a force of 1 N [m/N]; by default the largest in view fits.
     around : tuple of ndarray and float, optional
@@ -95,6 +99,29 @@ def draw_scene(
     pen.finish(centre + (box - centre) * MARGIN + PADDING * half * SIGNS, view)
     if legend and of.contacts:
         _legend(axes, of, parts, metres_per_newton)
+
+
+def draw_scenes(
+    panels: Sequence[Axes], moments: Sequence[Moment], *, view: str | Camera = "xz", **options: Any
+) -> None:
+    """Draw moments in panels that show the same part of the world, with one scale of forces.
+
+    Parameters
+    ----------
+    panels : sequence of Axes
+    moments : sequence of Moment
+        One for each panel.
+    view : str or Camera
+    options
+        Further arguments of :func:`draw_scene`.
+    """
+    around = middle(box_of(np.concatenate([extent(of) for of in moments])))
+    fixed: dict[str, Any] = {
+        "around": around,
+        "metres_per_newton": force_scale(moments, view, around[1]),
+    } | options
+    for axes, of in zip(panels, moments, strict=True):
+        draw_scene(axes, of, view=view, **fixed)
 
 
 def _tips(of: DrawnContact, parts: Collection[str]) -> list[Array]:

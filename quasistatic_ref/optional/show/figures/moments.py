@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures.looks import link_colours
@@ -219,6 +220,12 @@ def reported(run: Trajectory, k: int) -> Array:
     """
     known = run.header["record"] != "light" and run.header.get("alone", True)
     return np.asarray(run.step_forces(k) if known else run["wrench"][k])
+
+
+def contact_states(run: Trajectory) -> NDArray[np.str_]:
+    """``"apart"``, ``"sticking"`` or ``"sliding"`` of each contact in each step, (steps, n_c)."""
+    states = [[contact.state for contact in _contacts(run, k)] for k in range(run.steps)]
+    return np.array(states).reshape(run.steps, -1)
 
 
 def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:

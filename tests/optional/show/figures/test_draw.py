@@ -16,7 +16,8 @@ from quasistatic_ref import (
     Sphere,
     load_scenario,
 )
-from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
+from quasistatic_ref.optional.show.figures import animate, draw_scene, draw_scenes, moment, panels
+from quasistatic_ref.optional.show.figures.draw import PARTS
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
@@ -80,7 +81,7 @@ def test_the_ellipsoid_s_rim_is_a_circle():
 
 def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     of = moment(*incline, -1)
-    draw_scene(page, of, metres_per_newton=0.02)
+    draw_scene(page, of, metres_per_newton=0.02, parts=PARTS)
     arrows = [text for text in page.texts if text.arrow_patch is not None]
     loaded = [c for c in of.contacts if c.bears]
     assert len(arrows) == len(loaded) > 0
@@ -97,6 +98,22 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     ]
     unit = normals[0] / np.linalg.norm(normals[0])
     np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
+
+
+def test_no_cone_hides_the_scene_unless_it_is_named(incline, page):
+    scenario, run = incline
+    draw_scene(page, moment(scenario, run, -1))
+    assert "friction cone" not in [text.get_text() for text in page.get_legend().get_texts()]
+
+
+def test_panels_have_one_view_and_one_scale_of_forces(incline):
+    figure, both = panels(6, 3, columns=2)
+    draw_scenes(both, [moment(*incline, 0), moment(*incline, -1)])
+    first, last = (
+        (a.get_xlim(), a.get_ylim(), a.get_legend().get_texts()[0].get_text()) for a in both
+    )
+    assert first == last
+    plt.close(figure)
 
 
 def test_a_body_s_outline_is_where_the_body_is(incline, page):
