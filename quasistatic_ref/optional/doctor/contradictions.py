@@ -1,13 +1,15 @@
 """Masses, inertias and sizes that contradict each other."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import product
 
 import numpy as np
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.start import Start, body, sizes
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.data import Array
 
@@ -19,24 +21,56 @@ at most 1, but for what has no collision shape; of a homogeneous ball 0.4."""
 WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
 """To the faces, edges and corners of a cube [-]."""
 OUTSIDE = 0.25
-"""How far a centre of mass may be outside of shapes, or of the hull of a cloud, over their extent
-[-]: a cloud may be a part of a surface."""
+"""How far a centre of mass may be outside of the hull of shapes or of a cloud, over its extent [-]:
+a cloud may be a part of a surface."""
+FOOT = 0.2
+"""Largest extent of a foot over that of all feet [-]."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
 
 def density(start: Start) -> Iterator[Said]:
-    """Free links that are lighter than foam or heavier than gold."""
+    """Free links that are lighter than foam or heavier than gold.
+
+    A link is light where even its shapes alone are, and heavy where even their hull is: it may be
+    hollow, and what is between its shapes may be filled. Of feet neither says anything.
+    """
     for link, name, shapes in start.free_links:
-        volume = sum(_volume(placed.shape) for placed in shapes)
+        hull = _hull(shapes)
+        if hull is None or _are_feet(shapes, hull):
+            continue
         mass = float(start.system.masses[link])
-        if not DENSITIES[0] <= mass / volume <= DENSITIES[1]:
-            yield Said(
-                f"check mass and size of {name}",
-                f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
-                f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
-                {"density_kg_per_m3": mass / volume},
-            )
+        alone = sum(_volume(placed.shape) for placed in shapes)
+        whole = max(hull.volume, alone)
+        for volume, wrong in (
+            (alone, mass / alone < DENSITIES[0]),
+            (whole, mass / whole > DENSITIES[1]),
+        ):
+            if wrong:
+                yield Said(
+                    f"check mass and size of {name}",
+                    f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
+                    f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
+                    {"density_kg_per_m3": mass / volume},
+                )
+
+
+def _hull(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:
+    """Convex hull of a link's shapes, in its frame; None if they are flat."""
+    points = [_points(placed) for placed in shapes]
+    for placed in shapes:
+        corners, radius = placed.shape.corners(WAYS[0])
+        if not radius:
+            points.append(corners @ placed.R.T + placed.t)
+    with suppress(ModelError):
+        return convex_hull(np.concatenate(points))
+    return None
+
+
+def _are_feet(shapes: Sequence[PlacedShape], hull: ConvexMesh) -> bool:
+    """Whether shapes are plainly no more than feet of a body: several small ones far apart."""
+    largest = max(placed.shape.extent for placed in shapes)
+    return len(shapes) > 2 and largest <= FOOT * hull.extent
 
 
 def _volume(shape: Shape) -> float:
@@ -63,13 +97,18 @@ def inertia(start: Start) -> Iterator[Said]:
 
 
 def centre(start: Start) -> Iterator[Said]:
-    """Free links whose centre of mass is far outside of their shapes."""
+    """Free links whose centre of mass is far outside of the hull of their shapes.
+
+    The body that stands on feet is above them, by their distance at most.
+    """
     for link, name, shapes in start.free_links:
+        hull = _hull(shapes)
+        if hull is None:
+            continue
         at = start.system.centres[link]
-        own = [(placed, (at - placed.t) @ placed.R) for placed in shapes]  # in each shape's frame
-        away = min(float(placed.shape.signed_distance(x[None])[0][0]) for placed, x in own)
-        extent = max(sizes(shapes), default=np.inf)
-        if away > OUTSIDE * extent:
+        away = float(hull.signed_distance(at[None])[0][0])
+        extent = hull.extent
+        if away > (1.0 if _are_feet(shapes, hull) else OUTSIDE) * extent:
             yield Said(
                 f"check the centre of mass of {name}, or the origin of its shapes",
                 f"it is {1e3 * away:.3g} mm outside of its shapes, which are {1e3 * extent:.3g} mm "

@@ -1,11 +1,15 @@
 """Where bodies are at the start: free ones that nothing bears, and some that are in each other."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.between import Said
+from quasistatic_ref.optional.doctor.falls import fall, held
 from quasistatic_ref.optional.doctor.start import (
     Start,
     bodies,
@@ -39,10 +43,9 @@ def gravity(start: Start) -> Iterator[Said]:
 
 def in_the_air(start: Start) -> Iterator[Said]:
     """A body that touches nothing where it starts, above what is to bear it."""
-    for name, own in _apart(start):
-        below = [x for x in own if x[2] > BEARING]
-        if below:
-            pair, gap, _ = min(below, key=lambda x: x[1])
+    for name, own in _falling(start):
+        pair, gap = min(own, key=lambda x: x[1])
+        if np.isfinite(gap):
             yield Said(
                 f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
                 f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it ({pair.name})",
@@ -52,14 +55,13 @@ def in_the_air(start: Start) -> Iterator[Said]:
 
 def nothing_below(start: Start) -> Iterator[Said]:
     """A body that touches nothing where it starts, and of whose tables none is of what is below."""
-    for name, own in _apart(start):
-        if all(up <= BEARING for *_, up in own):
-            pair, gap, _ = min(own, key=lambda x: x[1])
+    for name, own in _falling(start):
+        if all(gap == np.inf for _, gap in own):
             yield Said(
                 f"add a table [contacts.NAME] of {name} and what should bear it",
-                f"nothing that may touch {name} is below it; the nearest, by {pair.name}, is "
-                f"{1e3 * gap:.4g} mm away",
-                {"gap_mm": 1e3 * gap},
+                f"nothing that may touch {name} is below it: it falls past "
+                f"{listed(sorted({pair.name for pair, _ in own}))}",
+                {"pairs": len(own)},
             )
 
 
@@ -82,11 +84,14 @@ def penetration(start: Start) -> Iterator[Said]:
     yield from deepest.values()
 
 
-def _apart(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:
-    """Those of `_contacts` that touch nothing."""
+def _falling(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float]]]]:
+    """Bodies that touch nothing and that nothing holds: their pairs, and how far they fall [m]."""
+    borne = held(start)
     for name, own in _contacts(start):
-        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own):
-            yield name, own
+        apart = all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
+        if name not in borne and apart:
+            with suppress(ContactError):  # of a pose that no step has
+                yield name, [(pair, fall(start, pair, name)) for pair, *_ in own]
 
 
 def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:

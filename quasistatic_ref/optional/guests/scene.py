@@ -315,6 +315,14 @@ def controls_of(
             dict(zip(names, piecewise_linear(times, values, t).tolist(), strict=True))
         )
     keys = [numbered(mujoco, model, "KEY", name) for name in targets]
+    for name, key in zip(targets, keys, strict=True):
+        poses = (model.key_mpos[[key, keys[0]]], model.key_mquat[[key, keys[0]]])
+        if any((own != first).any() for own, first in poses):
+            problem = (
+                f"moves bodies with mocap away from where {targets[0]} has them, and a run moves "
+                "none; give the moved body joints with servos, or leave this keyframe out"
+            )
+            raise InputError(problem, field=f"keyframe {name}")
     times = np.linspace(0.0, T, len(keys)) if len(keys) > 1 else np.zeros(1)
     return lambda t: (piecewise_linear(times, model.key_ctrl[keys], t), {})
 

@@ -1,0 +1,192 @@
+"""What holds a body that touches nothing, how far it falls, and shapes that are a body's feet."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.optional.doctor.falls import fall
+from quasistatic_ref.optional.doctor.start import Start
+
+mujoco = pytest.importorskip("mujoco")
+
+LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
+<site name="hook" pos="0 0 {hook}"/>
+<body name="lamp" pos="0 0 0.3"><freejoint/><geom name="lamp" type="sphere" size="0.05" mass="0.2"/>
+<site name="eye" pos="0 0 0.05"/></body>
+<body name="bulb" pos="0.5 0 0.2"><freejoint/><geom name="bulb" type="sphere" size="0.02" mass="0.1"/>
+</body></worldbody>{ties}</mujoco>"""
+WELD = '<weld body1="lamp"/>'
+CONNECT = '<connect body1="lamp" anchor="0 0 0.1"/>'
+CHAIN = '<weld body1="lamp" body2="bulb"/>'
+ROPE = """<tendon><spatial name="rope" limited="true" range="0 0.25"><site site="hook"/>
+<site site="eye"/></spatial></tendon>"""
+
+
+def in_the_air(ties, hook=0.6):
+    """Names of the bodies that are said to start in the air, with their distances [mm]."""
+    model = mujoco.MjModel.from_xml_string(LAMP.format(hook=hook, ties=ties))
+    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",)).run(progress=False)
+    said = [one for one in run.findings if one.name == "starts in the air"]
+    return {one.remedy.split()[1]: one.numbers["gap_mm"] for one in said}
+
+
+@pytest.mark.parametrize(
+    ("ties", "falling"),
+    [
+        ("", {"lamp": 250, "bulb": 180}),
+        (f"<equality>{WELD}</equality>", {"bulb": 180}),
+        (f"<equality>{CONNECT}</equality>", {"bulb": 180}),
+        (f"<equality>{WELD}{CHAIN}</equality>", {}),
+        (f"<equality>{CHAIN}</equality>", {"lamp": 250, "bulb": 180}),
+        (ROPE, {"bulb": 180}),
+    ],
+    ids=["nothing", "weld", "connect", "chain", "weld of both", "taut rope"],
+)
+def test_bodies_that_are_held_do_not_start_in_the_air(ties, falling):
+    assert in_the_air(ties) == pytest.approx(falling, abs=1e-3)
+
+
+def test_a_slack_rope_holds_nothing():
+    assert "lamp" in in_the_air(ROPE, hook=0.5)
+
+
+def scene(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
+    shapes = "".join(
+        f'<collision name="s{i}"><origin xyz="{x} {y} {h}" rpy="0 0 {yaw}"/>'
+        f"<geometry>{kind}</geometry></collision>"
+        for i, (kind, x, y, h, yaw) in enumerate(collisions)
+    )
+    x, y, h = centre
+    urdf = (
+        f'<robot name="b"><link name="b"><inertial><origin xyz="{x} {y} {h}"/>'
+        f'<mass value="{mass}"/><inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" '
+        f'ixy="0" ixz="0" iyz="0"/></inertial>{shapes}</link></robot>'
+    )
+    return qr.load_scenario(
+        {
+            "h": 0.01,
+            "steps": 1,
+            "gravity": [0, 0, -9.81],
+            "bodies": {"b": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, z]}}},
+            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+            "contacts": {
+                "floor": {
+                    "alpha": "floor",
+                    "beta": [f"b/s{i}" for i in range(len(collisions))],
+                    "mu_v": 0.5,
+                    "rows": 4,
+                    "k": 4,
+                }
+            },
+        }
+    )
+
+
+def sphere(radius):
+    return f'<sphere radius="{radius}"/>'
+
+
+def plate(x, y, z):
+    return f'<box size="{x} {y} {z}"/>'
+
+
+HOLLOW = {
+    "a cube on four small balls": (
+        [(sphere(0.002), x, y, -0.048, 0) for x in (-0.048, 0.048) for y in (-0.048, 0.048)],
+        1.0,
+        1.667e-3,
+    ),
+    "a cabinet on three feet": (
+        [(sphere(0.01), 0.2 * cos(a), 0.2 * sin(a), -0.24, 0) for a in (0, 2 * pi / 3, 4 * pi / 3)],
+        20.0,
+        0.5,
+        (0, 0, 0),
+        0.25,
+    ),
+    "a mug of boxes": (
+        [
+            (plate(0.008, 0.034, 0.1), 0.04 * cos(a), 0.04 * sin(a), 0, a)
+            for a in np.arange(8) * pi / 4
+        ],
+        0.3,
+        4e-4,
+    ),
+    "a table on legs": (
+        [(plate(0.05, 0.05, 0.7), x, y, -0.35, 0) for x in (-0.5, 0.5) for y in (-0.3, 0.3)],
+        15.0,
+        2.0,
+        (0, 0, -0.02),
+        0.7,
+    ),
+    "a dumbbell": ([(sphere(0.02), x, 0, 0, 0) for x in (-0.1, 0.1)], 0.5, 2e-3, (0, 0, 0), 0.02),
+    "a handle": (
+        [
+            (plate(0.02, 0.1, 0.02), 0, 0, 0, 0),
+            (plate(0.08, 0.02, 0.02), 0.05, 0.04, 0, 0),
+            (plate(0.08, 0.02, 0.02), 0.05, -0.04, 0, 0),
+        ],
+        0.2,
+        3e-4,
+        (0.045, 0, 0),
+        0.01,
+    ),
+}
+
+
+@pytest.mark.parametrize("body", HOLLOW.values(), ids=HOLLOW)
+def test_what_is_between_the_shapes_of_a_body_is_its_own(body):
+    assert [one.sentence for one in scene(*body).run(progress=False).findings] == []
+
+
+def test_masses_and_centres_that_no_body_of_such_shapes_has_are_still_said():
+    four = [(plate(0.02, 0.02, 0.1), x, y, 0, 0) for x in (-0.05, 0.05) for y in (-0.05, 0.05)]
+    for mass, centre, name in (
+        (60.0, (0, 0, 0), "density"),
+        (1e-4, (0, 0, 0), "density"),
+        (0.5, (0.3, 0, 0), "centre of mass"),
+    ):
+        run = scene(four, mass, 2e-3 * mass, centre).run(progress=False)
+        assert name in [one.name for one in run.findings]
+
+
+def gripper(finger, can):
+    """A finger beside a can that is above a floor."""
+    bodies = {
+        "can": qr.Body.of_shape("can", can, 0.3, xyz=(0, 0, 0.14)),
+        "finger": qr.Body.of_shape("finger", finger, 1.0, xyz=(0.08, 0, 0.14), base="fixed"),
+    }
+    floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
+    table = {"beta": "can", "mu_v": 0.5, "rows": 4, "k": 4}
+    return qr.load_scenario(
+        {
+            "h": 0.01,
+            "steps": 1,
+            "gravity": [0, 0, -9.81],
+            "bodies": bodies,
+            "shapes": {"floor": floor},
+            "contacts": {
+                "floor": {"alpha": "floor", **table},
+                "grip": {"alpha": "finger", **table},
+            },
+        }
+    )
+
+
+def test_a_body_beside_a_finger_is_lowered_to_what_is_below_it():
+    made = gripper(qr.Box((0.01, 0.02, 0.02)), qr.Cylinder(0.03, 0.04))
+    said = [x for x in made.run(progress=False).findings if x.name == "starts in the air"]
+    assert [one.numbers["gap_mm"] for one in said] == pytest.approx([100], abs=1e-6)
+
+
+def test_a_fall_past_a_ball_is_endless_and_onto_one_ends_on_it():
+    made = gripper(qr.Sphere(0.03), qr.Sphere(0.03))
+    start = Start(made.simulator(), made.system.q_start)
+    floor, grip = made.pairs
+    assert fall(start, floor, "can") == pytest.approx(0.11, abs=1e-9)
+    assert fall(start, grip, "can") == np.inf  # 80 mm apart
+    shift = np.array([0.05, 0.0, 0.16, 0.0, 0.0, 0.0])
+    start = Start(made.simulator(), made.system.integrate(made.system.q_start, shift))
+    # 30 mm across, 60 mm at touch: sqrt(60^2 - 30^2) mm above the other
+    assert fall(start, grip, "can") == pytest.approx(0.16 - np.sqrt(0.06**2 - 0.03**2), abs=1e-8)
