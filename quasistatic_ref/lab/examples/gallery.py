@@ -30,6 +30,7 @@ EXAMPLES = {
     "what_smoothing_does": "gradients",
     "plan_a_push": "gradients",
     "solver_digits": "one_step",
+    "metres": "one_step",
     "door": "mechanisms",
     "peg_in_a_hole": "mechanisms",
     "robot_push": "mechanisms",

@@ -97,7 +97,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == 28
+    assert len(EXAMPLES) == 29
 
 
 @pytest.mark.parametrize("name", GALLERY)
@@ -210,6 +210,13 @@ def test_more_accuracy_means_more_digits_but_never_all():
     digits = np.reshape(list(numbers("solver_digits").values()), (3, 4))
     assert (np.diff(digits[:, [0, 1, 3]], axis=1) > 0).all(), digits
     assert digits.max() < 16
+
+
+def test_metres_cost_every_solver_digits_that_natural_units_keep():
+    errors = np.reshape(list(numbers("metres").values()), (5, 2))
+    assert (errors[:, 0] > 1e3 * errors[:, 1]).all(), errors
+    assert 0.004 < errors[:, 0].max() < 0.006
+    assert errors[:, 1].max() < 1e-8
 
 
 @pytest.mark.extra("robots")
