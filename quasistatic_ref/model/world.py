@@ -262,8 +262,7 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
         if joint.unit is None:
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])
-            # URDF's default is 0 to 0, with which nothing is said.
-            said = lower <= upper and (lower, upper) != (0.0, 0.0)
+            said = lower <= upper and written.bounded
             joint = replace(joint, limits=(lower, upper) if said else None)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints

@@ -109,7 +109,7 @@ def loaded_urdf(
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
         shapes, hulls = checked_shapes(file, model, geometry, links, frames, package_dirs)
-    return Urdf(file, text, base, model, links, shapes, (*inertias, *hulls))
+    return Urdf(file, text, base, model, links, shapes, (*file.notes, *inertias, *hulls))
 
 
 def body_frame(model: pin.Model, link: str) -> int:

@@ -1,6 +1,6 @@
 """What a URDF file says, checked on its own, before any library has read it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -28,6 +28,7 @@ MOST_COORDINATES = 250
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
 _ROBOT = ("name", "version")
+_TURNING = ("revolute", "prismatic")
 _VERSIONS = ("1.0", "1.1", "1.2")
 _GEOMETRIES = {
     "box": ("size",),
@@ -102,6 +103,8 @@ class UrdfFile:
         Parents before children.
     ignored : tuple of str
         Elements and attributes that the model does not use, e.g. ``link[base].visual``.
+    notes : tuple of str
+        What was left out or taken in another way than it is written.
     """
 
     path: Path
@@ -110,6 +113,7 @@ class UrdfFile:
     links: dict[str, FileLink]
     joints: tuple[FileJoint, ...]
     ignored: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
 
 def urdf_file(given: str | Path) -> UrdfFile:
@@ -141,6 +145,10 @@ def _content(path: Path, text: str) -> UrdfFile:
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
+    Tag(robot, "robot").text("name")
+    notes = []
+    if "xmlns" in robot.attrib:
+        notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
     ignored = Tag(robot, "robot").ignored("link", "joint", attributes=_ROBOT)
     links: dict[str, FileLink] = {}
     counts = {
@@ -151,34 +159,45 @@ def _content(path: Path, text: str) -> UrdfFile:
         if count > most:
             raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
     for element in robot.findall("link"):
-        link = _link(element, ignored)
+        link = _link(element, ignored, notes)
         if link.name in links:
             raise ModelError("is the name of two links; rename one", field=f"link[{link.name}]")
         links[link.name] = link
-    joints = [_joint(element, ignored) for element in robot.findall("joint")]
+    if not links:
+        raise ModelError("has no <link>", field="robot")
+    needed = version != "1.2"  # which made limits optional
+    joints = [_joint(element, ignored, notes, needed) for element in robot.findall("joint")]
+    joints = _without_turns(joints, notes)
     moving = [JOINTS[joint.kind] for joint in joints if joint.kind in JOINTS]
     coordinates = sum(len(getattr(kind, "twist", "1")) for kind in moving)
     if coordinates > MOST_COORDINATES:
         problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
     root, ordered = checked_tree(links, joints)
-    return UrdfFile(path, text, root, links, ordered, tuple(ignored))
+    return UrdfFile(path, text, root, links, ordered, tuple(ignored), tuple(notes))
 
 
-def _link(element: Element, ignored: list[str]) -> FileLink:
+def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
     name = Tag(element, "link").text("name")
     link = Tag(element, f"link[{name}]")
     ignored += link.ignored("inertial", "collision", attributes=("name",))
     mass, com, inertia, defect = _inertial(link, ignored)
     collisions = []
+    named = []
     for number, each in enumerate(element.findall("collision")):
         collision = Tag(each, f"{link.where}.collision[{number}]")
         ignored += collision.ignored("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
-        collisions.append((written_shape(collision), R, t))
+        shape = written_shape(collision)
         ignored += collision.child("geometry").ignored(*_GEOMETRIES)
-    named = tuple(each.get("name") for each in element.findall("collision"))
-    return FileLink(name, mass, com, inertia, tuple(collisions), defect, named)
+        ignored += collision.unread
+        if shape is None:
+            notes.append(f"{collision.where}: left out, since its shape has no size")
+            continue
+        collisions.append((shape, R, t))
+        named.append(each.get("name"))
+    ignored += link.unread
+    return FileLink(name, mass, com, inertia, tuple(collisions), defect, tuple(named))
 
 
 def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None]:
@@ -214,8 +233,8 @@ def inertia_defect(inertia: Array) -> Defect | None:
     return None
 
 
-def written_shape(collision: Tag) -> FileShape:
-    """The shape of a collision or visual element.
+def written_shape(collision: Tag) -> FileShape | None:
+    """The shape of a collision or visual element; None if one of its sizes is 0.
 
     Raises
     ------
@@ -227,15 +246,19 @@ def written_shape(collision: Tag) -> FileShape:
     if len(tags) != 1:
         raise ModelError("must contain exactly one shape", field=geometry.where, value=tags)
     kind = tags[0]
-    shape = Tag(geometry.element[0], f"{collision.where}.{tags[0]}")
+    shape = Tag(geometry.element[0], f"{collision.where}.{tags[0]}", collision.unread)
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
     if kind == "mesh":
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
-            raise ModelError("must not be zero", field=f"{shape.where}.scale", value=scale.tolist())
+            return None
         return FileMesh(shape.text("filename").strip(), scale)
+    names = [name for name in _GEOMETRIES[kind] if kind != "box"]
+    sizes = [*shape.numbers("size", 3)] if kind == "box" else [*map(shape.number, names)]
+    if min(sizes) == 0 and not (kind == "capsule" and sizes[0] > 0):
+        return None
     try:
         if kind == "box":
             return Box(shape.numbers("size", 3) / 2)
@@ -252,7 +275,9 @@ def written_shape(collision: Tag) -> FileShape:
         raise
 
 
-def _joint(element: Element, ignored: list[str]) -> FileJoint:
+def _joint(
+    element: Element, ignored: list[str], notes: list[str], limits_needed: bool
+) -> FileJoint:
     name = Tag(element, "joint").text("name")
     joint = Tag(element, f"joint[{name}]")
     kind = joint.text("type")
@@ -279,23 +304,47 @@ def _joint(element: Element, ignored: list[str]) -> FileJoint:
         if not length > 0:
             raise ModelError("must not be zero", field=f"{written.where}.xyz", value=axis.tolist())
         axis = axis / length
-    _check_limit(joint, needed=kind in ("revolute", "prismatic"))
+    bounded = _check_limit(joint, notes, limits_needed and kind in _TURNING, kind in _TURNING)
     mimic = _mimic(joint)
     if kind == "fixed" and mimic is not None:
         ignored.append(f"{joint.where}.mimic")
         mimic = None
-    return FileJoint(name, kind, parent, child, R, t, axis, mimic)
+    ignored += joint.unread
+    return FileJoint(name, kind, parent, child, R, t, axis, mimic, bounded)
 
 
-def _check_limit(joint: Tag, *, needed: bool) -> None:
+def _without_turns(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
+    """The joints, a continuous one that follows one that is not as a revolute one."""
+    kinds = {joint.name: joint.kind for joint in joints}
+    followers = []
+    for joint in joints:
+        leader = kinds.get(joint.mimic.of) if joint.mimic is not None else None
+        if joint.kind == "continuous" and leader in _TURNING:
+            notes.append(f"joint[{joint.name}]: revolute, as it mimics a joint with bounds")
+            joint = replace(joint, kind="revolute")
+        followers.append(joint)
+    return followers
+
+
+def _check_limit(joint: Tag, notes: list[str], needed: bool, bounded: bool) -> bool:
     """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
     limit = joint.perhaps("limit")
+    bounds = None
     if limit is None and needed:
         problem = "is missing: URDF requires effort and velocity, although they are not used"
         raise ModelError(problem, field=f"{joint.where}.limit")
     if limit is not None:
         for name in ("effort", "velocity", "lower", "upper"):
-            limit.number(name, 0.0 if name in ("lower", "upper") else None, most=np.inf)
+            limit.number(name, None if needed and name[0] in "ev" else 0.0, most=np.inf)
+        bounds = limit.position_limits()
+        missing = [name for name in ("lower", "upper") if name not in limit.element.attrib]
+        if bounded and bounds is None:
+            notes.append(f"{limit.where}: has no bounds, and limits no position")
+        elif bounded and missing:
+            notes.append(f"{limit.where}: has no {missing[0]} bound, which is 0 then")
+        elif bounded and bounds == (0.0, 0.0):
+            notes.append(f"{limit.where}: both bounds are 0, which hold the joint there")
+    return bounds is not None
 
 
 def _mimic(joint: Tag) -> Mimic | None:

@@ -16,18 +16,24 @@ from quasistatic_ref.model.readers.mesh_files import (
     loaded_mesh,
     mesh_path,
 )
-from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
-from quasistatic_ref.model.urdf.urdf_xml import xml_root
+from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile, written_shape
+from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Sphere
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
+READ = {
+    "robot": ("link", "joint"),
+    "link": ("inertial", "collision"),
+    "joint": ("origin", "parent", "child", "axis", "mimic", "dynamics", "limit"),
+}
+"""Element -> those in it that are read."""
 IN_PLACE = Sphere(1.0)
 """What pinocchio is given in place of a mesh: where it puts that is compared, the mesh is ours."""
 
 
 def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
-    """The file's text without what the model ignores in its links, such as visuals.
+    """The file's text without what the model ignores, such as visuals, and in URDF 1.1.
 
     <collision_checking> goes too, by which pinocchio takes a shape for another than the one
     written. The URI of a collision mesh is replaced by the file that it means.
@@ -38,9 +44,29 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
         If a mesh is not to be found where it may be, or is too large.
     """
     robot = xml_root(file.text)
+    for tag, read in READ.items():
+        for element in [robot] if tag == "robot" else robot.findall(tag):
+            for ignored in [child for child in element if child.tag not in read]:
+                element.remove(ignored)
+    for element in robot.iter():
+        for name in [name for name in element.attrib if ":" in name or name == "xmlns"]:
+            del element.attrib[name]
+        if "quat_xyzw" in element.attrib:
+            element.set("rpy", " ".join(map(repr, Tag(element, "origin").rpy().tolist())))
+            del element.attrib["quat_xyzw"]
+    kinds = {joint.name: joint.kind for joint in file.joints}
+    for joint in robot.findall("joint"):
+        joint.set("type", kinds[joint.get("name", "")])
+        limit = joint.find("limit")
+        if limit is None and kinds[joint.get("name", "")] in ("revolute", "prismatic"):
+            limit = SubElement(joint, "limit")
+        if limit is not None:
+            limit.set("effort", limit.get("effort", "0"))
+            limit.set("velocity", limit.get("velocity", "0"))
     for link in robot.findall("link"):
-        for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
-            link.remove(ignored)
+        for collision in link.findall("collision"):
+            if written_shape(Tag(collision, "collision")) is None:
+                link.remove(collision)
         for count, collision in enumerate(link.findall("collision")):
             for mesh in collision.findall("geometry/mesh"):
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):

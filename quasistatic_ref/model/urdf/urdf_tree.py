@@ -39,6 +39,8 @@ class FileJoint:
     axis : ndarray, shape (3,)
         Unit vector in the child's frame.
     mimic : Mimic or None
+    bounded : bool
+        Whether its limit has a lower or an upper bound.
     """
 
     name: str
@@ -49,6 +51,7 @@ class FileJoint:
     t: Array
     axis: Array
     mimic: Mimic | None
+    bounded: bool = False
 
 
 def checked_tree(

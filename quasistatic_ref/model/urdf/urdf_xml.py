@@ -5,20 +5,23 @@ attribute, a number with a tail.
 """
 
 import difflib
+import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 import numpy as np
+import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
 
+ALIKE = 0.6
+"""Similarity by which a short name is taken for a misprint of another [-], as difflib counts it."""
 DEEPEST = 100
 """Most elements in one another; other readers of XML recurse, and end the process."""
 
@@ -32,6 +35,8 @@ def xml_root(text: str) -> Element:
         If the text is not well-formed, is nested without end, or declares a document type:
         entities of its own are never needed in a model, and can expand without bound.
     """
+    # It says nothing more of a text; where it is not at the start, other readers pass it over.
+    text = re.sub(r"<\?xml\s[^>]*\?>", "", text, count=1)
     builder = TreeBuilder()
     parser = expat.ParserCreate()
     parser.buffer_text = True
@@ -76,10 +81,13 @@ class Tag:
     element : Element
     where : str
         E.g. ``link[base].inertial``.
+    unread : list of str
+        Attributes below it that nothing reads, shared by the elements that are read of it.
     """
 
     element: Element
     where: str
+    unread: list[str] = field(default_factory=list)
 
     def text(self, name: str) -> str:
         """Text of an attribute; ModelError unless it is there and not blank."""
@@ -136,11 +144,12 @@ class Tag:
         return float(self.numbers(name, 1, default, most)[0])
 
     def only(self, *known: str) -> None:
-        """Refuse an attribute that nothing would read, with a ModelError."""
-        for name in self.element.attrib:
-            if name not in known:
-                field = f"{self.where}.{name}"
-                raise ModelError(f"is unknown{suggestion(name, known)}", field=field)
+        """Note attributes that nothing reads; ModelError for one that looks like a misprint."""
+        for name in self._unknown(list(self.element.attrib), known, ALIKE):
+            longer = [one for one in known if name.rpartition(".")[2].startswith(one)]
+            if longer:  # such as rpy_deg
+                raise ModelError(f"is unknown; did you mean {longer[0]!r}?", field=name)
+            self.unread.append(name)
 
     def perhaps(self, tag: str, *attributes: str) -> "Tag | None":
         """The child of that name, with no other `attributes` where some are given; or None.
@@ -151,7 +160,7 @@ class Tag:
         where = f"{self.where}.{tag}"
         if len(children) > 1:
             raise ModelError("must occur only once", field=where, value=len(children))
-        child = Tag(children[0], where) if children else None
+        child = Tag(children[0], where, self.unread) if children else None
         if child is not None and attributes:
             child.only(*attributes)
         return child
@@ -180,25 +189,50 @@ class Tag:
         """
         tags = [child.tag for child in self.element]
         given = [name for name in self.element.attrib if not name.startswith("xmlns")]
-        ignored = []
-        for names, known in ((given, attributes), (tags, read)):
-            for tag in [name for name in names if name not in known]:
-                name = f"{self.where}.{tag}"
-                if tag.startswith("xacro:"):
-                    raise ModelError("is a macro: expand the file with xacro first", field=name)
-                near = difflib.get_close_matches(tag, known, n=1, cutoff=0.8)
-                if near:
-                    raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
-                ignored.append(name)
+        ignored = self._unknown(given, attributes, 0.8) + self._unknown(tags, read, 0.8)
         return list(dict.fromkeys(ignored))
+
+    def _unknown(self, names: Sequence[str], known: Sequence[str], alike: float) -> list[str]:
+        ignored = []
+        for tag in [name for name in names if name not in known]:
+            name = f"{self.where}.{tag}"
+            if tag.startswith("xacro:"):
+                raise ModelError("is a macro: expand the file with xacro first", field=name)
+            near = difflib.get_close_matches(tag.lower(), known, n=1, cutoff=alike)
+            if near:
+                raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
+            ignored.append(name)
+        return ignored
 
     def frame(self) -> tuple[Array, Array]:
         """Rotation (3, 3) and origin (3,) [m] of the child ``origin``; the identity without one.
 
-        R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent.
+        R = Rz(yaw) Ry(pitch) Rx(roll), from the element's frame to that of its parent; or that of
+        the quaternion ``quat_xyzw`` (URDF 1.2).
         """
-        origin = self.perhaps("origin", "xyz", "rpy")
+        origin = self.perhaps("origin", "xyz", "rpy", "quat_xyzw")
         if origin is None:
             return np.eye(3), np.zeros(3)
-        rpy = origin.numbers("rpy", 3, default=0.0)
-        return rotation(rpy), origin.numbers("xyz", 3, default=0.0)
+        return rotation(origin.rpy()), origin.numbers("xyz", 3, default=0.0)
+
+    def rpy(self) -> Array:
+        """Roll, pitch and yaw of an origin, shape (3,) [rad]."""
+        if "quat_xyzw" not in self.element.attrib:
+            return self.numbers("rpy", 3, default=0.0)
+        where = f"{self.where}.quat_xyzw"
+        if "rpy" in self.element.attrib:
+            raise ModelError("cannot stand next to rpy; leave one out", field=where)
+        quaternion = self.numbers("quat_xyzw", 4)
+        if not np.hypot.reduce(quaternion) > 0:
+            raise ModelError("must not be zero", field=where, value=quaternion.tolist())
+        R = pin.Quaternion(quaternion).normalized().matrix()
+        return np.asarray(pin.rpy.matrixToRpy(R))
+
+    def position_limits(self) -> tuple[float, float] | None:
+        """Lower and upper bound of a joint's ``limit`` [m, rad].
+
+        None where both are missing; one that is missing is 0.
+        """
+        if not {"lower", "upper"} & self.element.attrib.keys():
+            return None
+        return self.number("lower", 0.0, np.inf), self.number("upper", 0.0, np.inf)

@@ -73,13 +73,14 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
     """What ``<limit>`` says of the joints of some bodies.
 
     A joint that mimics another limits that one: multiplier * q + offset stays within its limits.
-    Limits that are absent, or both 0, are none.
+    Where both bounds are missing there is none, where one is missing it is 0; bounds that are both
+    0 hold the joint.
 
     Raises
     ------
     InputError
         If a lower limit is above the upper one, or a joint has no position within its limits and
-        those of the joints that mimic it.
+        those of the joints that mimic it; or one that stands still is beyond its limits.
     """
     joints = {joint.name: joint for joint in system.joints}
     moves = {name: (name, 1.0, 0.0) for name in joints}
@@ -93,12 +94,17 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
             if limit is None or kind is None or kind.unit or name not in moves:
                 continue
             says = Tag(limit, f"{body.name}: joint[{joint.get('name')}].limit")
-            own = [says.number("lower", default=0.0), says.number("upper", default=0.0)]
+            own = says.position_limits()
+            if own is None:
+                continue
             if own[0] > own[1]:
                 problem = f"its lower limit is above its upper one, {own[1]:.6g}"
                 raise InputError(problem, field=name, value=own[0])
             of, multiplier, offset = moves[name]
-            if own == [0.0, 0.0] or multiplier == 0:
+            if multiplier == 0:
+                if not own[0] <= offset <= own[1]:
+                    problem = f"stands still beyond its limits, {own[0]:.6g} to {own[1]:.6g}"
+                    raise InputError(problem, field=name, value=offset)
                 continue
             low, high = sorted((end - offset) / multiplier for end in own)
             before = found.get(of, (-np.inf, np.inf))

@@ -57,7 +57,7 @@ CHANGES = {
     "link.name": ('link name="e"/>', 'link name="f"/>', REFUSED),
     "inertial.origin.xyz": ('xyz="0.1 0 0"', 'xyz="0.2 0 0"', USED),
     "inertial.origin.rpy": ('rpy="0.1 0 0"', 'rpy="0.2 0 0"', USED),
-    "origin.quat_xyzw": ('rpy="0.1 0 0"', 'quat_xyzw="0 0 0 1"', REFUSED),
+    "origin.quat_xyzw": ('rpy="0.1 0 0"', 'quat_xyzw="0 0 0 1"', USED),
     "inertial.mass.value": ('value="2"', 'value="3"', USED),
     **{
         f"inertial.inertia.{name}": (f'{name}="{value}"', f'{name}="{value}1"', USED)
@@ -122,10 +122,12 @@ CHANGES = {
             ("link.collision", "collision", 'collision name="box"', LISTED),
             ("link.collision.geometry", "geometry", "geometry>", LISTED),
             ("link.inertial", "inertial", "inertial", LISTED),
-            ("box", "box", "box", REFUSED), ("origin", "origin", 'origin xyz="0.1 0 0"', REFUSED),
-            ("mass", "mass", "mass", REFUSED), ("inertia", "inertia", "inertia ", REFUSED),
-            ("parent", "parent", 'parent link="b"', REFUSED),
-            ("mimic", "mimic", 'mimic joint="j" ', REFUSED),
+            ("link.collision.box", "box", "box", LISTED),
+            ("link.inertial.origin", "origin", 'origin xyz="0.1 0 0"', LISTED),
+            ("link.inertial.mass", "mass", "mass", LISTED),
+            ("link.inertial.inertia", "inertia", "inertia ", LISTED),
+            ("joint.parent", "parent", 'parent link="b"', LISTED),
+            ("joint.mimic", "mimic", 'mimic joint="j" ', LISTED),
         )
     },
 }  # fmt: skip

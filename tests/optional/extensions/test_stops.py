@@ -154,10 +154,40 @@ def test_a_start_beyond_a_limit_is_refused_by_joint():
     qr.load_scenario(scene(drawer(), positions={"slide": 0.002}))  # at the limit
 
 
-def test_limits_that_say_nothing_limit_nothing():
-    """Absent, or both 0, which is what URDF takes where they are absent."""
-    for text in (drawer(0, 0), drawer().replace('lower="-0.001" upper="0.002" ', "")):
-        assert not len(urdf_limits(qr.load_scenario(scene(text)).system, ["c"]))
+BOUNDS = {
+    "both": ('lower="-0.001" upper="0.002" ', (-0.001, 0.002), ""),
+    "zeros": ('lower="0" upper="0" ', (0.0, 0.0), "both bounds are 0, which hold the joint there"),
+    "none": ("", None, "has no bounds, and limits no position"),
+    "upper": ('upper="0.002" ', (0.0, 0.002), "has no lower bound, which is 0 then"),
+    "lower": ('lower="-0.001" ', (-0.001, 0.0), "has no upper bound, which is 0 then"),
+    "wide": ('lower="-1e16" upper="1e16" ', (-1e16, 1e16), ""),
+}
+
+
+@pytest.mark.parametrize(("written", "expected", "note"), BOUNDS.values(), ids=BOUNDS)
+def test_bounds_that_are_missing_and_bounds_of_zero(written, expected, note):
+    text = drawer().replace('lower="-0.001" upper="0.002" ', written)
+    system = qr.load_scenario(scene(text)).system
+    limits = urdf_limits(system, ["c"])
+    assert [*zip(limits.lower, limits.upper, strict=True)] == ([expected] if expected else [])
+    notes = [f"c: joint[slide].limit: {note}"] if note else []
+    assert [each for each in system.notes if "limit" in each] == notes
+    assert system.joints[0].limits == expected
+
+
+def test_a_joint_that_is_held_by_zeros_bears_its_force():
+    run = pushed_drawer(qr.load_scenario(scene(drawer(0, 0))), 4.0, 3)
+    assert abs(run["q"]).max() == 0.0
+
+
+def test_a_follower_that_stands_still_beyond_its_limits_is_refused():
+    text = drawer().replace("</robot>", "") + (
+        link("e") + joint("f", "cabinet", "e", "prismatic", more=mimic("slide", 0, 5))
+    )
+    with pytest.raises(InputError, match=r"c/f: stands still beyond its limits, -1 to 1"):
+        qr.load_scenario(scene(text + "</robot>"))
+    inside = text.replace('offset="5"', 'offset="0.5"') + "</robot>"
+    assert urdf_limits(qr.load_scenario(scene(inside)).system, ["c"]).names == ("c/slide",)
 
 
 def test_without_the_option_a_joint_beyond_its_limit_is_a_finding():

@@ -64,6 +64,8 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
             visual = Tag(element, f"link[{link.get('name')}].visual")
             try:
                 shape = written_shape(visual)
+                if shape is None:
+                    continue
                 R, t = visual.frame()
                 corners = _corners(shape, file.path.parent, body.package_dirs)
             except ModelError:

@@ -1,0 +1,106 @@
+"""What pinocchio or other readers read of a URDF is read, and what was ignored is noted."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import ModelError
+from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from tests.closeness import assert_within
+from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+
+LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+J = f'<joint name="j" type="revolute"><parent link="a"/><child link="b"/>{LIMIT}</joint>'
+K = J.replace('"b"', '"c"').replace('"a"', '"b"').replace('"j"', '"k"')
+MIMIC = K.replace("</joint>", '<mimic joint="j" multiplier="-1"/></joint>')
+LINKS = '<link name="a"/><link name="b"/><link name="c"/>'
+CAMERA = '<gazebo><sensor:camera name="c"/></gazebo>'
+
+
+def loaded(folder, text, **more):
+    return loaded_urdf(urdf_of_text(folder, text), actuated="all", **more)
+
+
+@pytest.mark.parametrize("last", [K, MIMIC], ids=["alone", "mimic"])
+@pytest.mark.parametrize(
+    ("attributes", "more"),
+    [
+        ("", CAMERA),
+        ("", '<link name="d"><g:x/></link>' + J.replace('"b"', '"d"').replace('"j"', '"l"')),
+        ('xmlns="urn:mine" ', ""),
+        ('xmlns:g="urn:g" g:hint="1" ', ""),
+    ],
+    ids=["prefix", "prefix in a link", "namespace", "declared prefix"],
+)  # fmt: skip
+def test_prefixes_and_namespaces_are_passed_over(tmp_path, attributes, more, last):
+    urdf = loaded(tmp_path, f'<robot {attributes}name="r">{LINKS}{J}{last}{more}</robot>')
+    assert set(urdf.links) >= {"a", "b", "c"}
+    notes = ["its elements are read without their namespace, urn:mine"]
+    assert list(urdf.notes) == (notes if "xmlns=" in attributes else [])
+    assert ("robot.gazebo" in urdf.file.ignored) == (more == CAMERA)
+
+
+@pytest.mark.parametrize("before", ["\n", "  \n\n", "<!-- licence -->\n"])
+def test_a_declaration_may_stand_after_a_blank_line_or_a_comment(tmp_path, before):
+    text = (
+        before + '<?xml version="1.0" encoding="utf-8"?>\n<robot name="r"><link name="a"/></robot>'
+    )
+    assert loaded(tmp_path, text).links == ("a",)
+
+
+EMPTY = {
+    "sphere": '<sphere radius="0"/>',
+    "box": '<box size="1 0 1"/>',
+    "cylinder": '<cylinder radius="0.1" length="0"/>',
+    "mesh": '<mesh filename="none.obj" scale="0 1 1"/>',
+}
+
+
+@pytest.mark.parametrize("shape", EMPTY.values(), ids=EMPTY)
+def test_a_shape_without_size_is_left_out_and_noted(tmp_path, shape):
+    urdf = loaded(
+        tmp_path, robot(link("a", collision(shape) + collision('<sphere radius="0.5"/>')))
+    )
+    assert [each.shape.radius for each in urdf.shapes] == [0.5]
+    assert urdf.notes == ("link[a].collision[0]: left out, since its shape has no size",)
+    with pytest.raises(ModelError, match="must be a positive"):
+        loaded(tmp_path, robot(link("a", collision('<sphere radius="-1"/>'))))
+
+
+def test_a_continuous_joint_may_mimic_one_with_bounds(tmp_path):
+    text = f'<robot name="r">{LINKS}{J}{MIMIC}</robot>'.replace(
+        'name="k" type="revolute"', 'name="k" type="continuous"'
+    )
+    urdf = loaded(tmp_path, text)
+    assert urdf.notes == ("joint[k]: revolute, as it mimics a joint with bounds",)
+    assert urdf.model.nv == 1
+
+
+def test_an_unknown_attribute_is_listed_and_a_misprint_refused(tmp_path):
+    text = f'<robot name="r">{LINKS}{J}{K}</robot>'
+    odd = text.replace("<limit", '<axis xyz="0 0 1" rpy="0 0 0"/><limit')
+    assert "joint[j].axis.rpy" in loaded(tmp_path, odd).file.ignored
+    with pytest.raises(ModelError, match=r"axis.xzy: is unknown; did you mean 'xyz'"):
+        loaded(tmp_path, odd.replace('xyz="0 0 1"', 'xzy="0 0 1"'))
+
+
+def test_urdf_1_2_has_optional_limits_and_quaternions(tmp_path):
+    text = f'<robot name="r" version="1.2">{LINKS}{J}{K}</robot>'
+    bare = text.replace('effort="1" velocity="1"', "").replace(LIMIT, "", 1)
+    assert loaded(tmp_path, bare).model.nv == 2
+    with pytest.raises(ModelError, match="is missing"):
+        loaded(tmp_path, bare.replace("1.2", "1.1"))
+    half = np.sqrt(0.5)
+    turned = text.replace("<parent", f'<origin xyz="0 0 1" quat_xyzw="0 0 {half} {half}"/><parent')
+    urdf = loaded(tmp_path, turned)
+    R = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    assert_within(urdf.file.joints[0].R, R, 1e-15)
+    assert_within(urdf.model.jointPlacements[1].rotation, R, 1e-15)
+    with pytest.raises(ModelError, match="quat_xyzw: cannot stand next to rpy"):
+        loaded(tmp_path, turned.replace("quat_xyzw", 'rpy="0 0 0" quat_xyzw'))
+
+
+def test_what_is_missing_is_named(tmp_path):
+    with pytest.raises(ModelError, match="robot: has no <link>"):
+        loaded(tmp_path, '<robot name="a"/>')
+    with pytest.raises(ModelError, match=r"robot\.name: is missing"):
+        loaded(tmp_path, '<robot><link name="a"/></robot>')
