@@ -206,9 +206,7 @@ def _asked(
         if verdict.verdict != FAILED:
             return None
         expected = record["output"]
-        finding = Finding(
-            id, layer, "wrong", verdict.field, verdict.reason, case, expected, output
-        )
+        finding = Finding(id, layer, "wrong", verdict.field, verdict.reason, case, expected, output)
     else:
         outcome.verdicts[layer, reply.kind] += 1
         if reply.kind == "unsupported":

@@ -10,22 +10,6 @@ from quasistatic_ref.lab.vectors.trees import nodes
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 
 
-def replaced(value, path, part):
-    """A value with another part at a place; the rest is shared."""
-    if not path:
-        return part
-    key, *rest = path
-    inner = replaced(value[key], rest, part)
-    if isinstance(value, dict):
-        return {**value, key: inner}
-    return [*value[:key], inner, *value[key + 1 :]]
-
-
-def numbers_in(value):
-    """Every number of an output, with the keys and indices that lead to it."""
-    return [(path, leaf) for path, leaf in nodes(value) if isinstance(leaf, int | float)]
-
-
 def numbers_in(value):
     """Every number of an output, with the keys and indices that lead to it."""
     return [(path, leaf) for path, leaf in nodes(value) if isinstance(leaf, int | float)]
