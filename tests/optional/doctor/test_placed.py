@@ -13,9 +13,11 @@ mujoco = pytest.importorskip("mujoco")
 
 LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <site name="hook" pos="0 0 {hook}"/>
-<body name="lamp" pos="0 0 0.3"><freejoint/><geom name="lamp" type="sphere" size="0.05" mass="0.2"/>
+<body name="lamp" pos="0 0 0.3"><freejoint/>
+<geom name="lamp" type="sphere" size="0.05" mass="0.2"/>
 <site name="eye" pos="0 0 0.05"/></body>
-<body name="bulb" pos="0.5 0 0.2"><freejoint/><geom name="bulb" type="sphere" size="0.02" mass="0.1"/>
+<body name="bulb" pos="0.5 0 0.2"><freejoint/>
+<geom name="bulb" type="sphere" size="0.02" mass="0.1"/>
 </body></worldbody>{ties}</mujoco>"""
 WELD = '<weld body1="lamp"/>'
 CONNECT = '<connect body1="lamp" anchor="0 0 0.1"/>'
