@@ -1,0 +1,56 @@
+"""The scripts of docs/gallery: their assertions hold, and their figures look as committed.
+
+``python -m tests.test_gallery`` draws the committed images again. Whoever does so looks at them.
+"""
+
+import ast
+import runpy
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+from matplotlib.testing.compare import compare_images
+
+GALLERY = Path(__file__).parents[1] / "docs" / "gallery"
+SCRIPTS = sorted(GALLERY.glob("*.py"))
+IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref"}
+DPI = 60
+TOLERANCE = 6
+"""Root mean square over all pixels, of 255; an empty figure is off by some 30."""
+
+
+def drawn(script, path):
+    """Run a script without a window, and write its figure."""
+    with pytest.MonkeyPatch.context() as patch, plt.style.context("default"):
+        patch.setattr(plt, "show", lambda: None)
+        runpy.run_path(str(script), run_name="__main__")
+        figure = plt.gcf()
+        figure.savefig(path, dpi=DPI, metadata={"Software": None})
+        plt.close(figure)
+    return path
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_script_runs_and_draws_what_is_committed(script, tmp_path):
+    image = drawn(script, tmp_path / f"{script.stem}.png")
+    assert compare_images(str(GALLERY / image.name), str(image), TOLERANCE) is None
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_script_imports_public_names_alone_and_asserts_its_number(script):
+    nodes = list(ast.walk(ast.parse(script.read_text("utf-8"))))
+    imported = {name.name for node in nodes if isinstance(node, ast.Import) for name in node.names}
+    assert imported <= IMPORTED
+    assert not any(isinstance(node, ast.ImportFrom) for node in nodes)
+    assert any(isinstance(node, ast.Assert) for node in nodes)
+
+
+def test_the_page_shows_every_script():
+    page = (GALLERY / "README.md").read_text("utf-8")
+    assert all(f"]({script.name})" in page for script in SCRIPTS)
+    assert all(f"]({script.stem}.png)" in page for script in SCRIPTS)
+
+
+if __name__ == "__main__":
+    for each in SCRIPTS:
+        drawn(each, GALLERY / f"{each.stem}.png")
