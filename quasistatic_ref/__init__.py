@@ -48,7 +48,6 @@ _HOMES = {
     "optional.guests.mujoco_opinion": "second_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step",
-    "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",
     "optional.forces.forces": "contact_forces",
     # A run in pictures and numbers.
@@ -61,7 +60,7 @@ _HOMES = {
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
-    "NoCoulombSolution NotDifferentiable RunFailed",
+    "NotDifferentiable RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

@@ -345,29 +345,6 @@ class NoFixedPoint(StepNotSolved):
         )
 
 
-class NoCoulombSolution(StepNotSolved):
-    """A step has no solution under Coulomb's law: it is proved that none of its modes has one.
-
-    Parameters
-    ----------
-    step : StepData
-        The step in SI units, as given.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.NoCoulombSolution(step).status
-    'no solution'
-    """
-
-    def __init__(self, step: StepData) -> None:
-        super().__init__("coulomb", "no solution", step, 0.0)
-        self.args = (
-            "the step has no solution under Coulomb's law, and none in the convex model: its "
-            "contacts contradict each other, so check penetrations and targets at the start",
-        )
-
-
 class NotDifferentiable(QuasistaticError):
     """A derivative is needed where a step has none.
 

@@ -28,8 +28,6 @@ POSED: Slot[Callable[[StepData, Extension], tuple[StepData, bool]]] = Slot("exte
 WITH_RISES: Slot[Callable[[StepData, Rises], StepData]] = Slot("extensions.rises")
 STRAY: Slot[Callable[[Array], Mask]] = Slot("scans.cloud")
 """Which points (N, 3) [m] no gap of a few spacings joins to the others."""
-COULOMB_COUNT: Slot[Callable[[StepData, int], str]] = Slot("coulomb.modes")
-"""How many solutions a step has under Coulomb's law, after at most so many systems."""
 OTHER_WAYS_OUT: Slot[Callable[[ShapeInWorld, ShapeInWorld, float], list[Array]]] = Slot(
     "curved.by_coal"
 )

@@ -5,7 +5,6 @@ import numpy as np
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 
-KINDS = ("floor", "anywhere", "wedge", "deep")
 H = 0.01
 
 
@@ -17,8 +16,7 @@ def planar_step(rng, kind):
     rng : Generator
     kind : str
         ``"floor"``: corners of a box on level ground, with exact ties; ``"anywhere"``: points and
-        normals of any direction; ``"wedge"``: two normals that nearly or exactly face each other;
-        ``"deep"``: like the second, and mostly in penetration, so that there may be no solution.
+        normals of any direction; ``"wedge"``: two normals that nearly or exactly face each other.
     """
     m = rng.uniform(0.2, 2.0)
     inertia = m * rng.uniform(0.001, 0.02)
@@ -40,8 +38,6 @@ def planar_step(rng, kind):
         angles[1] += rng.choice([0.0, 0.5]) * rng.normal()
         points = np.resize(points, (count, 2))
         phi = np.zeros(count)
-    if kind == "deep":
-        phi = np.where(rng.random(count) < 0.8, -rng.uniform(0.0, 1e-3, count), phi)
     return free_step(np.diag([m, m, inertia]), force, planar_contacts(phi, angles, points, mu), H)
 
 

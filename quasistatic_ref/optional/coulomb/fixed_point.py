@@ -7,16 +7,15 @@ correction; Acary, Cadoux, Lemarechal and Malick (2011) find s by iteration.
 
 Here the iterates are extrapolated (Anderson 1965). The map from s to the slip's norm is piecewise
 linear in a polyhedral cone, so that extrapolation ends at the fixed point once its iterates are on
-the same piece; the iteration alone converges at the rate mu^2 / (1 + mu^2) for a block. Where no
-fixed point is found, the modes of the contacts are searched (:mod:`.modes`). However s was found,
-the proof is the same: the exact optimum with phi + s, whose own s that is.
+the same piece; the iteration alone converges at the rate mu^2 / (1 + mu^2) for a block. The proof
+is the exact optimum with phi + s, whose own s that is. Coulomb's law may have no solution, or
+several: a fixed point is one of them, and where the iteration reaches none, nothing is claimed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -24,9 +23,8 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import InputError, NoCoulombSolution, NoFixedPoint, StepInfeasible
+from quasistatic_ref.errors import InputError, NoFixedPoint
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.optional.coulomb.modes import NONE, CoulombSolutions, coulomb_solutions
 from quasistatic_ref.simulate.law import COULOMB_STEP
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -72,14 +70,6 @@ class CoulombSolution(StepSolution):
     s_iterations: int
     posed: StepData
 
-    @cached_property
-    def solutions(self) -> CoulombSolutions:
-        """All solutions under Coulomb's law, of which this may be one of several.
-
-        They are searched when they are first read, which takes up to a minute.
-        """
-        return coulomb_solutions(self.posed)
-
 
 def coulomb_step(
     step: StepData,
@@ -102,7 +92,7 @@ def coulomb_step(
         The first s [m], >= 0; by default 0, with which the first iterate is the convex step. There
         may be several solutions, and which of them is found depends on it.
     most : int
-        Iterates after which the modes are searched instead.
+        Iterates after which no fixed point is expected.
 
     Returns
     -------
@@ -112,11 +102,10 @@ def coulomb_step(
     ------
     InputError
         If `start` or `most` is not as above.
-    NoCoulombSolution
-        If it is proved that there is none.
     QuasistaticError
-        Those of ``solve_step``, of any iterate. StepInfeasible only where modes are too many: the
-        convex step may be infeasible where the step under Coulomb's law is not.
+        Those of ``solve_step``, of any iterate. StepInfeasible is said of the convex step: in
+        penetration it may have no solution where the step under Coulomb's law has one, which a
+        larger `start` may reach.
 
     Examples
     --------
@@ -133,19 +122,7 @@ def coulomb_step(
     if not isinstance(solver, Solver):
         solver = solver_for(step, solver, fast)
     iteration = Iteration(step, solver, accuracy)
-    infeasible: StepInfeasible | None = None
-    try:
-        end = iteration.end(s, most)
-    except StepInfeasible as error:
-        infeasible = error
-    if infeasible is not None or not end.found:
-        solutions = coulomb_solutions(step)
-        if solutions.count == NONE:
-            raise NoCoulombSolution(step)
-        if solutions.modes:
-            end = iteration.at(slip_norms(step, a_solution(step, solutions)))
-        elif infeasible is not None:
-            raise infeasible
+    end = iteration.end(s, most)
     return CoulombSolution(
         **field_values(end.solution),
         found=end.found,
@@ -154,14 +131,6 @@ def coulomb_step(
         s_iterations=iteration.count,
         posed=step,
     )
-
-
-def a_solution(step: StepData, solutions: CoulombSolutions) -> Array:
-    """The first of the solutions of a step, shape (n_v,) [m, rad]."""
-    delta_q = np.zeros(step.n_v)
-    for mode, *_ in solutions.modes:
-        delta_q[mode.coordinates] = mode.delta_q
-    return delta_q
 
 
 class Iterate(NamedTuple):

@@ -221,11 +221,6 @@ found = findings(
     target=[0.05],
 )
 
-# %% several solutions: a drawer in its rail, whose pressure Coulomb's law does not determine
-found = findings(
-    [DRAWER], [("rail", "drawer", 0.2, 2)], [RAIL], gravity=(43.5, 0, -9.81), law="coulomb"
-)
-
 # %% too few points: one contact under a box
 found = findings([box()], [("floor", "box", 0.5, 1)])
 
