@@ -95,13 +95,12 @@ def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path
     cli("run", "sphere_spin", "--out", tmp_path, "--resume", status=2)
 
 
-def test_without_pages_data_show_their_fields_and_objects_their_class(without):
+def test_without_pages_data_show_their_fields(without):
     without("show")
     scenario = load_scenario("block_push", steps=1)
     step = random_step(np.random.default_rng(0))
-    assert repr(step).startswith("StepData(h=0.01, K_q=array([[")
-    assert "phi=array([" in repr(step.contacts)
-    assert "System object at" in repr(scenario.system)
+    assert repr(step).startswith("StepData(h=0.01, K_q=array(")
+    assert "phi=array(" in repr(step.contacts)
     assert repr(scenario.simulator()).startswith("Simulator(system=<")
     run = scenario.run(progress=False)
     assert repr(run).startswith("Trajectory(header={'format': 'quasistatic-ref/trajectory'")

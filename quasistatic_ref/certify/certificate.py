@@ -26,7 +26,7 @@ from quasistatic_ref.certify.minimiser import Solution, fraction_solution, round
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -35,7 +35,7 @@ from quasistatic_ref.step.groups import Group, groups
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Certificate(Plain, Shown):
+class Certificate(Plain, HasPage):
     """What is known about an answer, and how.
 
     Parameters

@@ -1,8 +1,12 @@
 """Objects that show themselves: in words where they are printed, as HTML in a notebook."""
 
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
+from typing import Any
 
+import numpy as np
+
+from quasistatic_ref.formats.quoting import shown_value
 from quasistatic_ref.parts import Slot
 
 TEXT: Slot[Callable[[object], str]] = Slot("show.pages")
@@ -10,31 +14,27 @@ HTML: Slot[Callable[[object], str]] = Slot("show.pages")
 
 
 class Shown:
-    """What ``optional/show`` has a page for.
-
-    Where that part is missing, a dataclass shows its fields and any other object its class. A
-    dataclass that inherits this has to be one of ``repr=False``.
-    """
+    """A dataclass of ``repr=False`` that shows its fields on one line, arrays by their shapes."""
 
     def __repr__(self) -> str:
-        return text_of(self)
+        data: Any = self
+        values = [
+            f"{one.name}={_short(getattr(self, one.name))}" for one in fields(data) if one.repr
+        ]
+        return f"{type(self).__name__}({', '.join(values)})"
+
+
+class HasPage(Shown):
+    """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
+
+    def __repr__(self) -> str:
+        text = TEXT.found()
+        return super().__repr__() if text is None else text(self)
 
     def _repr_html_(self) -> str | None:
-        return html_of(self)
+        html = HTML.found()
+        return None if html is None else html(self)
 
 
-def text_of(shown: object) -> str:
-    """An object in words."""
-    text = TEXT.found()
-    if text is not None:
-        return text(shown)
-    if not is_dataclass(shown):
-        return object.__repr__(shown)
-    values = ", ".join(f"{field.name}={getattr(shown, field.name)!r}" for field in fields(shown))
-    return f"{type(shown).__name__}({values})"
-
-
-def html_of(shown: object) -> str | None:
-    """An object as HTML; None where the part that writes it is missing."""
-    html = HTML.found()
-    return None if html is None else html(shown)
+def _short(value: object) -> str:
+    return f"array{value.shape}" if isinstance(value, np.ndarray) else shown_value(value)

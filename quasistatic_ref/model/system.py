@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import (
@@ -53,7 +52,7 @@ from quasistatic_ref.step.pivots import positive_pivots
 __all__ = ["Body", "Kinematics", "System"]
 
 
-class System(Shown):
+class System:
     """Bodies in one world.
 
     Methods that take q refuse quaternions, and pairs (cos, sin), that are not of length one;

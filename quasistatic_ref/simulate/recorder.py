@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from quasistatic_ref.certify.contact_forces import CONTACT_FORCES
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
@@ -39,7 +38,7 @@ SECONDS = "seconds."
 """What the names of wall times begin with."""
 
 
-class Recorder(Shown):
+class Recorder:
     """Collects the results of steps into a trajectory.
 
     Parameters

@@ -18,7 +18,7 @@ from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate import wrenches
@@ -43,7 +43,7 @@ CONTACTS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trajectory(Plain, Shown):
+class Trajectory(Plain, HasPage):
     """A run, or the part of it that succeeded.
 
     Parameters

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain, field_values
-from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -105,7 +105,7 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
 
 @made_by_arguments
 @dataclass(frozen=True, eq=False, init=False, repr=False)
-class StepData(Plain, Shown):
+class StepData(Plain, HasPage):
     """Everything that Eq. :eq:`eq-13` needs.
 
     Parameters

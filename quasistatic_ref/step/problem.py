@@ -11,7 +11,6 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import KIND, Array, StepData, differences
@@ -23,7 +22,7 @@ SOLVED_PAGE: Slot[Callable[["StepProblem", StepData, str, float], Array]] = Slot
 )
 
 
-class StepProblem(Shown):
+class StepProblem:
     """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, row count and size.
 
     ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it. Filled with a step in

@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.formats.shown import html_of, text_of
 from quasistatic_ref.step.contacts import Frames
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_constants
@@ -34,12 +33,6 @@ class StandardForm(NamedTuple):
     g: Array
     A: Array
     b: Array
-
-    def __repr__(self) -> str:
-        return text_of(self)
-
-    def _repr_html_(self) -> str | None:
-        return html_of(self)
 
 
 def standard_form(step: StepData) -> StandardForm:

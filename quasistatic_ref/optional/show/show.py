@@ -33,14 +33,9 @@ def number(x: object) -> str:
     return f"{float(x) + 0.0:.4g}" if isinstance(x, Real) else "-"
 
 
-def vector(values: Iterable[float], digits: str = ".3g") -> str:
-    """The `values` of a vector [any unit], each with some digits, e.g. ``(0, 0, -9.81)``."""
-    return f"({', '.join(f'{x + 0.0:{digits}}' for x in values)})"
-
-
 def direction(n: Iterable[float]) -> str:
     """A unit vector to three decimals, e.g. ``(0.000, 0.707, -0.707)``."""
-    return vector(n, ".3f")
+    return f"({', '.join(f'{x + 0.0:.3f}' for x in n)})"
 
 
 def counted(n: int, noun: str) -> str:
@@ -49,14 +44,13 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun if n == 1 else many}"
 
 
-def text_page(page: Page, *hidden: str) -> str:
+def text_page(page: Page) -> str:
     """Title, facts, and the first rows of the table, as at most LINES lines of WIDTH columns."""
     title, facts, header, rows = page
     lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST - 2]
     if rows:
-        kept = [i for i, name in enumerate(header) if name not in hidden]
         cells = [
-            [quoting.clipped(one_line(row[i]), NAME) for i in kept]
+            [quoting.clipped(one_line(cell), NAME) for cell in row]
             for row in [header, *rows[:MOST]]
         ]
         lines += [f"  {line}" for line in aligned(cells)]
