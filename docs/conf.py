@@ -113,7 +113,7 @@ PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
 CLOSED_FORMS = (
     "derivations", "certificates", "cones", "derivatives", "distances",
-    "extensions", "time_step", "proofs", "studies",
+    "extensions", "artifacts", "proofs", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")

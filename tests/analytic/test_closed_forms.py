@@ -317,7 +317,7 @@ def test_r45_inertia_and_time_step():
 
 def test_the_page_of_r45_has_the_g_of_the_step():
     """(13): g = h [K_q delta_q_bar_a + tau_a; tau_u]."""
-    page = (Path(__file__).parents[2] / "docs" / "time_step.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "artifacts.md").read_text("utf-8")
     (sign,) = re.findall(r"\$g = (-?)h\\,\[K_q\\,\\delta\\bar q_a \+ \\tau_a;\\ \\tau_u\]\$", page)
     step = mixed_step(3)
     g = step.h * np.append(step.K_q @ step.delta_q_bar_a + step.tau_a, step.tau_u)

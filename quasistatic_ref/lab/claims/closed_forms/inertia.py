@@ -41,7 +41,7 @@ CLAIM = Claim(
     sentence="A step with the inertia sigma M_u at h and one with M_u at h / sqrt(sigma) have the "
     "same displacement and forces where targets, loads and contacts are the same: smaller steps "
     "are heavier bodies, and no limit of h to 0 is approached.",
-    where="docs/time_step.md (R45)",
+    where="docs/artifacts.md (R45)",
     sweep=f"{STEPS} random steps with a solution, sigma from 1/64 to 64",
     reason="no tolerance: sqrt(sigma) is a power of two, so the bits are the same.",
     measure=evidence,
