@@ -17,7 +17,6 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
@@ -30,10 +29,9 @@ READ_AS = "a fixed base, all joints actuated"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    file = parser.add_argument(
+    parser.add_argument(
         "file", help="a URDF, a scenario (TOML), or the name of an installed scenario"
     )
-    shared.completed(file, scenario_names, ".toml", ".urdf")
     shared.add(parser, "--set", "--root", "--json")
 
 

@@ -38,7 +38,6 @@ COMMANDS = {
     "bench": "measure what a step costs, and what it is made of",
     "backends": "list the solvers that can be chosen here",
     "schema": "print the JSON Schema of scenario or study files, for editors, or of an opinion",
-    "completion": "print a script by which bash, zsh or fish complete these commands",
 }
 SWEEP = "sweep"
 """What does ``run`` with ``--sweep``."""
@@ -78,8 +77,6 @@ class Parser(argparse.ArgumentParser):
     def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # one method for all of typeshed's overloads
         """Nothing is left over: the command or action that was given it prints its own usage."""
         options, unknown = super().parse_known_args(*arguments)
-        if any(word.partition("=")[0] == "--engine" for word in unknown):
-            self.error("--engine is no option any more; --fast has the quick interface")
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return options, unknown

@@ -21,8 +21,7 @@ SETTLE = 2.0
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     parser.epilog = "exit status: 0 no finding, 1 a finding, 2 the scene is refused"
-    scene = parser.add_argument("scene", type=Path, help="an MJCF file (.xml)")
-    shared.completed(scene, lambda: (), ".xml")
+    parser.add_argument("scene", type=Path, help="an MJCF file (.xml)")
     parser.add_argument(
         "--settle", type=float, default=SETTLE, metavar="SECONDS",
         help=f"how long MuJoCo simulates the scene before it is asked (default: {SETTLE:g})",

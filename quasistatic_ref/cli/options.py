@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 import textwrap
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Final
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
@@ -55,44 +54,13 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
 
 
-COMPLETED = "completed"
-"""The attribute of an argument by which ``completion`` knows what it may be."""
-CERTIFY = ("full", "residual", "off")
-"""As in ``solve``, which takes a second to import; a test holds them equal."""
-
-
-def _backends() -> Sequence[str]:
-    from quasistatic_ref.solve.backends import backend_names
-
-    return backend_names()
-
-
-WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
-    "--backend": _backends,
-    "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
-    "--certify": lambda: CERTIFY,
-    "--law": lambda: LAWS,
-}
-"""What a shell completes an option by."""
-
-
 def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
     """Declare some of `OPTIONS`, perhaps with a default, which the help then names."""
     for name in names:
         settings = OPTIONS[name] | more
         if "default" in more:
             settings["help"] += f" (default: {more['default']})"
-        argument = parser.add_argument(name, **settings)
-        if name in WORDS:
-            completed(argument, WORDS[name])
-
-
-def completed(
-    argument: argparse.Action, words: Callable[[], Iterable[str]], *files: str
-) -> argparse.Action:
-    """An argument that a shell completes by words, and by files of these endings."""
-    setattr(argument, COMPLETED, (words, files))
-    return argument
+        parser.add_argument(name, **settings)
 
 
 def add_resume(parser: argparse.ArgumentParser) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.law import COULOMB
@@ -24,12 +23,11 @@ from quasistatic_ref.step.cones import cone
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    scenario = parser.add_argument(
+    parser.add_argument(
         "scenario",
         help="a TOML file, the name of an installed scenario (bunny_grasp, ...), or a MuJoCo scene "
         "(.xml)",
     )
-    shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
     shared.add_resume(parser)

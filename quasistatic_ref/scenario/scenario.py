@@ -228,9 +228,6 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     fast = value(top, TOP, "fast")
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
-    if "engine" in solver.names_left():
-        problem = "is no longer a field; write fast = true, next to h and steps"
-        raise solver.error_about("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
     law = value(top, TOP, "law")

@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
@@ -11,10 +10,9 @@ from quasistatic_ref.formats.quoting import suggestion
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    names = parser.add_argument(
+    parser.add_argument(
         "names", nargs="*", metavar="NAME", help="all by default, but those whose extra is missing"
     )
-    shared.completed(names, _examples)
     parser.add_argument(
         "--style",
         default="paper",
@@ -25,12 +23,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--numbers", action="store_true", help="print what each example comes to, too"
     )
     shared.add(parser, "--out", default="figures")
-
-
-def _examples() -> Sequence[str]:
-    from quasistatic_ref.lab.examples.gallery import EXAMPLES
-
-    return tuple(EXAMPLES)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -26,8 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--sets", metavar="A/B,...", help="some pairs only, by surface and shape: abs/rect1,..."
     )
-    named = group.add_argument("--cone", metavar="NAME", help=f"friction cone, {ELLIPSOID} if none")
-    shared.completed(named, shared.WORDS["--cone"])
+    group.add_argument("--cone", metavar="NAME", help=f"friction cone, {ELLIPSOID} if none")
     group.add_argument(
         "--fraction", type=float, metavar="X", help="0.1: every tenth push of each pair"
     )

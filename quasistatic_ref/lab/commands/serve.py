@@ -4,7 +4,6 @@ import argparse
 import sys
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import Scenes
 
@@ -12,8 +11,7 @@ from quasistatic_ref.lab.oracle.served import Scenes
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     words = "scenes that are known from the start: TOML files, or names of installed ones"
-    scenes = parser.add_argument("scenes", nargs="*", metavar="SCENE", help=words)
-    shared.completed(scenes, scenario_names, ".toml")
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=words)
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root")
 
 

@@ -24,8 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     study_problems.add_options(parsers["problems"])
     run_ = parsers["run"]
     words = "a TOML file, or a name such as 'default'"
-    study = run_.add_argument("study", metavar="STUDY", help=words)
-    shared.completed(study, _studies, ".toml")
+    run_.add_argument("study", metavar="STUDY", help=words)
     shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
     run_.add_argument(
@@ -38,12 +37,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     words = "of a study that was run; of several, their rows together"
     report.add_argument("studies", nargs="+", type=Path, metavar="FOLDER", help=words)
     shared.add(report, "--out", default=Path("report"))
-
-
-def _studies() -> list[str]:
-    from quasistatic_ref.lab.study.study_file import study_names
-
-    return sorted(study_names())
 
 
 def run(options: argparse.Namespace) -> int:

@@ -24,8 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         words = "contact-qp, which comes along, or the folder of a set"
         parsers[name].add_argument("set", nargs="?", metavar="SET", default=CONTACT_QP, help=words)
     export = parsers["export"]
-    to = export.add_argument("--to", required=True, choices=FORMATS, help="which format")
-    shared.completed(to, lambda: FORMATS)
+    export.add_argument("--to", required=True, choices=FORMATS, help="which format")
     export.add_argument("--units", default=RAW, choices=UNITS, help="raw (SI) or natural")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     for one, words in (("--families", "only these, commas between"), ("--tag", "only such ones"),

@@ -24,8 +24,7 @@ HELP = "all claims by default; 'reality' by itself: measured pushes, predicted"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    names = parser.add_argument("names", nargs="*", metavar="NAME", help=HELP)
-    shared.completed(names, lambda: [*BY_NAME, reality.NAME])
+    parser.add_argument("names", nargs="*", metavar="NAME", help=HELP)
     shared.add(parser, "--out", default="results")
     shared.add(parser, "--json")
     reality.add_options(parser)
