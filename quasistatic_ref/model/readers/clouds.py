@@ -1,10 +1,12 @@
-"""Point clouds from files: xyz, csv, ply and pcd (ascii and binary), obj, npy and npz.
+"""Point clouds from files: texts of columns, vertices of meshes, PCD, npy and npz.
 
 Positions only; colours, normals and faces are not part of the model. Coordinates are taken as
-written, in metres. A line or a vertex that cannot be read is an error, never left out.
+written, in metres. A line or a vertex that cannot be read is an error; only what is NaN, as pixels
+that a camera did not see are, is left out.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,16 +14,15 @@ import numpy as np
 from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.text import decimal, point_lines
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh
+from quasistatic_ref.model.readers.text import check_points, number_or_nan, point_lines
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.data import Mask
 from quasistatic_ref.tolerances import LARGE
 
-Lines = Iterator[tuple[int, str]]
-"""Lines of a text with their numbers."""
-Point = tuple[int, Sequence[str]]
-"""The number of a point's line, and its words."""
+SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 
 
 def point_cloud(path: str | Path) -> PointCloud:
@@ -30,15 +31,17 @@ def point_cloud(path: str | Path) -> PointCloud:
     Parameters
     ----------
     path : str or Path
-        ``.xyz``: three numbers a line, separated by spaces, ``#`` starts a comment.
-        ``.csv``: three columns, or a header that names columns x, y and z among others.
-        ``.ply``: the element ``vertex``. ``.obj``: the lines ``v``. ``.pcd``: the fields x, y and
-        z. ``.npy``: an array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
+        ``.xyz``, ``.csv``, ``.txt``, ``.pts``: three numbers a line, and further columns, separated
+        by spaces, commas, semicolons or tabs; ``#`` starts a comment. A header may name columns x,
+        y and z among others; a first line of one whole number is the number of points.
+        ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z. ``.npy``: an
+        array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
 
     Returns
     -------
     PointCloud
-        Points in file order, shape (N, 3) [m]; a repeated one counts once.
+        Points in file order, shape (N, 3) [m]; a repeated one counts once. Points that are not
+        numbers, which depth cameras did not see, are left out.
 
     Raises
     ------
@@ -46,6 +49,11 @@ def point_cloud(path: str | Path) -> PointCloud:
         If the extension is unknown, or the file is missing, empty or malformed; it names the
         file, the line or vertex, and the value.
     """
+    return PointCloud(seen_points(path)[0])
+
+
+def seen_points(path: str | Path) -> tuple[Array, int]:
+    """The points of a file, shape (N, 3) [m], and how many are left out since they are NaN."""
     path = Path(path)
     kind = path.suffix.lower()
     if kind not in KINDS:
@@ -53,64 +61,54 @@ def point_cloud(path: str | Path) -> PointCloud:
         raise ModelError(problem, file=path, field="extension", value=path.suffix)
     try:
         with about_file(path):
-            return PointCloud(_checked(_points(path, kind)))
+            points = _points(path, kind)
+            seen = np.asarray(~np.isnan(points).any(axis=1))
+            if not seen.any():
+                raise ModelError("must contain at least one point", field="points")
+            _check(points, seen)
+            return points[seen], int(np.count_nonzero(~seen))
     except InputError as error:  # NumPy's files raise others
         raise ModelError(
             error.problem, field=error.field, value=error.value, file=error.file
         ) from None
 
 
-def _checked(given: list[list[float]] | Array) -> Array:
-    points = np.array(given, dtype=np.float64).reshape(-1, 3)
+def _check(points: Array, seen: Mask) -> None:
     for wrong, problem in (
-        (~np.isfinite(points), "must be finite numbers"),
+        (np.isinf(points), "must be finite numbers"),
         (np.abs(points) > LARGE, f"its coordinates must be at most {LARGE:g} m"),
     ):
-        bad = np.flatnonzero(wrong.any(axis=1))
+        bad = np.flatnonzero(wrong.any(axis=1) & seen)
         if bad.size:
             value = points[bad[0]].tolist()
             raise ModelError(problem, field=f"point {bad[0]}", value=value)
-    return points
 
 
-def _of_lines(path: Path, words_of: Callable[[Lines], Iterator[Point]]) -> list[list[float]]:
-    """Points of a text: what the words of each are is a matter of its format."""
+def _of_text(path: Path) -> Array:
+    """Points of a text of columns."""
+    columns = [0, 1, 2]
+    width = None
+    points: list[list[float]] = []
     lines = point_lines(text_of(bytes_read(path, ModelError), path, ModelError))
-    return [_numbers(*point) for point in words_of(enumerate(lines, start=1))]
-
-
-def _numbers(number: int, words: Sequence[str]) -> list[float]:
-    if len(words) != 3:
-        problem = "must be three numbers, x y z"
-        raise ModelError(problem, field=f"line {number}", value=" ".join(words))
-    with about_field(f"line {number}"):
-        return [decimal(word) for word in words]
-
-
-def _xyz(lines: Lines) -> Iterator[Point]:
-    for number, line in lines:
-        words = line.split("#", 1)[0].split()
-        if words:
-            yield number, words
-
-
-def _csv(lines: Lines) -> Iterator[Point]:
-    columns: list[int] | None = None
-    width = 3
-    for number, line in lines:
-        words = [word.strip().strip('"') for word in line.split(",")]
-        if not line.strip() or line.lstrip().startswith("#"):
+    for number, line in enumerate(lines, start=1):
+        text = line.split("#", 1)[0].strip()
+        words = [word.strip().strip('"') for word in SEPARATOR.split(text)]
+        if not text or (width is None and len(words) == 1 and words[0].isdecimal()):
             continue
-        if columns is None:
-            columns = [0, 1, 2]
+        if width is None:
+            width = len(words)
             header = [word.lower() for word in words]
             if any(name in header for name in "xyz"):
                 columns = [_column(header, name, number) for name in "xyz"]
-                width = len(words)
                 continue
+        if len(words) < 3:
+            problem = "must be three numbers, x y z"
+            raise ModelError(problem, field=f"line {number}", value=line)
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
-        yield number, [words[c] for c in columns]
+        with about_field(f"line {number}"):
+            points.append([number_or_nan(words[c]) for c in columns])
+    return np.array(points, dtype=np.float64).reshape(-1, 3)
 
 
 def _column(header: list[str], name: str, number: int) -> int:
@@ -120,29 +118,26 @@ def _column(header: list[str], name: str, number: int) -> int:
     return header.index(name)
 
 
-def _obj(lines: Lines) -> Iterator[Point]:
-    for number, line in lines:
-        words = line.split("#", 1)[0].split()
-        if words and words[0] == "v":
-            # A vertex may carry a weight or a colour after its position.
-            if len(words) not in (4, 5, 7, 8):
-                raise ModelError("must be v x y z", field=f"line {number}", value=line)
-            yield number, words[1:4]
+def _of_mesh(path: Path) -> Array:
+    """Vertices of a mesh file."""
+    points = loaded_mesh(path, finite=False).vertices
+    check_points(len(points), "points")
+    return points
 
 
-WORDS_OF: dict[str, Callable[[Lines], Iterator[Point]]] = {
-    ".xyz": _xyz,
-    ".csv": _csv,
-    ".obj": _obj,
-}
-"""Extension of a text file -> the words of each of its points."""
+TEXTS = (".xyz", ".csv", ".txt", ".pts")
+"""Extensions of texts of columns."""
+VERTICES = (".off", ".obj")
+"""Extensions of files whose vertices are taken."""
 OF_PART = (".ply", ".pcd", ".npy", ".npz")
 """Extensions of files that ``optional/readers`` reads."""
 POINTS_OF: Slot[dict[str, Callable[[Path], Array]]] = Slot("readers.points")
-KINDS = (*WORDS_OF, *OF_PART)
+KINDS = (*TEXTS, *VERTICES, *OF_PART)
 
 
-def _points(path: Path, kind: str) -> list[list[float]] | Array:
-    if kind in WORDS_OF:
-        return _of_lines(path, WORDS_OF[kind])
+def _points(path: Path, kind: str) -> Array:
+    if kind in TEXTS:
+        return _of_text(path)
+    if kind in VERTICES:
+        return _of_mesh(path)
     return POINTS_OF.needed(f"a {kind} cloud")[kind](path)

@@ -91,11 +91,12 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     return path
 
 
-def loaded_mesh(path: Path) -> Mesh:
+def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
     """What a mesh file holds, as trimesh reads it.
 
     Every object stands where the nodes of the file place it, in metres. A COLLADA file's ``Y_UP``
-    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh.
+    is not applied, as pinocchio, MuJoCo and Drake do not apply it to a link's mesh. Without
+    `finite`, vertices may be NaN or infinite.
 
     Raises
     ------
@@ -123,7 +124,10 @@ def loaded_mesh(path: Path) -> Mesh:
         metres = 1.0
         if path.suffix.lower() in WITH_UNITS and scene.units is not None:
             metres = trimesh.units.unit_conversion(scene.units, "meters")
-        return _joined(parts, metres)
+        mesh = _joined(parts, metres)
+        if finite and not np.isfinite(mesh.vertices).all():
+            raise ModelError("must be finite numbers", field="vertices")
+        return mesh
 
 
 def _check_collada(path: Path) -> None:
@@ -148,8 +152,6 @@ def _joined(parts: Sequence[tuple[Array, Indices]], metres: float) -> Mesh:
     triangles = [faces + start for (_, faces), start in zip(parts, starts, strict=False)]
     vertices = np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in parts)]) * metres
     joined = np.concatenate([np.zeros((0, 3), dtype=np.int64), *triangles])
-    if not np.isfinite(vertices).all():
-        raise ModelError("must be finite numbers", field="vertices")
     if joined.size and not (joined.min() >= 0 and joined.max() < len(vertices)):
         raise ModelError("must be numbers of vertices", field="triangles")
     return Mesh(vertices, joined)

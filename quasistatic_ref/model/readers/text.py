@@ -32,6 +32,11 @@ def decimal(text: str) -> float:
     return number
 
 
+def number_or_nan(text: str) -> float:
+    """Number as :func:`decimal` reads it, or NaN where the text is ``nan``."""
+    return math.nan if text.strip().lower() in ("nan", "-nan") else decimal(text)
+
+
 def point_lines(text: str) -> list[str]:
     """The lines of a text of points; ModelError if they are too many, or too long in all."""
     if len(text) > LARGEST_TEXT:

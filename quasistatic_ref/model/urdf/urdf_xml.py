@@ -223,7 +223,7 @@ class Tag:
         if "rpy" in self.element.attrib:
             raise ModelError("cannot stand next to rpy; leave one out", field=where)
         quaternion = self.numbers("quat_xyzw", 4)
-        if not np.hypot.reduce(quaternion) > 0:
+        if not quaternion.any():
             raise ModelError("must not be zero", field=where, value=quaternion.tolist())
         R = pin.Quaternion(quaternion).normalized().matrix()
         return np.asarray(pin.rpy.matrixToRpy(R))

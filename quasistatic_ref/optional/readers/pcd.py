@@ -1,11 +1,15 @@
-"""Point positions of a PCD file (Point Cloud Library, versions .5 to .7), ascii or binary.
+"""Point positions of a PCD file (Point Cloud Library, versions .5 to .7).
 
 The viewpoint is where the sensor stood; the points are taken as written.
 """
 
 import math
+from collections.abc import Sequence
+
+import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.readers.text import check_points
 from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array
 
@@ -33,7 +37,7 @@ def pcd_points(content: bytes) -> Array:
     Raises
     ------
     ModelError
-        If the header or a point is malformed, not finite, or missing.
+        If the header or a point is malformed or missing.
     """
     table = _table(content)
     names = table.names
@@ -56,9 +60,64 @@ def _table(content: bytes) -> PointTable:
             body = content[start:]
             break
     data = " ".join(header["DATA"])
-    if data not in ("ascii", "binary"):
-        raise ModelError("must be ascii or binary; convert the file", field="DATA", value=data)
-    return PointTable(_columns(header), _count(header), data == "ascii", body, number + 1)
+    if data not in ("ascii", "binary", "binary_compressed"):
+        raise ModelError("must be ascii, binary or binary_compressed", field="DATA", value=data)
+    columns = _columns(header)
+    count = _count(header)
+    if data == "binary_compressed":
+        body = _point_by_point(body, columns, count)
+    return PointTable(columns, count, data == "ascii", body, number + 1)
+
+
+def _point_by_point(body: bytes, columns: Sequence[tuple[str, str, int]], count: int) -> bytes:
+    """The points of a compressed body, which holds one column after the other."""
+    check_points(count, "points")
+    point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(columns)])
+    packed, size = (int.from_bytes(body[i : i + 4], "little") for i in (0, 4))
+    if size != count * point.itemsize or len(body) < 8 + packed:
+        problem = f"must be {count} points, {count * point.itemsize} bytes, when unpacked"
+        raise ModelError(problem, field="DATA", value=size)
+    content = unpacked(body[8 : 8 + packed], size)
+    rows = np.empty(count, point)
+    start = 0
+    for i, (_, kind, n) in enumerate(columns):
+        entries = np.frombuffer(content, kind, count * n, start)
+        rows[f"{i}"] = entries.reshape(count, n)
+        start += entries.nbytes
+    return rows.tobytes()
+
+
+def unpacked(packed: bytes, size: int) -> bytes:
+    """Bytes that LZF packed, `size` of them.
+
+    A byte below 32 is followed by one more literal bytes than it says. Any other begins a copy of
+    what was unpacked before: its upper three bits are the length less two, and where these are 7,
+    the next byte is added; its lower five and the next byte are the distance back, less one.
+    """
+    content = bytearray()
+    i = 0
+    try:
+        while i < len(packed) and len(content) <= size:
+            first = packed[i]
+            i += 1
+            if first < 32:
+                content += packed[i : i + first + 1]
+                i += first + 1
+                continue
+            length = first >> 5
+            if length == 7:
+                length += packed[i]
+                i += 1
+            back = ((first & 31) << 8) + packed[i] + 1
+            i += 1
+            chunk = content[-back:] if back <= len(content) else b""
+            repeats = -(-(length + 2) // len(chunk))
+            content += (chunk * repeats)[: length + 2]
+    except (IndexError, ZeroDivisionError):
+        content.clear()
+    if len(content) != size:
+        raise ModelError(f"cannot be unpacked to {size} bytes", field="DATA")
+    return bytes(content)
 
 
 def _columns(header: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:

@@ -1,4 +1,4 @@
-"""Vertex positions of a PLY file, ascii or binary little endian."""
+"""Vertex positions of a PLY file whose first element is the vertices."""
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
@@ -13,13 +13,13 @@ _TYPES = {
 _FORMATS = ("ascii", "binary_little_endian")
 
 
-def ply_points(content: bytes) -> Array:
-    """Vertex positions of a PLY file.
+def ply_points(content: bytes) -> Array | None:
+    """Vertex positions of a PLY file; None of one that is big endian or has others first.
 
     Parameters
     ----------
     content : bytes
-        The whole file. Its first element must be ``vertex``, as in nearly every file.
+        The whole file.
 
     Returns
     -------
@@ -32,6 +32,8 @@ def ply_points(content: bytes) -> Array:
         If the header or a vertex is malformed, not finite, or missing.
     """
     table = _table(content)
+    if table is None:
+        return None
     for name in "xyz":
         if table.names.count(name) != 1:
             problem = f"must have one property {name}"
@@ -39,8 +41,8 @@ def ply_points(content: bytes) -> Array:
     return table_points(table, "body", "vertices")
 
 
-def _table(content: bytes) -> PointTable:
-    """The vertices as the header describes them; refuses what this reader cannot place."""
+def _table(content: bytes) -> PointTable | None:
+    """The vertices as the header describes them; None where this reader cannot place them."""
     kind = ""
     count = 0
     columns = []
@@ -57,16 +59,20 @@ def _table(content: bytes) -> PointTable:
                 break
             case ["format", name, "1.0"] if name in _FORMATS:
                 kind = name
+            case ["format", "binary_big_endian", "1.0"]:
+                return None
             case ["comment" | "obj_info", *_] | []:
                 pass
             case ["element", name, digits] if digits.isdigit() and len(digits) < 19:
                 elements += 1
                 if elements == 1:
                     if name != "vertex":
-                        raise ModelError("must be element vertex", field=where, value=name)
+                        return None
                     count = int(digits)
             case ["property", "list", *_] if elements > 1:
                 pass
+            case ["property", "list", *_] if elements == 1:
+                return None
             case ["property", type_, name] if elements >= 1 and type_ in _TYPES:
                 if elements == 1:
                     columns.append((name, _TYPES[type_], 1))

@@ -7,7 +7,7 @@ from itertools import count
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.model.readers.text import check_points, decimal, point_lines
+from quasistatic_ref.model.readers.text import check_points, number_or_nan, point_lines
 from quasistatic_ref.step.arrays import Array
 
 LARGEST_HEADER = 2**20
@@ -84,7 +84,7 @@ def _binary(table: PointTable, at: Sequence[int]) -> Array:
     held = min(len(table.body) // point.itemsize, table.count)
     check_points(held, "points")
     rows = np.frombuffer(table.body, dtype=point, count=held)
-    with np.errstate(invalid="ignore"):  # of a signalling NaN, which is refused later
+    with np.errstate(invalid="ignore"):  # of a signalling NaN, which is left out later
         return np.stack([rows[str(i)][:, 0].astype(np.float64) for i in at], axis=1)
 
 
@@ -100,5 +100,5 @@ def _ascii(table: PointTable, at: Sequence[int]) -> Array:
             raise ModelError(f"must be {width} numbers", field=f"line {number}", value=line)
         if words:
             with about_field(f"line {number}"):
-                points.append([decimal(words[starts[i]]) for i in at])
+                points.append([number_or_nan(words[starts[i]]) for i in at])
     return np.array(points, dtype=np.float64).reshape(-1, 3)

@@ -1,6 +1,7 @@
 """Points of clouds in further formats, by the extensions of their files."""
 
 import io
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
@@ -12,10 +13,25 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.clouds import POINTS_OF
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points
 from quasistatic_ref.optional.readers.pcd import pcd_points
 from quasistatic_ref.optional.readers.ply import ply_points
+from quasistatic_ref.optional.readers.point_table import LARGEST_HEADER
 from quasistatic_ref.step.arrays import Array
+
+
+def _ply(path: Path) -> Array:
+    content = bytes_read(path, ModelError)
+    points = ply_points(content)
+    if points is None:
+        points = loaded_mesh(path, finite=False).vertices
+        check_points(len(points), "points")
+        count = re.search(rb"^element\s+vertex\s+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
+        if count is None or int(count[1]) != len(points):
+            problem = f"must contain {int(count[1]) if count else 'some'} vertices"
+            raise ModelError(problem, field="body", value=len(points))
+    return points
 
 
 def _npz(path: Path) -> Array:
@@ -43,7 +59,7 @@ def _of_array(array: NDArray[Any], name: str) -> Array:
 
 
 POINTS: Final[dict[str, Callable[[Path], Array]]] = {
-    ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
+    ".ply": _ply,
     ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
     ".npy": _npy,
     ".npz": _npz,

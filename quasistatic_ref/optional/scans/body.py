@@ -10,7 +10,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.clouds import seen_points
 from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.optional.scans.closed import solid_of_mesh
@@ -228,8 +228,11 @@ def _surface_and_solid(
             return on_surface, solid
         notes.append("the mesh is not closed: its surface is taken as points")
         return on_surface, _enclosed(on_surface, notes)
-    found = point_cloud(path).points
-    points = found * _metres(found, unit)
+    written, unseen = seen_points(path)
+    written = np.unique(written, axis=0) if len(written) else written
+    points = written * _metres(written, unit)
+    if unseen:
+        notes.append(f"{unseen} points that are not numbers are left out, as what was not seen")
     if len(points) < FEWEST:
         raise InputError(f"must be at least {FEWEST}", field="points", value=len(points))
     grid = _grid(points)
