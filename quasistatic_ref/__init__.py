@@ -24,6 +24,7 @@ _HOMES = {
     # Steps in sequence.
     "simulate.result": "StepResult",
     "simulate.simulator": "Simulator",
+    "optional.fast.simulator": "FastSimulator",
     "optional.derivatives.derivatives": "derivatives",
     "optional.derivatives.smoothed": "smoothed",
     "optional.derivatives.step_jax": "step_jax smoothed_jax",

@@ -4,7 +4,7 @@ Where the core calls a part, it declares a :class:`Slot` with the type of what i
 module fills the slot, and a type checker compares the two.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from types import ModuleType
@@ -60,21 +60,6 @@ class Slot(Generic[T]):
         if found is None:
             raise InputError(_needs(word, self.folder))
         return found
-
-
-USABLE: Slot[Callable[[], bool]] = Slot("fast.speed")
-"""Whether there is compiled code; if not, it is said."""
-
-
-def compiled(slot: Slot[T]) -> T | None:
-    """What fills a slot of ``optional/fast``; None without compiled code, where it has no meaning.
-
-    Raises
-    ------
-    InputError
-        If that folder is missing.
-    """
-    return slot.needed("fast") if USABLE.needed("fast")() else None
 
 
 @contextmanager

@@ -277,33 +277,9 @@ HiGHS 1.16 may end the process; the steps of the scenarios in models/ stay below
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
 
-UNSEEN: Final = 1e-11
-"""Room for rounding in the proof that unmeasured points are not among the closest, relative to the
-sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
-jump in them), and the bound takes two of them and two transformed points."""
-
-SPARSE_FROM: Final = 1_000
-"""Entries of a step's dense J, 4 n_c n_v, from which Clarabel and OSQP get sparse matrices.
-
-Between 2 boxes in a row (576), where dense ones take less time, and 3 (1,440), where sparse ones do
-(validation/results/large_steps.md). bunny_grasp has 780."""
-
-SPARSE_FROM_PIQP: Final = 10_000
-"""The same for PIQP, whose dense method is faster than theirs: between 6 boxes in a row (6,336) and
-8 (11,520)."""
-
-SPARSE_FROM_DAQP: Final = 30_000
-"""The same for DAQP, which takes each part that nothing couples by itself, in dense matrices: 10
-boxes apart (9,600) take less time all at once, 25 (60,000) part by part."""
-
-DENSE_BELOW: Final = 150_000
-"""Entries of the largest group below which runs that certify nothing and name no backend stay with
-DAQP. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one of
-32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""
-
-DENSE_BELOW_PROOFS: Final = 600_000
-"""The same for runs that are certified exactly, in which DAQP's answers, vertices, are the better
-guesses of a working set."""
+DENSE_BELOW: Final = 600_000
+"""Entries of J, 4 n_c n_v, of the largest group of bodies below which `fast` asks DAQP, whose
+matrices are dense, where no backend is named."""
 
 TOUCHING: Final = 1e-14
 """Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a

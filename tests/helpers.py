@@ -9,9 +9,6 @@ from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
-from quasistatic_ref.optional.fast.backends import sparse_from
-from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.cones import cone
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
@@ -30,26 +27,6 @@ SHAPES = [
 def changed(contacts, **changes):
     """A copy of contacts with some fields changed, checked as any other."""
     return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
-
-
-def changed_blocks(contacts, **changes):
-    """The same of contacts in blocks."""
-    names = ("name", "phi", "n", "d1", "d2", "blocks", "mu_v", "mu_omega", "rows")
-    return SparseContacts(**{name: getattr(contacts, name) for name in names} | changes)
-
-
-def always_in_blocks(patch):
-    """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
-    where = "quasistatic_ref.optional.fast.simulator.sparse_from"  # which needs more than steps do
-    patch.setattr(where, lambda *arguments: min(sparse_from(*arguments), 1))
-
-
-def in_blocks(step):
-    """The same step with all columns of J as blocks."""
-    c = step.contacts
-    blocks = Blocks(np.tile(np.arange(step.n_v), (c.n_c, 1)), c.J, step.n_v)
-    own = (c.name, c.phi, c.n, c.d1, c.d2, blocks, c.mu_v, c.mu_omega, c.rows)
-    return step.replace(contacts=SparseContacts(*own))
 
 
 def residuals_of(step, delta_q, lam):

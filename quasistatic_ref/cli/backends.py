@@ -11,7 +11,6 @@ from quasistatic_ref.solve.backends import (
     NONE,
     QPSOLVERS,
     backend_names,
-    installed,
 )
 
 
@@ -23,22 +22,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
     known = backend_names()
-    native = installed("native")
     quick = fast_default()
     if options.json:
-        defaults = {"default": DEFAULT, "default_of_fast": quick}
-        shared.print_json({**defaults, "installed": known, "native": native})
+        shared.print_json({"default": DEFAULT, "default_of_fast": quick, "installed": known})
         return 0
-    rows: list[tuple[str, ...]] = [
-        ("backend", "through cvxpy", "through qpsolvers", "with --fast", "method")
-    ]
+    rows: list[tuple[str, ...]] = [("backend", "through cvxpy", "through qpsolvers", "method")]
     for entry in (entry for entry in BACKENDS.values() if entry.steps):
         name = entry.name
         name += " (default)" if name == DEFAULT else ""
         name += " (default with --fast)" if entry.name == quick else ""
         reached = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
-        rows.append((name, *reached, entry.name if entry.name in native else "-", entry.method))
-    rows.append((NONE, "-", "-", "-", "exact method from a cold start"))
+        rows.append((name, *reached, entry.method))
+    rows.append((NONE, "-", "-", "exact method from a cold start"))
     shared.print_rows(rows)
     return 0
 
@@ -47,7 +42,7 @@ def fast_default() -> str | None:
     """The backend of `fast` where none is named; None if that folder is not there."""
     try:
         with needing("fast"):
-            from quasistatic_ref.optional.fast.backends import DEFAULT_OF_FAST
+            from quasistatic_ref.optional.fast.solver import DAQP
     except InputError:
         return None
-    return DEFAULT_OF_FAST
+    return DAQP

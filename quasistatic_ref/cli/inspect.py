@@ -114,12 +114,12 @@ def steps_by(scenario: Scenario) -> str:
     """What takes the steps of a scenario, in words."""
     if not scenario.fast:
         return "the plain path, which is the definition; --fast takes the same steps sooner"
-    from quasistatic_ref.optional.fast.compiled.library import why_not
-    from quasistatic_ref.optional.fast.compiled.solids import measured
+    from quasistatic_ref.optional.fast.closest import solid_size
+    from quasistatic_ref.optional.fast.library import missing
 
-    if (reason := why_not()) is not None:
+    if (reason := missing()) is not None:
         return f"the plain path: {reason}"
-    others = ", ".join(dict.fromkeys(p.name for p in scenario.pairs if not measured(p)))
+    others = ", ".join(dict.fromkeys(p.name for p in scenario.pairs if solid_size(p) is None))
     known = "compiled code"
     return f"{known}; closest points of {others} by the plain path" if others else known
 

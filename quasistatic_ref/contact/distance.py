@@ -106,8 +106,6 @@ class Search(NamedTuple):
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
     """The contacts of all pairs, in order, each pair's as they rank, by brute force.
 
-    :class:`~quasistatic_ref.optional.fast.compiled.pairs.Pairs` gives the same bits sooner.
-
     Raises
     ------
     ContactError
@@ -137,10 +135,7 @@ def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
-    """The contacts of one pair, as they rank; R (L, 3, 3), t (L, 3) are the links'.
-
-    In C: closest.c, solids.c.
-    """
+    """The contacts of one pair, as they rank; R (L, 3, 3), t (L, 3) are the links'."""
     a, b = in_world(pair, R, t)
     if isinstance(b.shape, PointCloud):
         return _cloud_on_solid(pair, a, b, b.shape.points)
@@ -255,8 +250,6 @@ def every_candidate(
 ) -> ClosestPoints:
     """All candidates: alpha's corners on beta, beta's on alpha, the closest pair, crossings.
 
-    In C: candidates.c.
-
     Corners whose normal is not about the pair's are none: they cannot bear with it. The closest
     pair is none where others span it.
     """
@@ -352,7 +345,7 @@ def repeated(candidates: ClosestPoints) -> Mask:
 def _cloud_on_solid(
     pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> ClosestPoints:
-    """The k points of a cloud that rank first on a solid."""
+    """The k points of a cloud that rank first on a solid. In C: clouds.c."""
     relative = relative_pose(solid, cloud)
     x = moved(relative, points)
     phi, normal = solid.shape.signed_distance(x)

@@ -135,6 +135,19 @@ def rigid_masses(model: pin.Model, joints: Sequence[Joint]) -> Array:
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
 
+def whole(M: Array) -> Array:
+    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
+
+    An M that is whole is returned as it is.
+    """
+    if M.ndim == 2:
+        return M
+    k, size, _ = M.shape
+    wide = np.zeros((k, size, k, size))
+    wide[np.arange(k), :, np.arange(k)] = M
+    return read_only(wide.reshape(k * size, k * size))
+
+
 def constant_mass(model: pin.Model, unactuated: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 

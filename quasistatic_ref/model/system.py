@@ -34,6 +34,7 @@ from quasistatic_ref.model.mass import (
     constant_mass,
     mass_matrix,
     rigid_masses,
+    whole,
 )
 from quasistatic_ref.model.named import Named, Values
 from quasistatic_ref.model.workspace import Workspace
@@ -44,7 +45,6 @@ from quasistatic_ref.step.arrays import (
     checked_array,
     checked_numbers,
     read_only,
-    whole,
 )
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.step.pivots import positive_pivots

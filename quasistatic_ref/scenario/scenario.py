@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -62,6 +62,13 @@ EXTENDED_BODIES: Slot[
     ]
 ] = Slot("extensions.of_scenario")
 
+FAST_SIMULATOR: Slot[Callable[[Simulator], Simulator]] = Slot("fast.simulator")
+FAST_DEFAULT: Slot[Callable[[System, Sequence[ContactPair], str, bool], str]] = Slot(
+    "fast.simulator"
+)
+"""The backend of `fast` where none is named: of the system, the pairs, the cone, and whether the
+steps are the model's own, neither extended nor under Coulomb's law."""
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Scenario(Settings, Plain, Shown):
@@ -77,6 +84,8 @@ class Scenario(Settings, Plain, Shown):
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
     record : str
         What its trajectory holds.
+    fast : bool
+        Whether a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes its steps.
     bodies : mapping of str to BodyEntry
         What the tables of its bodies say.
     of_bodies : callable, optional
@@ -96,6 +105,7 @@ class Scenario(Settings, Plain, Shown):
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
     record: str = "full"
+    fast: bool = False
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     of_bodies: OfBodies | None = None
 
@@ -106,7 +116,8 @@ class Scenario(Settings, Plain, Shown):
         """A simulator of this scenario, with an `extension` as it takes one."""
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
-        return Simulator(**self.settings(), extension=extension)
+        simulator = Simulator(**self.settings(), extension=extension)
+        return FAST_SIMULATOR.needed("fast")(simulator) if self.fast else simulator
 
     @property
     def force(self) -> Callable[[float, Array], Array] | None:
@@ -254,10 +265,11 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
         more = EXTENDED_BODIES.needed("joint_friction, support and joint_limits")
         pairs, of_bodies = more(system, pairs, entries, h, K_q, gravity)
     ordinary = law == CONVEX and of_bodies is None
+    backend = value(solver, SOLVER, "backend")
+    if fast and backend is None:
+        backend = FAST_DEFAULT.needed("fast")(system, pairs, named, ordinary)
     try:  # here rather than in the first step
-        backend = usable_backend(
-            value(solver, SOLVER, "backend"), system, pairs, named, certify, fast, ordinary
-        )
+        backend = usable_backend(backend, named, certify)
     except BackendError as error:
         raise solver.error_about(error.field or "backend", error.problem, error.value) from None
     check_motion(system, pairs)

@@ -66,7 +66,7 @@ TABLES = Tables({
         ),
         "fast": Field(
             "boolean", "whether to take the same steps sooner, to the same certified bits",
-            default=Settings.fast,
+            default=False,
         ),
         "record": Field(
             "text",

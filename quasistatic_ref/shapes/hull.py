@@ -16,7 +16,7 @@ CHUNK = 1 << 17
 
 
 def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
-    """Signed distance and outward normal of points (N, 3) against a convex polytope. In C: hull.c.
+    """Signed distance and outward normal of points (N, 3) against a convex polytope.
 
     Inside, the largest of the signed distances to the planes of its faces, which is exact;
     outside, the distance to the nearest triangle. Each point is computed by itself: its bits do not

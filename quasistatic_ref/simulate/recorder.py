@@ -137,7 +137,7 @@ class Recorder:
         self._latest.append(result)
         self._targets.append(q_bar_a)
         self.steps += 1
-        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.kept_J.size))
+        most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.J.size))
         if len(self._latest) >= most or any(each.every_step for each in self.observers):
             self.packed()
 

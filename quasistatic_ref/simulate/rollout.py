@@ -57,7 +57,6 @@ Given = Mapping[str, tuple[object, Checked]]
 BEGUN_OR_RESUMED: Slot[
     Callable[[str | Path, float | None, bool, int, Recorder, Given, int], SavedRun]
 ] = Slot("runs.resume")
-PACE: Slot[Callable[[bool, int], Observer]] = Slot("fast.pace")
 FIRST_STEP: Slot[Callable[[Path, int, bool], int]] = Slot("runs.saved_files")
 """Of a trajectory's file, its steps in all, and whether to resume: where a run begins."""
 SAVED_STEPS: Slot[Callable[[Path], int]] = Slot("runs.saved_files")
@@ -102,7 +101,7 @@ def rollout(
         of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there that `fast` would save ten seconds or more, and, at the end of a run, its findings
+        there, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
@@ -154,9 +153,6 @@ def rollout(
         given = {"target": (target, q_bar_a_at), "force": (force, force_at)}
         begun = BEGUN_OR_RESUMED.needed("save")
         saved = begun(save, save_every, resume, steps, recorder, given, COLD_EVERY)
-    # Of a run that takes long, it prints that `fast` would shorten it.
-    if progress and (pace := PACE.found()) is not None:
-        recorder.observers.append(pace(simulator.fast, steps - recorder.steps))
     bar = progress_bar(unit="step", total=steps, done=recorder.steps, shown=progress)
     last: StepResult | None = None
     with nullcontext() if saved is None else saved.lock, Interrupt() as interrupt, bar:

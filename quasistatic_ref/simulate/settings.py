@@ -1,12 +1,10 @@
 """What a scenario and a simulator have in common: bodies, contacts, and how steps are solved."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from typing import Any
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import Slot, compiled
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
@@ -33,7 +31,7 @@ class Settings:
         [m/s^2], world frame.
     gravity_acts : ndarray, shape (n_a,)
         Whether gravity acts on each actuated coordinate [-].
-    backend, fast, accuracy, certify
+    backend, accuracy, certify
         As of :func:`~quasistatic_ref.solve.solve.solve_step`, the backend by its name.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
@@ -50,7 +48,6 @@ class Settings:
     gravity: Array
     gravity_acts: Array
     backend: str = DEFAULT
-    fast: bool = False
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     cone: str = PYRAMID
@@ -62,40 +59,14 @@ class Settings:
         return {setting.name: getattr(self, setting.name) for setting in fields(Settings)}
 
 
-FAST_BACKEND: Slot[Callable[[str | None, System, tuple[ContactPair, ...], str, str, bool], str]] = (
-    Slot("fast.simulator")
-)
-
-
-def usable_backend(
-    name: str | None,
-    system: System,
-    pairs: tuple[ContactPair, ...],
-    cone: str,
-    certify: str,
-    fast: bool,
-    ordinary: bool,
-) -> str:
+def usable_backend(name: str | None, cone: str, certify: str) -> str:
     """The backend of a name; of None the default one.
-
-    Parameters
-    ----------
-    name : str or None
-    system, pairs, cone, certify, fast
-        The settings: the default of `fast` depends on them.
-    ordinary : bool
-        Whether the steps are the model's own: neither extended nor under Coulomb's law.
 
     Raises
     ------
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
-    InputError
-        If `fast` is wanted, and its folder is not there.
     """
-    fast_backend = compiled(FAST_BACKEND) if fast else None
-    if fast_backend is not None:
-        return fast_backend(name, system, pairs, cone, certify, ordinary)
     name = DEFAULT if name is None else name
     check_backend(name, cone, certify)
     return name

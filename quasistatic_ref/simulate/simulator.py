@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import FrozenInstanceError, replace
 from functools import cached_property, wraps
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,10 +19,9 @@ from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.formats.given import arguments_checked, check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.parts import Slot, compiled
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import (
-    CONVEX,
     COULOMB,
     COULOMB_LAW,
     COULOMB_STEP,
@@ -45,11 +44,10 @@ from quasistatic_ref.step.extension import Extension
 
 GRAVITY = (0.0, 0.0, -9.81)
 FIXED = {
-    *("system", "pairs", "h", "K_q", "gravity", "fast"),
+    *("system", "pairs", "h", "K_q", "gravity"),
     *("accuracy", "certify", "cone", "law", "limits", "backend"),
 }
 """What a simulator is made of: its problem, and what C keeps of it, are of these."""
-FAST_SIMULATOR: Slot[type[Simulator]] = Slot("fast.simulator")
 SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor.table")
 EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
     EXTENDED_STEP.module
@@ -132,10 +130,8 @@ class Simulator(Settings, Shown):
         Name of a backend, as `solver` of :func:`~quasistatic_ref.solve.solve.solve_step`, of which
         `accuracy` and `certify` are arguments too.
     fast : bool
-        Whether to take the same steps sooner: as a
-        :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator`, which this then is, if
-        there is a compiler.
-        Wherever an answer is certified exactly, q, delta_q, A'lam and slacks have the same bits.
+        No argument: a :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator` takes the
+        same steps sooner.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     law : str
@@ -163,8 +159,8 @@ class Simulator(Settings, Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, and its folder is not there, or of a subclass; or the extension is no
-        function, or the law is unknown or does not take `certify`.
+        If `fast` is wanted, the extension is no function, or the law is unknown or does not take
+        `certify`.
 
     Examples
     --------
@@ -174,7 +170,7 @@ class Simulator(Settings, Shown):
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
-    default_backend = DEFAULT
+    fast: ClassVar[bool] = False
 
     @arguments_checked
     def __init__(
@@ -195,6 +191,9 @@ class Simulator(Settings, Shown):
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
+        if fast:
+            problem = "is no argument; write qr.FastSimulator(qr.Simulator(...))"
+            raise InputError(problem, field="fast", value=fast)
         check_kind(system, System, "system", ", qr.System([body, ...])")
         own = checked_items(pairs, ContactPair, "pairs")
         check_accuracy(accuracy)
@@ -206,7 +205,6 @@ class Simulator(Settings, Shown):
         limits = Limits() if limits is None else limits
         check_kind(limits, Limits, "limits")
         acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
-        ordinary = extension is None and law == CONVEX
         super().__init__(
             system=system,
             pairs=own,
@@ -214,8 +212,7 @@ class Simulator(Settings, Shown):
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
             gravity_acts=checked_array(acts, "gravity_acts", (system.n_a,)),
-            backend=usable_backend(backend, system, own, cone, certify, fast, ordinary),
-            fast=fast,
+            backend=usable_backend(backend, cone, certify),
             accuracy=accuracy,
             certify=certify,
             cone=cone,
@@ -229,15 +226,8 @@ class Simulator(Settings, Shown):
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
-        if fast:
-            kind = compiled(FAST_SIMULATOR)
-            if type(self) not in (Simulator, kind):
-                problem = f"has no methods of {type(self).__name__}; give fast=False, or let that "
-                problem += "class hold a Simulator, not be one"
-                raise InputError(problem, field="fast", value=fast)
-            if kind is not None:
-                self.__class__ = kind
-        self.prepare()
+        # H of Eq. (13): refused where it leaves float64's range
+        hessian(self.h, self.K_q, system.M_u(system.q_start))
 
     def __setattr__(self, name: str, value: object) -> None:
         try:
@@ -246,14 +236,9 @@ class Simulator(Settings, Shown):
             problem = "is fixed when a simulator is made, as is what was formed of it; make another"
             raise InputError(problem, field=f"simulator.{name}", value=value) from None
 
-    def prepare(self) -> None:
-        """Check and form what all steps have in common."""
-        # H of Eq. (13): refused where it leaves float64's range
-        hessian(self.h, self.K_q, self.system.M_u(self.system.q_start))
-
     @cached_property
     def geometry(self) -> ContactGeometry:
-        """Which coordinates move which contact; ``fast`` does without in scenes of many bodies."""
+        """Which coordinates move which contact."""
         return ContactGeometry(self.layout, self.system.column_map)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -356,10 +341,6 @@ class Simulator(Settings, Shown):
             cone=self.cone,
         )
 
-    def contacts_at(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
-        """The contacts of a step at its closest points."""
-        return self.geometry.contacts(points, kinematics)
-
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         force = checked_force(self.system, force)
@@ -386,7 +367,7 @@ class Simulator(Settings, Shown):
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
         if self.solver is None or not self.solver.fits(step):
-            self.solver = solver_for(step, self.backend, self.fast)
+            self.solver = solver_for(step, self.backend)
         return self.solver
 
     def solution(self, step: StepData) -> StepSolution:
@@ -399,19 +380,21 @@ class Simulator(Settings, Shown):
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 
-    def otherwise_solved(self, step: StepData, failure: StepNotSolved) -> StepSolution:
+    def otherwise_solved(
+        self, step: StepData, failure: StepNotSolved, default: str = DEFAULT
+    ) -> StepSolution:
         """A step that the backend failed, by the next one that solves it, or exactly.
 
-        Its ``statistics.unanswered`` counts such steps. A backend that was asked
-        for by name is replaced with ``"residual"`` only: ``"full"`` needs none, and ``"off"`` is a
-        question to that backend.
+        Its ``statistics.unanswered`` counts such steps. A backend that was asked for by name is
+        replaced with ``"residual"`` only, unless it is the `default`: ``"full"`` needs none, and
+        ``"off"`` is a question to that backend.
 
         Raises
         ------
         StepNotSolved
             The `failure`, if it is a proof, or is not to be mended.
         """
-        replaced = self.certify == "residual" or self.backend == self.default_backend
+        replaced = self.certify == "residual" or self.backend == default
         if type(failure) is not StepNotSolved or not replaced:
             raise failure
         exact = [NONE] if cone(self.cone).polyhedral else []
@@ -420,7 +403,7 @@ class Simulator(Settings, Shown):
             try:
                 spare = self.spares.get(name)
                 if spare is None or not spare.fits(step):
-                    spare = solver_for(step, name, self.fast)
+                    spare = solver_for(step, name)
                     if name != NONE:  # it would begin where a resumed run does not
                         self.spares[name] = spare
                 solution = solve_step(step, spare, accuracy=self.accuracy, certify=certify)

@@ -2,13 +2,12 @@
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form, in an optional part; and its own, where ``optional/fast/adapters/`` has a file of its name.
+form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
@@ -16,7 +15,6 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import Slot
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_DAQP, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
@@ -47,11 +45,6 @@ class Backend:
     warm : tuple of str
         ``"cvxpy"``, ``"qpsolvers"``: interfaces that hand on a start; others drop it. (Of an
         interior point a warm start reuses the set-up, not the point.)
-    adapter : str
-        Class in ``adapters/NAME.py``, where it is reached by its own interface.
-    sparse : int
-        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices; 0
-        if it takes none.
     cvxpy : bool
         Whether CVXPY has an interface to it.
     package : str
@@ -73,8 +66,6 @@ class Backend:
     floor: float = 0.0
     time_limit: str = ""
     warm: tuple[str, ...] = ()
-    adapter: str = ""
-    sparse: int = 0
     cvxpy: bool = True
     package: str = ""
     required: bool = False
@@ -177,18 +168,14 @@ BOTH = ("cvxpy", "qpsolvers")
 BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
-        Backend("clarabel", "interior point", _clarabel, adapter="Clarabel",
-                sparse=SPARSE_FROM, time_limit="time_limit", warm=("cvxpy",), required=True,
-                cones=True),
+        Backend("clarabel", "interior point", _clarabel, time_limit="time_limit", warm=("cvxpy",),
+                required=True, cones=True),
         # At 1e-12 OSQP leaves more steps of bunny_grasp unsolved (docs/conventions.md).
-        Backend("osqp", "operator splitting", _osqp, adapter="Osqp",
-                sparse=SPARSE_FROM, floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
-        Backend("piqp", "proximal interior point", _piqp, adapter="Piqp",
-                sparse=SPARSE_FROM_PIQP, warm=("cvxpy",), required=True),
+        Backend("osqp", "operator splitting", _osqp, floor=1e-10, time_limit="time_limit",
+                warm=BOTH, required=True),
+        Backend("piqp", "proximal interior point", _piqp, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
-        Backend("daqp", "dual active set", _once(_daqp),
-                adapter="Daqp", sparse=SPARSE_FROM_DAQP, warm=("qpsolvers",),
-                required=True),
+        Backend("daqp", "dual active set", _once(_daqp), warm=("qpsolvers",), required=True),
         Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=("qpsolvers",),
                 package="proxsuite"),
         Backend("scs", "operator splitting", _once(_scs), time_limit="time_limit_secs",
@@ -196,8 +183,7 @@ BACKENDS: dict[str, Backend] = {
         Backend("highs", "active set", _highs, floor=1e-10,
                 time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
-        Backend("quadprog", "dual active set", lambda _: ({},), adapter="Quadprog",
-                cvxpy=False, returns=False),
+        Backend("quadprog", "dual active set", lambda _: ({},), cvxpy=False, returns=False),
         Backend("qpalm", "augmented Lagrangian", _once(_qpalm), warm=("cvxpy",),
                 steps=False),
     )
@@ -214,9 +200,7 @@ NONE = "none"
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
 def installed(interface: str) -> tuple[str, ...]:
-    """The installed backends, reached by ``"cvxpy"``, ``"qpsolvers"`` or ``"native"``."""
-    if interface == "native":
-        return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.to_install))
+    """The installed backends, reached by ``"cvxpy"`` or ``"qpsolvers"``."""
     if interface == "qpsolvers":
         available = AVAILABLE.found()
         there = [] if available is None else available()
@@ -280,8 +264,6 @@ def backend(name: str) -> Backend:
         other = QPSOLVERS + name
         if other in known:
             remedy = f"is available as {other!r}"
-        elif not entry.cvxpy and name in installed("native"):
-            remedy = "is reached with fast alone"
         else:
             remedy = f"is not installed; {entry.to_install_it}"
         choices = ", ".join(known)

@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.parts import Slot, compiled
+from quasistatic_ref.parts import Slot
 from quasistatic_ref.solve.backends import (
     AVAILABLE,
     BACKENDS,
@@ -307,9 +307,8 @@ def solver_for(
         CVXPY. By default Clarabel; with `fast` DAQP. Or a function (P, q, G, h) -> (x, z, status),
         also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.solve.by_function`.
     fast : bool
-        Whether to solve as ``optional/fast`` does: by the backend's own
-        interface where it has one, and with a quick proof of the optimum before the exact method;
-        it needs a compiler.
+        Whether to solve as ``optional/fast`` does: DAQP by its own interface, in arrays that are
+        kept from step to step. Any other backend is called as without.
 
     Raises
     ------
@@ -325,9 +324,8 @@ def solver_for(
             problem = f"is a function, which takes linear rows only; not the {step.cone}"
             raise BackendError(problem, field="backend", value=str(name))
         return FunctionSolver(step, name)
-    fast_solver = compiled(FAST_SOLVER) if fast else None
-    if fast_solver is not None:
-        return fast_solver(step, name)
+    if fast:
+        return FAST_SOLVER.needed("fast")(step, name)
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:

@@ -124,16 +124,3 @@ def freeze_copies(owner: object, *fields: str) -> None:
     """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
     for field in fields:
         object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))
-
-
-def whole(M: Array) -> Array:
-    """All of a matrix, shape (n, n), from its diagonal blocks M, (k, n / k, n / k) [any unit].
-
-    An M that is whole is returned as it is.
-    """
-    if M.ndim == 2:
-        return M
-    k, size, _ = M.shape
-    wide = np.zeros((k, size, k, size))
-    wide[np.arange(k), :, np.arange(k)] = M
-    return read_only(wide.reshape(k * size, k * size))

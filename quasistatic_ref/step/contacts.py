@@ -98,16 +98,6 @@ class Contacts(Plain, Shown):
         """Number of columns of J."""
         return int(self.J.shape[-1])
 
-    @property
-    def kept_J(self) -> Array:
-        """J as it is kept: shape (n_c, 4, n_v), or without its zeros in a step of many bodies."""
-        return self.J
-
-    @property
-    def kept_columns(self) -> Indices | None:
-        """Which columns of J `kept_J` has, shape (n_c, w), n_v where none; None if all."""
-        return None
-
     def raised(self, s: Array) -> Contacts:
         """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
         return replace(self, phi=self.phi + s)
@@ -115,15 +105,6 @@ class Contacts(Plain, Shown):
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.J @ delta_q
-
-    def entries(self) -> tuple[Indices, Indices, Array]:
-        """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
-        contact, coordinate = np.nonzero(self.J.any(axis=1))
-        return contact, coordinate, self.J[contact, :, coordinate]
-
-    def moving(self) -> bytes:
-        """Which coordinates move which contacts: equal bytes where these are the same."""
-        return self.kept_J.any(axis=1).tobytes()
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""

@@ -136,8 +136,8 @@ class StepData(Plain, HasPage):
 
     Notes
     -----
-    Each field is checked, and copied read-only; not those of the steps of a simulator with
-    ``fast``, see :mod:`~quasistatic_ref.optional.fast.posed`.
+    Each field is checked, and copied read-only; not those of the steps of a FastSimulator, see
+    :mod:`~quasistatic_ref.optional.fast.steps`.
 
     Examples
     --------
@@ -200,11 +200,6 @@ class StepData(Plain, HasPage):
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
         return np.asarray((self.M_u @ delta_q[..., self.n_a :, None])[..., 0])
-
-    @property
-    def kept_M_u(self) -> Array:
-        """M_u as it is kept: shape (n_u, n_u), or in diagonal blocks in a step of many bodies."""
-        return self.M_u
 
     def inertia(self, u: Indices) -> Array:
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""

@@ -57,7 +57,7 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
         At least one.
     """
     near = np.ones(step.contacts.n_c, dtype=bool) if near is None else near
-    contact, of_contact, _ = step.contacts.entries()
+    contact, of_contact = np.nonzero(step.contacts.J.any(axis=1))
     extra_row, of_extra = np.nonzero(step.extra.A)
     pairs = (contact, of_contact, extra_row, of_extra, *step.coupled(), step.counts)
     pattern = [np.asarray(entries, np.int64).tobytes() for entries in pairs]

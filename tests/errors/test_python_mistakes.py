@@ -40,7 +40,7 @@ def simulator(**more):
 
 
 SIMULATOR = simulator()
-FAST = simulator(fast=True)
+FAST = qr.FastSimulator(SIMULATOR)
 RUN = qr.rollout(SIMULATOR, Q, Q_A, 2, progress=False)
 
 
@@ -130,7 +130,6 @@ MISTAKES = {
         (lambda: simulator(backend="clarable"), "did you mean 'clarabel'"),
         (lambda: simulator(accuracy="high"), "accuracy: must be a number greater than 0"),
         (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
-        (lambda: simulator(certify=True, fast=True), "certify: must be one of full, residual, off"),
         (lambda: simulator(certify=True), "certify: must be one of full, residual, off"),
         (lambda: simulator(cone="elliptic"), "did you mean 'ellipsoid'"),
         (lambda: simulator(limits=0.1), "limits: must be a Limits"),

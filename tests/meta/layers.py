@@ -98,6 +98,8 @@ WALLS = {
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),
     "jax": ("optional/derivatives/step_jax.py",),
+    "cffi": ("optional/fast",),
+    "daqp": ("optional/fast", "lab/study/accepted.py"),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by. And angles.
     "flint": (
         "certify",

@@ -1,4 +1,4 @@
-"""Nothing is claimed in a strange environment: a sample of validation/make/environments.py."""
+"""Nothing is claimed in a strange environment."""
 
 from collections import Counter
 
@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from validation.make.environments import (
+from tests.oracles.environments import (
     LONG,
     MODES,
     after_all_modes,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import BackendError, InputError, StepDataError, StepNotSolved, standard_form
-from quasistatic_ref.optional.fast.backends import DEFAULT_OF_FAST
+from quasistatic_ref.optional.fast.solver import DAQP
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import (
     BACKENDS,
@@ -43,7 +43,7 @@ def test_the_solvers_of_these_tests_are_installed_so_that_green_means_ran():
 
 def test_the_required_backends_are_those_of_the_package():
     assert tuple(name for name, entry in BACKENDS.items() if entry.required) == REQUIRED
-    assert {DEFAULT, DEFAULT_OF_FAST} <= set(REQUIRED)
+    assert {DEFAULT, DAQP} <= set(REQUIRED)
 
 
 @every_interface
@@ -195,17 +195,15 @@ def test_a_backend_is_not_asked_for_more_than_it_can_and_says_so():
 
 
 @pytest.mark.parametrize(
-    ("known", "native", "remedy"),
+    ("known", "remedy"),
     [
-        (("clarabel", "qpsolvers:quadprog"), (), "is available as 'qpsolvers:quadprog'"),
-        (("clarabel",), ("quadprog",), "is reached with fast alone"),
-        (("clarabel",), (), "is not installed; pip install quadprog, or "),
+        (("clarabel", "qpsolvers:quadprog"), "is available as 'qpsolvers:quadprog'"),
+        (("clarabel",), "is not installed; pip install quadprog, or "),
     ],
 )
-def test_a_backend_of_other_interfaces_only_is_named_with_them(known, native, remedy, monkeypatch):
+def test_a_backend_of_other_interfaces_only_is_named_with_them(known, remedy, monkeypatch):
     table = "quasistatic_ref.solve.backends"
     monkeypatch.setattr(f"{table}.installed_backends", lambda: known)
-    monkeypatch.setattr(f"{table}.installed", lambda interface: native)
     with pytest.raises(BackendError, match=f"{remedy}.*; installed here: clarabel"):
         backend("quadprog")
 

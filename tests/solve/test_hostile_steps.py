@@ -5,16 +5,13 @@ import random
 import pytest
 
 from quasistatic_ref import InputError, QuasistaticError, solve_step
-from quasistatic_ref.solve.backends import NONE, installed, installed_backends
+from quasistatic_ref.solve.backends import NONE, installed_backends
 from quasistatic_ref.solve.solver import solver_for
 from tests.oracles.attacked_steps import hostile_step
 
 PATHS = [
     *(("cvxpy", name) for name in installed_backends()),
-    *(
-        pytest.param(("native", name), marks=pytest.mark.extra("fast"))
-        for name in installed("native")
-    ),
+    ("native", "daqp"),
 ]
 """Every backend that is here by every interface."""
 

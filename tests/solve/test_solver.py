@@ -17,11 +17,8 @@ from quasistatic_ref import (
     load_scenario,
     solve_step,
 )
-from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
-from quasistatic_ref.optional.fast.native import NativeSolver
+from quasistatic_ref.optional.fast.program import Workspaces
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.solve import through_cvxpy
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
@@ -30,7 +27,6 @@ from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from tests.helpers import (
     REQUIRED,
-    always_in_blocks,
     changed,
     error,
     planted_step,
@@ -47,18 +43,10 @@ def step(rng):
     return planted_step(rng, 3, 4, ROWS)[0]
 
 
-@pytest.fixture
-def large_step(monkeypatch):
-    """A step whose contacts are in blocks."""
-    always_in_blocks(monkeypatch)
-    some = pile((2, 1, 2))
-    return some.simulator.step(some.q, np.zeros(0), some.force).step
-
-
 EVERY = [
     *((CvxpySolver, name, "cvxpy") for name in installed("cvxpy") if BACKENDS[name].steps),
     *((QpsolversSolver, name, "qpsolvers") for name in installed_backends() if ":" in name),
-    *((FastSolver, name, "native") for name in installed("native")),
+    (FastSolver, "daqp", "native"),
     (NoSolver, "none", "none"),
 ]
 NEEDS = {FastSolver: [pytest.mark.extra("fast")]}
@@ -70,8 +58,8 @@ every_solver = pytest.mark.parametrize(
 
 def test_every_backend_of_these_tests_is_installed_by_every_interface():
     assert {(kind, name.rpartition(":")[2]) for kind, name, _ in EVERY} >= {
-        (kind, name) for kind in (CvxpySolver, QpsolversSolver, FastSolver) for name in REQUIRED
-    } | {(FastSolver, "quadprog"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
+        (kind, name) for kind in (CvxpySolver, QpsolversSolver) for name in REQUIRED
+    } | {(FastSolver, "daqp"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
 
 
 @every_solver
@@ -98,7 +86,7 @@ def test_a_call_that_contradicts_itself_cannot_be_written(step):
     with pytest.raises(InputError, match="fast: has no effect on an existing solver"):
         solve_step(step, solver_for(step), fast=True)
     for word, value in (
-        ("interface", "cvxpy"), ("backend", "clarabel"), ("problem", NativeSolver(step, "daqp")),
+        ("interface", "cvxpy"), ("backend", "clarabel"), ("problem", FastSolver(step)),
     ):  # fmt: skip
         with pytest.raises(TypeError, match=word):
             solve_step(step, "clarabel", **{word: value})
@@ -124,7 +112,7 @@ OTHERS = {
 
 
 @pytest.mark.parametrize(
-    ("fast", "name"), [(False, "piqp"), (False, "qpsolvers:piqp"), (True, "piqp")]
+    ("fast", "name"), [(False, "piqp"), (False, "qpsolvers:piqp"), (True, "daqp")]
 )
 @pytest.mark.parametrize("what", OTHERS)
 def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
@@ -154,17 +142,7 @@ def test_rows_of_an_extension_count_as_rows_of_the_step(step):
     floor = Extension(lambda s: [s.delta_q >= -1.0])
     for fast in (False, True):
         with pytest.raises(InputError, match="in extra; make"):
-            solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
-
-
-@pytest.mark.extra("fast")
-def test_a_sparse_solver_and_its_copy_certify_the_bits_of_the_exact_method(large_step):
-    solver = copy.copy(solver_for(large_step, "osqp", fast=True))
-    assert type(solver) is SparseSolver
-    answer = solve_step(large_step, solver)
-    assert (answer.statistics.backend, answer.statistics.interface) == ("osqp", "native")
-    assert answer.certificate.kind == "exact"
-    assert answer.delta_q.tobytes() == solve_step(large_step, "none").delta_q.tobytes()
+            solve_step(step, solver_for(step, "daqp", fast), extension=floor)
 
 
 def test_no_solver_gives_no_answer_of_its_own(step):
@@ -218,17 +196,17 @@ def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface
 
 
 def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
-    solver = NativeSolver(step, "clarabel")
-    honest = Clarabel.reply
+    solver = FastSolver(step)
+    honest = Workspaces.reply
 
     def broken(*_):
         raise RuntimeError("out of order")
 
-    monkeypatch.setattr(Clarabel, "reply", broken)
+    monkeypatch.setattr(Workspaces, "reply", broken)
     with pytest.raises(StepNotSolved, match="the solver failed: out of order") as caught:
         solve_step(step, solver, certify="off")
     assert isinstance(caught.value.__cause__, RuntimeError)
-    monkeypatch.setattr(Clarabel, "reply", honest)
+    monkeypatch.setattr(Workspaces, "reply", honest)
     answer = solve_step(step, solver, certify="off").delta_q
     assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
 
@@ -240,7 +218,6 @@ def test_the_floor_and_the_limits_of_the_table_are_the_backend_s_own(name):
     assert tightest == entry.first(max(1e-15, entry.floor))
     assert set(entry.warm) <= {"cvxpy", "qpsolvers"}
     assert entry.cvxpy or "cvxpy" not in entry.warm
-    assert not entry.sparse or entry.adapter
     assert (name == "quadprog") == (tightest == {})  # which has no tolerance
 
 

@@ -1,7 +1,5 @@
 """One thing of every kind of public data, by name."""
 
-import copy
-
 import numpy as np
 import pytest
 
@@ -26,11 +24,10 @@ from quasistatic_ref import (
     smoothed,
     solve_step,
 )
-from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.extras import is_missing
-from tests.helpers import always_in_blocks, random_step
+from tests.helpers import random_step
 from tests.scenes import written_scenario
 
 NAN = np.nan
@@ -41,24 +38,6 @@ def contradiction_error():
     with pytest.raises(StepInfeasible) as caught:
         solve_step(point_between_walls([EAST, WEST], -1e-3), "none")
     return caught.value
-
-
-def sparse_step():
-    """A step whose contacts are in blocks, as its simulator poses it."""
-    some = pile((2, 1, 2), certify="off")
-    with pytest.MonkeyPatch.context() as patch:
-        always_in_blocks(patch)
-        return copy.copy(some.simulator).step(some.q, np.zeros(0), some.force).step
-
-
-def posed_data(step):
-    """What only compiled steps have."""
-    return {
-        "posed StepData": step,
-        "BlockStep": sparse_step(),
-        "SparseContacts": sparse_step().contacts,
-        "Blocks": sparse_step().contacts.blocks,
-    }
 
 
 def public_data(folder):
@@ -77,7 +56,7 @@ def public_data(folder):
         "StepData": step,
         "StepData with rows of a user's": step.replace(extra=extra),
         "Contacts": step.contacts,
-        **({} if is_missing("fast") else posed_data(result.step)),
+        **({} if is_missing("fast") else {"posed StepData": result.step}),
         "Extra": extra,
         "StepSolution": solution,
         "CoulombSolution": coulomb_step(step),

@@ -10,18 +10,13 @@ from quasistatic_ref import (
     StepInfeasible,
     contact_forces,
     load_scenario,
-    verify,
 )
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of, no_contacts
-from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.groups import group_steps, groups
 from quasistatic_ref.tolerances import ILL_POSED
-from tests.helpers import always_in_blocks, changed
 from tests.oracles.grouped import faults, random_case
 
 
@@ -59,14 +54,6 @@ def test_inertia_couples_the_coordinates_after_the_actuated_ones():
         delta_q_bar_a=np.zeros(2), contacts=no_contacts(5),
     )  # fmt: skip
     assert [g.coordinates.tolist() for g in groups(step)] == [[0, 1], [2, 4], [3]]
-
-
-def test_contacts_tell_which_coordinates_move_which_of_them():
-    J = np.zeros((2, 4, 2))
-    J[[0, 1], 1, [0, 1]] = 1.0  # each contact moves with a coordinate of its own
-    frames = np.tile(np.eye(3), (2, 1, 1))
-    one, larger, other = (contacts_of(0.0, frames, j, 0.5).moving() for j in (J, 2 * J, J[::-1]))
-    assert one == larger != other
 
 
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
@@ -120,20 +107,3 @@ def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
     assert failure.value.length > ILL_POSED
     assert abs(failure.value.delta_q[4]) > 1e-3 * 2**19
     assert np.abs(failure.value.delta_q[:3]).max() > 1e3
-
-
-@pytest.mark.extra("fast")
-def test_groups_in_blocks_are_proved_and_verified(monkeypatch):
-    always_in_blocks(monkeypatch)
-    some = pile((3, 1, 2), gap=SIDE, yaw=1.0, backend="clarabel", certify="full")
-    result = some.simulator.step(some.q, np.zeros(0), some.force)
-    step = result.step
-    answer = result.solution
-    assert len(groups(step)) == 3
-    assert isinstance(step.contacts, SparseContacts)
-    assert verify(step, answer.delta_q, answer.certificate.active, answer.lam, answer.certificate)
-    dense = step.replace(contacts=changed(step.contacts))
-    assert [bits(g) for g in groups(dense)] == [bits(g) for g in groups(step)]
-    assert answer.delta_q.tobytes() == step_optimum(dense).delta_q.tobytes()
-    moved = np.nextafter(answer.delta_q, np.inf)
-    assert not verify(step, moved, answer.certificate.active)

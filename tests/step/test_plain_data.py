@@ -89,7 +89,6 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "gravity": (1.0, 2.0, 3.0),
         "gravity_acts": np.array([True, False]),
         "backend": "osqp",
-        "fast": False,
         "accuracy": 1e-7,
         "certify": "full",
         "cone": "product",

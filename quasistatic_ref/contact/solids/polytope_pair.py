@@ -22,8 +22,6 @@ def polytope_pair(
 ) -> Witness:
     """Signed distance, closest points and normal of two polytopes, in the frame of `a`.
 
-    In C: polytopes.c.
-
     Parameters
     ----------
     a, b : Polytope

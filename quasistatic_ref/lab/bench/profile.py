@@ -1,4 +1,4 @@
-"""Profiles of the step of ``bunny_grasp``: what its parts take, by backend and by distances."""
+"""What the parts of a step of ``bunny_grasp`` take, by backend."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -7,34 +7,26 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.bench.timing import seconds
-from quasistatic_ref.optional.fast.adapters.program import Adapter
-from quasistatic_ref.optional.fast.simulator import FastSimulator
-from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.optional.fast.library import missing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.solve.backends import DEFAULT, installed
-from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.solve.backends import QPSOLVERS
 
-BACKENDS = ("clarabel", "piqp", "osqp", "daqp")
-"""Two interior-point methods, operator splitting, and a dual active-set method."""
+DAQP = "daqp"
+BACKENDS = (
+    "clarabel", "piqp", "osqp", *(QPSOLVERS + name for name in ("clarabel", "piqp", "osqp")), DAQP,
+)  # fmt: skip
+"""Two interior-point methods and operator splitting, through CVXPY and through qpsolvers; and a
+dual active-set method, which `fast` calls by its own interface."""
 
-SOLVE = ("solver's call", "rest of the solve")
-"""The lap ``solve`` of the simulator's stopwatch, in two. The call is that of the solver's own
-interface: new data handed over, solution, its arrays copied. The rest makes the program in natural
-units and the answer (SI units, checks, and the certificate where one is given)."""
+SOLVE = ("the solver's own time", "rest of the solve")
+"""The lap ``solve`` of the simulator's stopwatch, in two: what the solver itself reports; and the
+program in natural units, the interface, and the answer in SI units."""
 
 PARTS = (*SOLVE, "distances", "rows", "integrate")
-"""Parts of a step. ``distances`` are the closest points, their selection and normals; ``rows`` are
+"""Parts of a step. ``distances`` are those of all points, their selection and normals; ``rows`` are
 J, M_u, tau, delta_q_bar_a, and A, b and g of them; ``integrate`` is the new configuration and its
 kinematics."""
-
-TRACKER, BRUTE_FORCE = "tracker", "brute force"
-"""Of which points the distances are: of short lists, as a simulator has it, or of all."""
-
-CERTIFIED = "full"
-UNCERTIFIED = "off"
 
 TURN = 10
 """Steps that one backend takes before the next one's turn: most of them find the processor's caches
@@ -43,191 +35,86 @@ as in a run of their own, and a drift of the machine's speed meets all backends 
 STEPS = 300
 """All of the grasp."""
 
-Microseconds = Mapping[str, float]
-"""Part of ``PARTS`` -> time [us]."""
-
-
-def share(times: Microseconds, *parts: str) -> float:
-    """Share of some parts in the sum of all [-]."""
-    return sum(times[part] for part in parts) / sum(times.values())
-
 
 class Profile(NamedTuple):
-    """The parts of a step of one backend.
+    """The parts of a step of one backend, nothing certified.
 
     Parameters
     ----------
-    backend, certify : str
-    distances : str
-        ``TRACKER`` or ``BRUTE_FORCE``.
-    typical, mean : mapping of str to float
-        Median and mean of each part over all steps [us].
+    backend : str
+    typical : mapping of str to float
+        Median of each part over all steps [us].
     """
 
     backend: str
-    certify: str
-    distances: str
-    typical: Microseconds
-    mean: Microseconds
-
-    @property
-    def name(self) -> str:
-        """Backend and distances, and whether the step is certified."""
-        certified = "" if self.certify == UNCERTIFIED else " certified"
-        return f"{self.backend}{certified}, {self.distances}"
+    typical: Mapping[str, float]
 
     @property
     def solve(self) -> float:
-        """Share of the whole solve in the typical step [-]."""
-        return share(self.typical, *SOLVE)
+        """Share of the whole solve in the step [-]."""
+        return sum(self.typical[part] for part in SOLVE) / sum(self.typical.values())
 
-
-class Profiles(NamedTuple):
-    """The profiles of all backends, which took turns.
-
-    Parameters
-    ----------
-    all : tuple of Profile
-    gap : float
-        Largest difference between tracker and brute force in a selected distance [m].
-    """
-
-    all: tuple[Profile, ...]
-    gap: float
-
-    def profile(self, backend: str, distances: str) -> Profile:
-        """The one profile with these properties, nothing certified."""
-        wanted = (backend, UNCERTIFIED, distances)
-        return next(p for p in self.all if (p.backend, p.certify, p.distances) == wanted)
+    @property
+    def alone(self) -> float:
+        """Share of the solver's own time in a step without its interface [-]."""
+        own, interface = (self.typical[part] for part in SOLVE)
+        return own / (sum(self.typical.values()) - interface)
 
 
 def step_profiles() -> dict[str, Any]:
     """Profiles of the steps of bunny_grasp, and how many signed distances a step evaluates."""
-    scenario = grasp_scenario(DEFAULT, UNCERTIFIED)
-    return {
-        "profiles": profiles(STEPS),
-        "all": all_distances(scenario),
-        "tracked": float(tracked_distances(scenario, STEPS).mean()),
-        "h": float(scenario.h),
-    }
+    scenario = grasp_scenario(DAQP)
+    shapes = [pair.beta.shape for pair in scenario.pairs]
+    distances = sum(len(shape.points) for shape in shapes if isinstance(shape, PointCloud))
+    return {"profiles": profiles(STEPS), "all": distances, "h": float(scenario.h)}
 
 
 @cache
-def profiles(steps: int) -> Profiles:
-    """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS`` that is there.
+def profiles(steps: int) -> tuple[Profile, ...]:
+    """Profiles of the first `steps` of the grasp, for every backend of ``BACKENDS``.
 
-    They are uncertified; Clarabel with a certificate is added.
+    Raises
+    ------
+    InputError
+        If there are no compiled steps.
     """
-    names = [name for name in BACKENDS if name in installed("native")]
-    runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]
-    everything = every_distance(grasp_scenario(DEFAULT, UNCERTIFIED))
-    brute = []
-    gaps = []
+    if (reason := missing()) is not None:
+        raise InputError(f"is measured where steps are compiled, but {reason}", field="fast")
+    runs = [_Run(name) for name in BACKENDS]
     for first in range(0, steps, TURN):
-        turn = range(first, min(first + TURN, steps))
         for run in runs:
-            taken = [run.step(k) for k in turn]
-        for q, phi in taken:  # those of the certified run
-            everything.poses.move(q)
-            brute.append(seconds(lambda: everything.contacts.find(everything.poses)))
-            gaps.append(np.abs(everything.numbers["phi"] - phi).max())
-    every = np.array(brute)
-    found = [p for run in runs for p in (run.profile(TRACKER), run.profile(BRUTE_FORCE, every))]
-    return Profiles(tuple(found), float(max(gaps)))
+            for k in range(first, min(first + TURN, steps)):
+                run.step(k)
+    return tuple(run.profile() for run in runs)
 
 
 class _Run:
     """A run of the grasp with one backend, and what the parts of its steps took."""
 
-    def __init__(self, backend: str, certify: str) -> None:
-        self.backend = backend
-        self.certify = certify
-        self.scenario = grasp_scenario(backend, certify)
-        self.simulator = compiled_simulator(self.scenario)
-        self.q = self.scenario.system.q_start
-        self.calls: list[float] = []
-        self.laps: list[list[float]] = []
-        # The solver that the simulator makes for itself, with a clock at the backend's call.
-        first = self.simulator.step(self.q, self.scenario.targets(self.scenario.h))
-        self.simulator.solver = solver = FastSolver(first.step, backend)
-        solver.adapter = _clocked(solver.adapter, self.calls)
+    def __init__(self, backend: str) -> None:
+        self._backend = backend
+        self._scenario = grasp_scenario(backend)
+        self._simulator = self._scenario.simulator()
+        self._q = self._scenario.system.q_start
+        self._laps: list[tuple[float, ...]] = []
 
-    def step(self, k: int) -> tuple[Array, Array]:
-        """Take step k: the configuration (n_q,) where it starts, and phi (n_c,) [m] there."""
-        self.calls.clear()
-        q = self.q
-        result = self.simulator.step(q, self.scenario.targets(self.scenario.h * (k + 1)))
-        self.q, lap, call = result.q, result.seconds, sum(self.calls)
-        solve = lap["solve"] + lap["proof"]
-        rest = (solve - call, lap["distances"], lap["rows"], lap["integrate"])
-        self.laps.append([call, *rest])
-        return q, result.points.phi
+    def step(self, k: int) -> None:
+        """Take step k."""
+        target = self._scenario.targets(self._scenario.h * (k + 1))
+        result = self._simulator.step(self._q, target)
+        self._q = result.q
+        lap = result.seconds
+        own = result.solution.statistics.solve_time or 0.0
+        laps = (own, lap["solve"] - own, lap["distances"], lap["rows"], lap["integrate"])
+        self._laps.append(laps)
 
-    def profile(self, distances: str, brute_force: Array | None = None) -> Profile:
-        """Median and mean of each part; with the times (n,) [s] of other distances, if given."""
-        times = dict(zip(PARTS, 1e6 * np.array(self.laps).T, strict=True))
-        if brute_force is not None:
-            times["distances"] = 1e6 * brute_force
-        typical = {part: float(np.median(t)) for part, t in times.items()}
-        mean = {part: float(np.mean(t)) for part, t in times.items()}
-        return Profile(self.backend, self.certify, distances, typical, mean)
+    def profile(self) -> Profile:
+        """Median of each part."""
+        medians = 1e6 * np.median(self._laps, axis=0)
+        return Profile(self._backend, dict(zip(PARTS, medians.tolist(), strict=True)))
 
 
-def _clocked(adapter: type[Adapter], calls: list[float]) -> type[Adapter]:
-    """The same adapter, which notes what each of its calls took [s]."""
-
-    def reply(self: Adapter, same_H: bool, warm: bool) -> Reply:
-        found: list[Reply] = []
-        calls.append(seconds(lambda: found.append(adapter.reply(self, same_H, warm))))
-        return found[0]
-
-    return type(adapter.__name__, (adapter,), {"reply": reply})
-
-
-def grasp_scenario(backend: str, certify: str) -> Scenario:
-    """``bunny_grasp``, solved by the backend's own interface."""
-    settings = (f"solver.backend={backend}", f"solver.certify={certify}", "record=light")
+def grasp_scenario(backend: str) -> Scenario:
+    """``bunny_grasp`` with `fast`, solved by a backend, nothing certified."""
+    settings = (f"solver.backend={backend}", "solver.certify=off", "record=light")
     return load_scenario("bunny_grasp", settings, fast=True)
-
-
-def all_distances(scenario: Scenario) -> int:
-    """Signed distances in a step by brute force: the points of each pair's cloud, added up."""
-    shapes = [pair.beta.shape for pair in scenario.pairs]
-    return sum(len(shape.points) for shape in shapes if isinstance(shape, PointCloud))
-
-
-def tracked_distances(scenario: Scenario, steps: int) -> Array:
-    """Signed distances that the tracker evaluates in each of the first `steps`, shape (steps,).
-
-    Those of its lists; and where a list does not suffice, those of all points of the pair, from
-    which a new one is made.
-    """
-    simulator = compiled_simulator(scenario)
-    q = scenario.system.q_start
-    total = np.zeros(1 + steps)
-    for k in range(steps):
-        q = simulator.step(q, scenario.targets(scenario.h * (k + 1))).q
-        total[k + 1] = sum(each.number("evaluated") for each in simulator.contacts.clouds)
-    return np.diff(total)
-
-
-def every_distance(scenario: Scenario) -> FastSimulator:
-    """A simulator whose lists are all points."""
-    simulator = compiled_simulator(scenario)
-    for each in simulator.contacts.clouds:
-        each.put({"width": each.number("points")})
-    return simulator
-
-
-def compiled_simulator(scenario: Scenario) -> FastSimulator:
-    """The simulator of a scenario with `fast`.
-
-    Raises
-    ------
-    InputError
-        If there is no compiler.
-    """
-    simulator = scenario.simulator()
-    if not isinstance(simulator, FastSimulator):
-        raise InputError("is measured where there is a compiler", field="fast")
-    return simulator

@@ -1,24 +1,17 @@
-"""Scenes of solids whose steps are measured: boxes in ordinary states, and a hand with a drum.
+"""The scenes whose steps are measured, each for this package and for MuJoCo."""
 
-Each is there for this package and for MuJoCo.
-"""
-
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
-from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.scenes.piles import SIDE as SIDE_IN_HEAP
-from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.scenes.systems import on_link, words
+from quasistatic_ref.lab.scenes.systems import on_link
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
@@ -31,26 +24,15 @@ MU_V = 0.5
 MU_OMEGA = 0.01
 """[m]"""
 H = 0.02
-"""Time step [s]."""
-
+"""Time step of boxes [s]."""
 SIDE = 0.04
-"""Of a cube [m]."""
+"""Of a box [m]."""
 MASS = 0.2
-"""Of a cube [kg]."""
+"""Of a box [kg]."""
 APART = 0.1
-"""From the middle of a cube to that of the next [m]."""
-PUSHES = {"rest": (0.0, 0.0), "sticks": (0.2, 0.0), "slides": (0.7, 0.0), "askew": (0.56, 0.42)}
-"""Of each lowest cube along x and y, as a share of its weight: friction holds half of it."""
-
-DENSITY = 800.0
-"""Of the boxes in the bin [kg/m^3]."""
-BIN = (0.11, 0.07)
-"""Half of the bin's length and width [m]."""
-FALL = 40
-"""Steps after which the boxes in the bin are at rest."""
-
-HAND = "hand with a drum"
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+"""From the middle of a box to that of the next [m]."""
+PUSH = (0.56, 0.42)
+"""Of each box along x and y, as a share of its weight; friction holds half of that."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,9 +45,9 @@ class Scene:
         Makes a simulator: of `certify` and `fast`.
     q : ndarray, shape (n_q,)
         Where its steps begin.
-    goals : list of ndarray, shape (n_q_a,)
-        The targets of the steps, of which the last is that of all further steps, too [m, rad].
-    force : float or ndarray, shape (n_v,)
+    target : callable
+        The target of a step that ends at a time [s], shape (n_q_a,) [m, rad].
+    force : ndarray, shape (n_v,)
         [N, N m].
     model : callable
         Makes MuJoCo's model, and its data, in which q and the loads are set.
@@ -73,188 +55,95 @@ class Scene:
 
     simulator: Callable[[str, bool], Simulator]
     q: Array
-    goals: list[Array]
-    force: Array | float
+    target: Callable[[float, Array], Array]
+    force: Array
     model: Callable[[], tuple[Any, Any]]
 
 
-@dataclass(frozen=True, eq=False)
-class Boxes:
-    """Free boxes between walls.
-
-    Parameters
-    ----------
-    half : ndarray, shape (n, 3)
-        Half edges [m].
-    mass : ndarray, shape (n,)
-        [kg].
-    walls : sequence of HalfSpace
-        The floor is one.
-    rows : int
-        Of each contact.
-    """
-
-    half: Array
-    mass: Array
-    walls: Sequence[HalfSpace] = (FLOOR,)
-    rows: int = 6
-
-    def system(self, xyz: Array) -> System:
-        """The boxes as bodies, aligned with the axes, at xyz (n, 3) [m]."""
-        each = zip(self.half.tolist(), self.mass.tolist(), xyz.tolist(), strict=True)
-        return System(
-            [
-                Body.of_shape(f"box{i}", Box(tuple(half)), mass, xyz=tuple(at))
-                for i, (half, mass, at) in enumerate(each)
-            ]
-        )
-
-    def pairs(
-        self, system: System, on_walls: Sequence[int], touching: Sequence[tuple[int, int]]
-    ) -> list[ContactPair]:
-        """Those of some boxes with each wall, and of boxes with each other; four contacts each."""
-        walls = [PlacedShape.in_world(f"wall{i}", wall) for i, wall in enumerate(self.walls)]
-        boxes = [
-            on_link(system, f"box{i}/solid", Box(tuple(half)))
-            for i, half in enumerate(self.half.tolist())
-        ]
-        shapes = [(wall, boxes[i]) for wall in walls for i in on_walls]
-        shapes += [(boxes[i], boxes[j]) for i, j in touching]
-        return [
-            ContactPair(f"{alpha.name}-{beta.name}", alpha, beta, MU_V, MU_OMEGA, self.rows, 4)
-            for alpha, beta in shapes
-        ]
-
-    def model(self, h: float, q: Array, force: Array) -> tuple[Any, Any]:
-        """MuJoCo's, at q (7 n,) under forces (6 n,) [N, N m]."""
-        mujoco: Any = import_module("mujoco")
-        walls = "".join(
-            f'<geom type="plane" size="0 0 1" pos="{words(wall.offset * wall.normal)}" '
-            f'zaxis="{words(wall.normal)}"/>'
-            for wall in self.walls
-        )
-        boxes = "".join(
-            f'<body><freejoint/><geom type="box" size="{words(half)}" mass="{mass!r}"/></body>'
-            for half, mass in zip(self.half, self.mass.tolist(), strict=True)
-        )
-        made = mujoco.MjModel.from_xml_string(
-            f'<mujoco><option timestep="{h}" cone="pyramidal"/>'
-            f'<default><geom condim="{self.rows // 2 + 1}" friction="{MU_V} {MU_OMEGA} 0.001"/>'
-            f"</default><worldbody>{walls}{boxes}</worldbody></mujoco>"
-        )
-        data = mujoco.MjData(made)
-        data.qpos[:] = q.reshape(-1, 7)[:, [0, 1, 2, 6, 3, 4, 5]].ravel()
-        data.xfrc_applied[1:] = force.reshape(-1, 6)
-        return made, data
-
-
-def cubes(stacks: int, height: int, rows: int, push: str) -> Scene:
-    """Stacks of cubes on a floor, which cannot touch each other; the lowest of each is pushed."""
-    count = stacks * height
-    boxes = Boxes(np.full((count, 3), SIDE / 2), np.full(count, MASS), rows=rows)
-    of, level = np.divmod(np.arange(count), height)
-    xyz = np.stack([APART * of, 0.0 * of, SIDE / 2 + SIDE * level], axis=1)
-    system = boxes.system(xyz)
-    lowest = np.flatnonzero(level == 0).tolist()
-    above = [(i - 1, i) for i in range(count) if i % height]
-    pairs = boxes.pairs(system, lowest, above)
-    force = np.zeros((count, 6))
-    force[lowest, :2] = MASS * GRAVITY * np.array(PUSHES[push])
-    return _free(H, system, pairs, system.q_start, force.ravel(), boxes)
-
-
-def heap() -> Scene:
-    """5 x 5 x 4 boxes, each known to those below and before it by points; the first is pushed."""
-    made = pile((5, 5, 4))
-    own = made.simulator
-    halves = np.full((made.bodies, 3), SIDE_IN_HEAP / 2)
-    boxes = Boxes(halves, np.full(made.bodies, 0.5))
-    return _free(own.h, own.system, own.pairs, made.q, made.force, boxes)
-
-
-def bin_of_boxes() -> Scene:
-    """24 boxes of random sizes, dropped into a bin without a turn, which are at rest there."""
-    rng = np.random.default_rng(24)
-    half = rng.uniform(0.012, 0.025, (24, 3))
-    xyz = np.array(
-        [
-            (0.052 * x, 0.07 * y, 0.04 + 0.06 * z)
-            for z in range(3)
-            for y in (-0.5, 0.5)
-            for x in (-1.5, -0.5, 0.5, 1.5)
-        ]
-    )
-    walls = [FLOOR]
-    for axis, far in enumerate(BIN):
-        walls += [HalfSpace(sign * np.eye(3)[axis], -far) for sign in (1.0, -1.0)]
-    boxes = Boxes(half, 8 * DENSITY * half.prod(axis=1), walls)
-    system = boxes.system(xyz)
-    pairs = boxes.pairs(system, range(24), [*combinations(range(24), 2)])
-    falling = _simulator(H, system, pairs, "off", fast=True)
-    q = system.q_start
-    for _ in range(FALL):
-        q = falling.step(q, np.zeros(0)).q
-    return _free(H, system, pairs, q, np.zeros(system.n_v), boxes)
-
-
-def _free(
-    h: float,
-    system: System,
-    pairs: Sequence[ContactPair],
-    q: Array,
-    force: Array,
-    boxes: Boxes,
-) -> Scene:
-    """A scene whose bodies are all free."""
-    simulator = partial(_simulator, h, system, pairs)
-    return Scene(simulator, q, [np.zeros(0)], force, lambda: boxes.model(h, q, force))
-
-
-def _simulator(
-    h: float, system: System, pairs: Sequence[ContactPair], certify: str, fast: bool
-) -> Simulator:
-    return Simulator(system, pairs, h=h, K_q=np.zeros((0, 0)), certify=certify, fast=fast)
-
-
-def hand() -> Scene:
-    """The scenario of a hand that turns a drum, once its fingers are on it."""
-    scenario = load_scenario("allegro_turn", ["record=light"])
+def grasp() -> Scene:
+    """``bunny_grasp``; MuJoCo's is a box of the bunny's mass between two fingers."""
+    scenario = load_scenario("bunny_grasp")
 
     def simulator(certify: str, fast: bool) -> Simulator:
         settings = [f"solver.certify={certify}", "record=light"]
-        return load_scenario("allegro_turn", settings, fast=fast).simulator()
+        return load_scenario("bunny_grasp", settings, fast=fast).simulator()
 
-    goals = [scenario.targets(scenario.h * (k + 1)) for k in range(scenario.steps)]
-    model = partial(hand_model, scenario.h, scenario.system, goals[50])
-    return Scene(simulator, scenario.system.q_start, goals, 0.0, model)
+    system = scenario.system
+    mass = system.mass("bunny")
+    return Scene(
+        simulator,
+        system.q_start,
+        lambda t, q: scenario.targets(t),
+        np.zeros(system.n_v),
+        partial(held_box, scenario.h, mass),
+    )
 
 
-def hand_model(h: float, system: System, goal: Array) -> tuple[Any, Any]:
-    """MuJoCo's model of the hand, held at a goal (n_q_a,) [rad], and of the drum."""
+def held_box(h: float, mass: float) -> tuple[Any, Any]:
+    """MuJoCo's: a box on a floor, which two fingers hold by 20 N.
+
+    Each of the three pairs has four contacts, of which those of the fingers have torsion.
+
+    Parameters
+    ----------
+    h : float
+        Time step [s].
+    mass : float
+        Of the box [kg].
+    """
+    friction = "0.6 0.003 0.001"
+    fingers = "".join(
+        f'<body pos="{0.0499 * side} 0 0.05"><joint name="{name}" type="slide" axis="{-side} 0 0"/>'
+        f'<geom type="box" size="0.01 0.03 0.03" mass="0.1" condim="4" friction="{friction}"/>'
+        "</body>"
+        for name, side in (("left", -1), ("right", 1))
+    )
+    motors = "".join(f'<motor joint="{name}" ctrlrange="0 20"/>' for name in ("left", "right"))
+    return _model(
+        f'<mujoco><option timestep="{h}" cone="pyramidal"/><worldbody>'
+        '<geom type="plane" size="0 0 1" condim="3"/>'
+        f'{fingers}<body pos="0 0 0.05"><freejoint/>'
+        f'<geom type="box" size="0.04 0.05 0.05" mass="{mass!r}" friction="{friction}"/></body>'
+        f"</worldbody><actuator>{motors}</actuator></mujoco>",
+        lambda data: data.ctrl.fill(20.0),
+    )
+
+
+def boxes(count: int) -> Scene:
+    """Boxes on a floor, which cannot touch each other; each is pushed along no axis, and slides."""
+    solid = Box((SIDE / 2,) * 3)
+    at = [(APART * i, 0.0, SIDE / 2) for i in range(count)]
+    system = System([Body.of_shape(f"box{i}", solid, MASS, xyz=xyz) for i, xyz in enumerate(at)])
+    floor = PlacedShape.in_world("floor", HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0))
+    shapes = [on_link(system, f"box{i}/solid", solid) for i in range(count)]
+    pairs = [ContactPair(f"floor-{one.name}", floor, one, MU_V, MU_OMEGA, 6, 4) for one in shapes]
+    push = np.array([*PUSH, 0.0, 0.0, 0.0, 0.0]) * MASS * GRAVITY
+    force = np.tile(push, count)
+
+    def simulator(certify: str, fast: bool) -> Simulator:
+        plain = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), certify=certify)
+        return FastSimulator(plain) if fast else plain
+
+    def model() -> tuple[Any, Any]:
+        bodies = "".join(
+            f'<body pos="{x} {y} {z}"><freejoint/><geom type="box" mass="{MASS}" '
+            f'size="{SIDE / 2} {SIDE / 2} {SIDE / 2}"/></body>'
+            for x, y, z in at
+        )
+        return _model(
+            f'<mujoco><option timestep="{H}" cone="pyramidal"/>'
+            f'<default><geom condim="4" friction="{MU_V} {MU_OMEGA} 0.001"/></default>'
+            f'<worldbody><geom type="plane" size="0 0 1"/>{bodies}</worldbody></mujoco>',
+            lambda data: data.xfrc_applied[1:].__setitem__(..., push),
+        )
+
+    return Scene(simulator, system.q_start, lambda t, q: np.zeros(0), force, model)
+
+
+def _model(text: str, load: Callable[[Any], object]) -> tuple[Any, Any]:
+    """MuJoCo's model of a text, and its data under a load."""
     mujoco: Any = import_module("mujoco")
-    hand = Path(system.bodies[0].urdf).read_text("utf-8")
-    text = re.sub("<visual>.*?</visual>", "", hand, flags=re.DOTALL)
-    spec = mujoco.MjSpec.from_string(text)
-    spec.compiler.balanceinertia = True
-    spec.option.timestep = h
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    for geom in spec.geoms:
-        geom.contype = geom.conaffinity = int(geom.type == mujoco.mjtGeom.mjGEOM_SPHERE)
-    for joint in spec.joints:
-        spec.add_actuator(
-            target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT, gainprm=[2.0, *[0.0] * 9],
-            biastype=mujoco.mjtBias.mjBIAS_AFFINE, biasprm=[0.0, -2.0, -0.1, *[0.0] * 7],
-        )  # fmt: skip
-    drum = spec.worldbody.add_body(pos=[0.055, 0.0, 0.0525])
-    drum.add_joint(type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, 1.0, 0.0])
-    drum.add_geom(
-        type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[0.03, 0.08, 0.0], mass=0.2,
-        quat=[np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0],
-    )  # fmt: skip
-    made = spec.compile()
-    data = mujoco.MjData(made)
-    places = {joint.name.removeprefix("hand/"): joint.q for joint in system.joints}
-    for i in range(made.nu):  # an actuator for each joint of the hand, in order
-        place = places[made.joint(i).name]
-        data.ctrl[i] = data.qpos[i] = goal[place].item()
-    return made, data
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    load(data)
+    return model, data

@@ -80,35 +80,30 @@ def boundary_layer(picture: Picture, within: Any = None) -> Figure:
 
 
 def step_time(picture: Picture) -> Figure:
-    """Parts of a step by backend, each with the tracker and with all distances, stacked."""
-    figure, (axes,) = panels(6.3, 3.9)
-    profiles = picture["profiles"].all
-    # Two bars of a backend touch, backends stand apart.
-    at = -np.array([k + 0.5 * (k // 2) for k in range(len(profiles))])
+    """Parts of a step by backend, stacked."""
+    figure, (axes,) = panels(6.3, 3.4)
+    profiles = picture["profiles"]
+    at = -np.arange(len(profiles))
     times = np.array([list(p.typical.values()) for p in profiles])
     whole = times.sum(axis=1)
     shares = 100 * times / whole[:, None]
     left = np.zeros(len(profiles))
     for part, width, grey in zip(profiles[0].typical, shares.T, GREYS, strict=True):
-        axes.barh(at, width, 0.9, left=left, label=part, color=grey, edgecolor="black",
+        axes.barh(at, width, 0.8, left=left, label=part, color=grey, edgecolor="black",
                   linewidth=scaled(0.5))  # fmt: skip
         left += width
     axes.axvline(50, color="black", linestyle=":", linewidth=scaled(1.2))
     for y, p, total in zip(at, profiles, whole, strict=True):
         text = f"{100 * p.solve:.0f} % of {_duration(total)}"
         axes.annotate(text, (102, y), va="center", annotation_clip=False)
-    names = [p.name.split(",")[0].replace(" ", "\n") for p in profiles[::2]]
-    axes.set_yticks((at[::2] + at[1::2]) / 2, names)
+    axes.set_yticks(at, [p.backend.replace("qpsolvers:", "qpsolvers:\n") for p in profiles])
     axes.grid(False)
     axes.set(xlim=(0, 100), xticks=range(0, 101, 25))
-    bars = (
-        f"upper bars: {picture['tracked']:.0f} distances by the tracker, lower bars: all "
-        f"{picture['all']}; right: share of the solve"
-    )
     label_axes(
         axes, "share of the time of a step, medians [%]", title=caption(picture["h"]), key=False
     )
-    legend_below([axes], axes.get_legend_handles_labels()[0], bars)
+    words = f"all {picture['all']} distances in each step; right: share of the solve"
+    legend_below([axes], axes.get_legend_handles_labels()[0], words)
     return figure
 
 

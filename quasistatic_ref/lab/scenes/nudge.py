@@ -6,6 +6,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import on_link, world_plane
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
@@ -27,7 +28,8 @@ def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
     own = on_link(system, "ball", shape)
     pair = ContactPair("floor", world_plane(), own, MU_V, MU_OMEGA, 6, 1)
-    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
+    simulator = Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)))
+    return FastSimulator(simulator), system.q_start
 
 
 def nudged_ball(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
@@ -49,7 +51,7 @@ def nudged_ball(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulato
         ContactPair("push", on_link(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
     ]
     K_q = np.diag([2000.0] * 3 + [20.0] * 3)
-    return Simulator(system, pairs, h=H, K_q=K_q, fast=True), system.q_start
+    return FastSimulator(Simulator(system, pairs, h=H, K_q=K_q)), system.q_start
 
 
 def points(*places: tuple[float, float, float]) -> PointCloud:

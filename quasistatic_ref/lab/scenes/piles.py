@@ -6,6 +6,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of, world_plane
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
@@ -101,12 +102,12 @@ def pile(
             _pair(boxes[clouds[i].link], clouds[j], k) for i, j in zip(before, after, strict=True)
         ]
     simulator = Simulator(
-        system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, fast=True, certify=certify
+        system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, certify=certify
     )
     force = np.zeros(system.n_v)
     force[0] = PUSH * index.size  # along x
     contacts = sum(pair.n_c for pair in pairs)
-    return Pile(simulator, system.q_start, force, index.size, contacts)
+    return Pile(FastSimulator(simulator), system.q_start, force, index.size, contacts)
 
 
 def _pair(alpha: PlacedShape, beta: PlacedShape, k: int) -> ContactPair:

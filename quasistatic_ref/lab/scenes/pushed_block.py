@@ -14,6 +14,7 @@ from quasistatic_ref.lab.scenes.systems import (
     system_of,
     world_plane,
 )
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -116,6 +117,6 @@ def pushed_block(
     ]
     simulator = Simulator(
         system, pairs, h=h, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
-        cone=cone, fast=True,
+        cone=cone,
     )  # fmt: skip
-    return PushedBlock(simulator, system.q_start)
+    return PushedBlock(FastSimulator(simulator), system.q_start)

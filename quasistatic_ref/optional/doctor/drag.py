@@ -79,8 +79,7 @@ def _without_doing(run: Run, k: int) -> list[Drag]:
         return []
     step = run.step_data(k)
     lighter = step.replace(M_u=step.M_u / SLOWER)
-    fast = getattr(run.simulator, "by_c", False)
-    found = _surely_small(run, k, lighter) if fast else None
+    found = _surely_small(run, k, lighter) if run.simulator.fast else None
     if found is not None:
         return found
     wrench: Array | None = wrenches(lighter)

@@ -105,7 +105,7 @@ def guided(start: Start) -> Iterator[Said]:
     """Contacts at the start that let a body crawl at most, once for each table and joint."""
     if start.points is None or not start.small:
         return
-    contacts = start.simulator.contacts_at(start.points, start.kinematics)
+    contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
     said: set[tuple[str, ...]] = set()
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)

@@ -77,7 +77,7 @@ class Run(Start):
         """The contacts of step k."""
         if k not in self._contacts:
             kinematics = self.system.kinematics(self["q"][k])
-            self._contacts[k] = self.simulator.contacts_at(self.points_of(k), kinematics)
+            self._contacts[k] = self.simulator.geometry.contacts(self.points_of(k), kinematics)
         return self._contacts[k]
 
     def step_data(self, k: int) -> StepData:

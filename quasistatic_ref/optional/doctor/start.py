@@ -101,8 +101,7 @@ class Start:
     @property
     def small(self) -> bool:
         """Whether all of J may be formed, and a step solved once more."""
-        in_blocks = getattr(self.simulator, "blocks", None) is not None  # of many bodies
-        return not in_blocks and 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
+        return 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
 
 
 def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:

@@ -14,7 +14,6 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.between import WITH_RISES
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.step.ordered import product
@@ -34,7 +33,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     contacts = step.contacts
     own = np.arange(n_v, n_v + p)
     M_u = np.zeros((step.n_u + p, step.n_u + p))
-    M_u[: step.n_u, : step.n_u] = whole(step.M_u)
+    M_u[: step.n_u, : step.n_u] = step.M_u
     M_u[step.n_u :, step.n_u :] = np.diag(rises.masses)
     J = np.concatenate([contacts.J, np.zeros((contacts.n_c, 4, p))], axis=2)
     J[rises.contacts, :3, own[c:]] = contacts.n[rises.contacts]
@@ -99,7 +98,7 @@ def private_rises(
             known = suggestion(name, numbers)
             raise InputError(f"is not a coordinate{known}", field="joint_friction", value=name)
     coordinates = [numbers[name] for name in friction]
-    heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(whole(system.M_u(system.q_start)))])
+    heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(system.M_u(system.q_start))])
     supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
     bodies = [system.mass(name) for name in support]
     weights = [-mass * gravity[2] for mass in bodies]

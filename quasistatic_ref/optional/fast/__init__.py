@@ -1,1 +1,1 @@
-"""All that exists only to be quick; every certified answer has the same bits without it."""
+"""The same steps in less time; every certified answer has the same bits without this folder."""

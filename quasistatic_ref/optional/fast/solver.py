@@ -1,27 +1,28 @@
-"""Solvers that keep what steps have in common."""
+"""DAQP called by its own interface, group by group, and kept between steps."""
 
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.between import FLOAT_BOUND, FloatBound
-from quasistatic_ref.optional.fast.adapters.program import Program
-from quasistatic_ref.optional.fast.backends import fast_backend
-from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
-from quasistatic_ref.optional.fast.second_order import ConeSolver
-from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
-from quasistatic_ref.solve.backends import RESIDUAL
+from quasistatic_ref.optional.fast.program import Program, Workspaces
+from quasistatic_ref.solve.backends import RESIDUAL, check_backend
 from quasistatic_ref.solve.prover import Prover
-from quasistatic_ref.solve.solver import FAST_SOLVER, Solver, solver_for
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import FAST_SOLVER, BackendSolver, OptionSet, Solver, solver_for
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    StepInBothUnits,
+    Units,
+)
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import BOUNDED
+
+DAQP = "daqp"
 
 
 def fast_solver(step: StepData, name: str | None = None) -> Solver:
-    """A solver of steps like this one, by the backend's own interface where it has one.
-
-    Any other backend is asked as without `fast`. Steps whose contacts are in blocks are handed over
-    in sparse matrices.
+    """DAQP by its own interface, where it is asked for by name or by default; others as without.
 
     Parameters
     ----------
@@ -29,14 +30,12 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     name : str, optional
         Of the backend.
     """
-    name = fast_backend(name, step.cone)
-    if name not in native_backends(step.cone):
-        return solver_for(step, name)
-    if cone(step.cone).curved is not None:
-        return ConeSolver(step, name)
-    if step.contacts.kept_columns is not None:
-        return SparseSolver(step, name)
-    return FastSolver(step, name)
+    polyhedral = cone(step.cone).polyhedral
+    if name is None:
+        name = DAQP if polyhedral else None
+    elif name == DAQP:
+        check_backend(name, step.cone)
+    return FastSolver(step) if name == DAQP else solver_for(step, name)
 
 
 class FastProver(Prover):
@@ -66,47 +65,67 @@ class FastProver(Prover):
         return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
 
 
-class FastSolver(NativeSolver):
-    """A backend's own interface, with what is kept while H stays.
+class FastSolver(BackendSolver):
+    """DAQP for steps of one kind; it starts from its answer to the step before.
 
     Parameters
     ----------
     template : StepData
-        A step of the kind that is to be solved, in a polyhedral cone.
+        A step of that kind, in a polyhedral cone.
     name : str
-        Of a backend with an adapter.
+        ``"daqp"``.
 
     Attributes
     ----------
+    program : Program
+        Of the groups of the step that was written last.
     written : Units or None
-        Natural units of the step whose g, A and b compiled code has written into the program.
+        Natural units of the step that a simulator has written into the program.
     """
 
-    prover: FastProver
+    interface = "native"
+    remembers = True
+    fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
-    def __init__(self, template: StepData, name: str) -> None:
+    def __init__(self, template: StepData, name: str = DAQP) -> None:
         super().__init__(template, name)
         self.prover = FastProver()
+        self.program = Program(groups(template))
         self.written: Units | None = None
+        self._hessian: HessianInBothUnits | None = None
+
+    def fits(self, step: StepData) -> bool:
+        """Whether a step is of that kind."""
+        own = self.template
+        # Steps of one run share their layout of rows: an identity test, which takes no time.
+        alike = step.row_layout is own.row_layout and step.tau_a.size == own.tau_a.size
+        alike = alike and step.tau_u.size == own.tau_u.size
+        return (alike and len(step.extra.names) == len(own.extra.names)) or super().fits(step)
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""
-        return DenseStepInBothUnits(step, self.hessian)
+        return DenseStepInBothUnits(step, self._hessian)
 
-    def write_program(self, both: StepInBothUnits) -> None:
-        """Write the program in natural units, unless compiled code has."""
+    def write(self, both: StepInBothUnits) -> None:
+        """Write the program, unless a simulator has."""
+        assert isinstance(both, DenseStepInBothUnits)
+        self._hessian = both.hessian
         if self.written is not both.units:
-            super().write_program(both)
+            if not self.program.has_all_of(both.natural_form):
+                self.program = Program(groups(both.si_step))
+            self.program.write(both.natural_form)
         self.written = None
 
-    def write(self, both: StepInBothUnits) -> Mask | None:
-        """Write the program, mostly the natural standard form; rows out of reach, shape (m,)."""
-        assert isinstance(both, DenseStepInBothUnits)
-        out_of_reach = super().write(both)
-        p = self.program
-        if out_of_reach is None and self.adapter.ORDER == "C" and isinstance(p, Program):
-            both.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
-        return out_of_reach
+    def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:
+        """One attempt, by the workspaces that are kept if the groups are those of before."""
+        assert self._hessian is not None
+        kept = option_set.kept
+        option_set.kept = None  # what has raised is set up again
+        if not isinstance(kept, Workspaces) or kept.program is not self.program:
+            kept = Workspaces(self.program, self._hessian, option_set.options)
+        reply = kept.reply(self._hessian)
+        option_set.kept = kept
+        return reply
 
 
 FAST_SOLVER.fill(fast_solver)

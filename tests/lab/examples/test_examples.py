@@ -12,7 +12,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import load_scenario, trajectory_read
-from quasistatic_ref.lab.bench import profile
 from quasistatic_ref.lab.examples.friction import both_laws, flat_patch
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.lab.examples.grasps import grasp, grasp_against_mu_omega, hold_or_slip
@@ -46,7 +45,6 @@ def runs_of_the_demo(demo, monkeypatch):
     if not is_missing("jax"):  # which the example imports
         plan = import_module("quasistatic_ref.lab.examples.gradients.plan_a_push")
         monkeypatch.setattr(plan, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
-    monkeypatch.setattr(profile, "STEPS", 20)
 
 
 @pytest.fixture(autouse=True)

@@ -11,7 +11,6 @@ import pandas
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.optional.fast.compiled.library import compiler
 
 DOCS = Path(__file__).parents[3] / "docs"
 FILES = {"add_your_solver": ("my_solver", "my_study"), "solver_in_any_language": ("hildreth",) * 2}
@@ -30,7 +29,7 @@ def commands(request, tmp_path, monkeypatch):
     for line in "".join(text for kind, text in blocks if kind == "sh").splitlines():
         words = shlex.split(line)
         if words[0] == "cc":
-            subprocess.run([*compiler(), *words[1:], "-Wall"], check=True)
+            subprocess.run(["cc", *words[1:], "-Wall"], check=True)
         else:
             assert main(words[1:]) == 0, line
     return blocks

@@ -27,7 +27,7 @@ from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution, sli
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
-from tests.helpers import in_blocks, point_on_floor, random_step, sphere_on_floor
+from tests.helpers import point_on_floor, random_step, sphere_on_floor
 from tests.oracles.planar_steps import planar_contacts, planar_step
 
 M = 0.3
@@ -143,14 +143,6 @@ def test_a_step_whose_convex_step_has_no_solution_needs_a_start():
     at_end = coulomb_step(step, start=[1e-3 * np.sin(1.0)] * 2)
     assert at_end.found
     assert at_end.delta_q == pytest.approx([0.0, 1e-3, 0.0], abs=1e-12)
-
-
-def test_contacts_in_blocks_have_the_same_step():
-    step = random_step(np.random.default_rng(3))
-    dense, blocks = (coulomb_step(one, "clarabel", fast=True) for one in (step, in_blocks(step)))
-    assert blocks.found
-    np.testing.assert_array_equal(blocks.delta_q, dense.delta_q)
-    np.testing.assert_array_equal(blocks.s, dense.s)
 
 
 def test_what_is_not_usable_is_refused_in_a_sentence():

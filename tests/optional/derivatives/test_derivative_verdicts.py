@@ -3,7 +3,17 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import Body, Box, Cylinder, PointCloud, Simulator, Sphere, System, derivatives
+from quasistatic_ref import (
+    Body,
+    Box,
+    Cylinder,
+    FastSimulator,
+    PointCloud,
+    Simulator,
+    Sphere,
+    System,
+    derivatives,
+)
 from quasistatic_ref.optional.derivatives.step import reason
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, H, free, verdict
@@ -101,7 +111,7 @@ def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
 
 def test_a_target_half_a_turn_away_is_named():
     system = System([Body("rail", WHEEL, actuated=("turn",))])
-    simulator = Simulator(system, [], h=H, K_q=np.eye(1), fast=True)
+    simulator = FastSimulator(Simulator(system, [], h=H, K_q=np.eye(1)))
     found = derivatives(simulator, np.array([1.0, 0.0]), np.array([-1.0, 0.0]))
     assert [why.kind for why in found.reasons] == [reason.HALF_TURN]
     assert np.isnan(found.dq_dq_bar_a).all()

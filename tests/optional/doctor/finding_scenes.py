@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from quasistatic_ref import (
+    FastSimulator,
     Body,
     Box,
     Capsule,
@@ -109,7 +110,9 @@ def findings(
         for x in shapes[a]
         for y in shapes[b]
     ]
-    simulator = Simulator(system, pairs, h=0.01, K_q=K_q * np.eye(system.n_a), fast=True, **more)
+    simulator = FastSimulator(
+        Simulator(system, pairs, h=0.01, K_q=K_q * np.eye(system.n_a), **more)
+    )
     force = (
         None
         if push is None

@@ -22,7 +22,6 @@ from quasistatic_ref.optional.doctor.drag import _surely_small
 from quasistatic_ref.tolerances import SLOW
 from tests.closeness import assert_relative
 from tests.helpers import changed, point_on_floor, sphere_on_floor
-from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
 
@@ -113,7 +112,7 @@ class OneStep:
         return {"delta_q": np.array([[1e-6, 0, 0, 0, 0, 0]])}[name]
 
 
-@needs_compiler
+@pytest.mark.extra("fast")
 def test_the_share_of_drag_is_not_sure_between_walls_that_may_press_by_any_force():
     """On the floor the ball's weight alone presses: m x / h^2 over mu_v m g is x / (mu_v g h^2)."""
     weight = (0, 0, -0.3 * G, 0, 0, 0)
@@ -126,7 +125,7 @@ def test_the_share_of_drag_is_not_sure_between_walls_that_may_press_by_any_force
     assert _surely_small(OneStep(between), 0, between) is None
 
 
-@needs_compiler
+@pytest.mark.extra("fast")
 def test_an_answer_whose_residuals_are_not_small_says_nothing_of_drag(monkeypatch):
     """Its multipliers are too large by a millionth."""
     step = sphere_on_floor(m=0.3, mu_v=0.5, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)

@@ -12,7 +12,6 @@ from quasistatic_ref.optional.doctor.run import wrenches
 from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, OF_TIME, of_task
 from quasistatic_ref.tolerances import SLOW
 from tests.closeness import assert_relative
-from tests.optional.fast.compiled.test_fast import needs_compiler
 from tests.tolerances import ROUNDING
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
@@ -63,7 +62,7 @@ def test_floats_leave_to_the_exact_method_what_is_to_be_said(words, scene, monke
     assert found[0] == found[1] != []
 
 
-@needs_compiler
+@pytest.mark.extra("fast")
 def test_what_floats_show_to_be_small_is_so_by_the_exact_method(monkeypatch):
     """Drag is 7.8 % of friction in the grasp, whose multipliers are not unique."""
     small = drag._surely_small

@@ -10,21 +10,17 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref import Extra, StepNotSolved, load_scenario, solve_step
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
-from quasistatic_ref.optional.large import float_bound, sparse
+from quasistatic_ref.optional.large import float_bound
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.outward import above, below, down, up
-from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
 from tests.closeness import assert_relative
-from tests.helpers import always_in_blocks, changed, error, in_blocks, point_on_floor, random_step
+from tests.helpers import point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
-from tests.optional.large.test_sparse import step_after
 from tests.oracles.random_steps import any_step
 from tests.tolerances import ROUNDING
 
@@ -34,25 +30,15 @@ FUZZED = 60
 RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0, -1.0)}
 
 
-def dense_bound_of(step, delta_q, lam):
-    """The bound of an answer in SI units by dense matrices; infinite where none is known."""
+def bound_of(step, delta_q, lam):
+    """The bound of an answer in SI units; infinite where none is known."""
     both = DenseStepInBothUnits(step)
     return FloatBound(both.hessian.natural_H).step_error(both, delta_q, lam)
 
 
-def sparse_bound_of(step, delta_q, lam):
-    """The same by sparse matrices."""
-    sparse = in_blocks(step)
-    solver = SparseSolver(sparse, "clarabel")
-    return solver.prover.error_bound(solver.in_both_units(sparse), delta_q, lam)
-
-
-BOTH = (dense_bound_of, sparse_bound_of)
-
-
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
     rng = np.random.default_rng(5)
-    bounded = np.zeros(2)
+    bounded = 0
     for _ in range(FUZZED):
         sizes = (int(v) for v in rng.integers((0, 1, 1), (3, 5, 4)))
         step = any_step(rng, *sizes, mass_ratio=rng.choice([1.0, 1e4, 1e9]))
@@ -67,40 +53,35 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
             continue
         for _ in range(3):
             answer = made_up(rng, step, exact, **RIGHT_OR_WRONG)
-            bounds = np.array([bound_of(step, *answer) for bound_of in BOTH])
-            assert all(within(step, exact, answer[0], bound, answer[1]) for bound in bounds)
-            bounded += bounds < 1
-    assert (bounded > FUZZED).all()
+            bound = bound_of(step, *answer)
+            assert within(step, exact, answer[0], bound, answer[1])
+            bounded += bound < 1
+    assert bounded > FUZZED
 
 
-def test_rows_of_the_user_s_own_are_bounded_in_dense_matrices():
+def test_rows_of_the_user_s_own_are_bounded():
     """A point on a floor is pulled against a wall, x <= 1e-3 m, and told to be a little beyond."""
     wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
     step = point_on_floor(force=(400.0, 0.0, -3.0)).replace(extra=wall)
     exact = step_optimum(step)
     beyond = exact.delta_q + np.array([1e-12, 0.0, 0.0])
-    bound = dense_bound_of(step, beyond, exact.lam)
+    bound = bound_of(step, beyond, exact.lam)
     assert 1e-12 / np.abs(exact.delta_q).max() < bound < 1e-6
     assert within(step, exact, beyond, bound, exact.lam)
 
 
-@pytest.mark.parametrize("module", [float_bound, sparse])
-def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(module, monkeypatch):
+def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(monkeypatch):
     """Each entry of a point's A, whose J is I, has a single term: its size is the entry's own."""
-    step = point_on_floor(force=(400.0, 0.0, -3.0))
-    if module is float_bound:  # in sparse matrices there are no rows of a user's own
-        wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
-        step = step.replace(extra=wall)
-    given = []
-    sizes_of = module.step_sizes
+    wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
+    step = point_on_floor(force=(400.0, 0.0, -3.0)).replace(extra=wall)
+    sizes = []
+    sizes_of = float_bound.step_sizes
     monkeypatch.setattr(
-        module, "step_sizes", lambda of, A, units: given.append(A) or sizes_of(of, A, units)
+        float_bound, "step_sizes", lambda of, A, units: sizes.append(A) or sizes_of(of, A, units)
     )
     exact = step_optimum(step)
-    bound_of = BOTH[module is sparse]
     assert bound_of(step, exact.delta_q, exact.lam) < 1e-6
-    A = csc_matrix(given[0]).toarray()
-    assert_relative(A, np.abs(DenseStepInBothUnits(step).natural_form.A), ROUNDING)
+    assert_relative(sizes[0], np.abs(DenseStepInBothUnits(step).natural_form.A), ROUNDING)
 
 
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
@@ -131,26 +112,7 @@ def test_a_direction_is_kept_while_it_opens_the_rows_that_are_violated(monkeypat
     assert 1 <= len(sought) <= 5
 
 
-@pytest.mark.extra("fast")
-def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch):
-    always_in_blocks(monkeypatch)
-    some = pile((2, 1, 2), backend="clarabel", certify="residual")
-    result = step_after(some, 3)
-    step = result.step
-    answer = result.solution
-    assert type(step.contacts) is SparseContacts
-    bound = answer.certificate.error_bound
-    exact = step_optimum(step)
-    assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
-    assert within(step, exact, answer.delta_q, bound, answer.lam)
-    dense = error_bound(step, answer.delta_q, answer.lam)
-    assert dense / 10 < bound < 10 * dense
-    again = solve_step(step.replace(contacts=changed(step.contacts)), "clarabel", certify="off")
-    assert error(step, again.delta_q, answer.delta_q) <= 2 * bound
-
-
-@pytest.mark.parametrize("bound_of", BOTH)
-def test_what_is_wedged_broken_or_too_large_has_no_bound(bound_of):
+def test_what_is_wedged_broken_or_too_large_has_no_bound():
     A = csc_matrix(np.array([[1.0, 0.0], [-1.0, 0.0]]))
     assert opening(A, np.zeros(2)) is None
     assert opening(A, np.array([0.0, 1e3])) is not None  # the other wall is far away

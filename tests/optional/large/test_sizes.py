@@ -25,12 +25,11 @@ from quasistatic_ref.optional.large.sizes import (
     step_sizes,
     term_sizes,
 )
-from quasistatic_ref.optional.large.sparse import LargeSteps
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.friction import scaled_by
 from tests.closeness import assert_relative
-from tests.helpers import in_blocks, random_step
+from tests.helpers import random_step
 
 CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]
 
@@ -141,20 +140,13 @@ def test_a_bound_is_not_below_gamma_over_one_minus_gamma(terms):
 
 
 @pytest.mark.parametrize("cone", CONES)
-@pytest.mark.parametrize("blocks", [False, True])
-def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone, blocks):
-    """Of a step in any units, as a bound of its error takes them, in dense and sparse matrices."""
+def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone):
+    """Of a step in any units, as a bound of its error takes them."""
     taken = []
     monkeypatch.setattr(FloatBound, "error", lambda _, form, sizes, x, lam: taken.append(sizes))
     step = random_step(np.random.default_rng(2)).replace(cone=cone)
     both = DenseStepInBothUnits(step)
-    if blocks:
-        step = in_blocks(step)
-        kind = LargeSteps(step)
-        both = kind.in_both_units(step)
-        kind.error_bound(both, np.zeros(step.n_v), np.zeros(step.m))
-    else:
-        FloatBound(both.hessian.natural_H).step_error(both, np.zeros(step.n_v), np.zeros(step.m))
+    FloatBound(both.hessian.natural_H).step_error(both, np.zeros(step.n_v), np.zeros(step.m))
     (sizes,) = taken
     S, ell, rho = both.units
     c = step.contacts
@@ -163,8 +155,7 @@ def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone, blocks)
     scaled = [own[0], *(c.mu[:, i, None] * own[i + 1] for i in range(3))]
     cones = np.abs(np.stack(cone_function(cone)(*np.eye(4))))
     bar = np.einsum("ri,icv->crv", cones, scaled)[step.mask] * S / ell
-    A = sizes.A.toarray() if blocks else sizes.A
-    assert_relative(A, bar, 1e-14)
+    assert_relative(sizes.A, bar, 1e-14)
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a) + np.abs(step.tau_a)
     load = step.h * np.concatenate([spring, np.abs(step.tau_u)]) * S / rho
     assert_relative(sizes.load, load, 1e-14)

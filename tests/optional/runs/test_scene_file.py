@@ -57,7 +57,7 @@ def motion(simulator, steps=5):
 
 
 def test_a_scene_is_loaded_as_it_was_written_and_moves_alike(tmp_path):
-    simulator = scene(fast=True, gravity_acts=np.array([True]))
+    simulator = qr.FastSimulator(scene(gravity_acts=np.array([True])))
     path = qr.scenario_written(simulator, tmp_path / "new" / "scene.toml", steps=7)
     loaded = qr.load_scenario(path)
     assert loaded.steps == 7

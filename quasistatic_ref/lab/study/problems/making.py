@@ -20,7 +20,9 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
+
+SPARSE_FROM = 10_000
+"""Entries of a step's J, 4 n_c n_v, from which its problem is tagged as sparse."""
 
 
 def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
@@ -119,7 +121,7 @@ def problem_of(
     units = units_of(form, hessian_in_both_units(form.H))
     problem = Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
     numbers = measures(problem)
-    sparse = [SPARSE] * (step.contacts.J.size >= SPARSE_FROM_PIQP)
+    sparse = [SPARSE] * (step.contacts.J.size >= SPARSE_FROM)
     facts |= {"tags": [*tags(problem, numbers), *sparse], "measures": numbers}
     return problem
 

@@ -1,0 +1,108 @@
+"""Six figures of a scene, side by side: what a step takes, and a step of a whole run."""
+
+import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from importlib import import_module
+from importlib.util import find_spec
+
+import numpy as np
+
+from quasistatic_ref.lab.bench.scenes import Scene, boxes, grasp
+from quasistatic_ref.lab.bench.timing import Job, in_turn, microseconds
+from quasistatic_ref.simulate.rollout import rollout
+
+OFF = "off"
+PROVED = "full"
+PLAIN = "plain step"
+STEP = "fast step, unproved"
+PROVED_STEP = "fast step, proved"
+RUN = "run, unproved"
+PROVED_RUN = "run, proved"
+MUJOCO = "MuJoCo's step"
+FIGURES = (PLAIN, STEP, PROVED_STEP, RUN, PROVED_RUN, MUJOCO)
+"""Medians of a step, and of a whole run with `fast` and a light record the least time by the wall,
+divided by its steps [us]. The plain step is proved, as it is by default."""
+
+SCENES: Mapping[str, tuple[Callable[[], Scene], int]] = {
+    "the grasp": (grasp, 300),
+    "10 boxes": (partial(boxes, 10), 30),
+    "40 boxes": (partial(boxes, 40), 15),
+    "200 boxes": (partial(boxes, 200), 6),
+}
+"""Each scene, and how many of its steps are taken."""
+REPEAT = 5
+"""Runs of a scene; of each step the least time is kept."""
+MOST_PLAIN = 7 * 40
+"""Entries of q up to which the plain path is measured; CVXPY takes minutes for 200 boxes."""
+
+
+class Steps:
+    """The steps of a simulator along its scene, each from where the last one ended."""
+
+    def __init__(self, scene: Scene, certify: str, fast: bool) -> None:
+        self._scene = scene
+        self._simulator = scene.simulator(certify, fast)
+        self._q = scene.q
+        self._k = 0
+
+    def step(self) -> None:
+        """Take the next one."""
+        self._k += 1
+        target = self._scene.target(self._simulator.h * self._k, self._q)
+        self._q = self._simulator.step(self._q, target, self._scene.force).q
+
+
+def figures(scene: Scene, steps: int, repeat: int) -> dict[str, float]:
+    """The figures of a scene [us], by name; MuJoCo's where that is installed.
+
+    Parameters
+    ----------
+    scene : Scene
+    steps : int
+        Of each run.
+    repeat : int
+        Number of runs; the plain path has one.
+    """
+    fast = {STEP: OFF, PROVED_STEP: PROVED}
+    runs: list[dict[str, Job]] = []
+    for turn in range(repeat):
+        jobs: dict[str, Job] = {what: Steps(scene, kind, True).step for what, kind in fast.items()}
+        if turn == 0 and len(scene.q) <= MOST_PLAIN:
+            jobs[PLAIN] = Steps(scene, PROVED, False).step
+        if find_spec("mujoco") is not None:
+            jobs[MUJOCO] = _mujoco_step(scene)
+        runs.append(jobs)
+    taken = [in_turn([jobs] * steps) for jobs in runs]
+    medians = {
+        name: microseconds(np.minimum.reduce([times[name] for times in taken if name in times]))
+        for name in runs[0]
+    }
+    whole = {RUN: OFF, PROVED_RUN: PROVED}
+    for what, kind in whole.items():
+        medians[what] = 1e6 * min(_wall(scene, kind, steps) for _ in range(repeat)) / steps
+    return {name: medians[name] for name in FIGURES if name in medians}
+
+
+def _wall(scene: Scene, certify: str, steps: int) -> float:
+    """Wall time of a run with all that it says [s]; its simulator is made before."""
+    simulator = scene.simulator(certify, True)
+    start = time.perf_counter()
+    run = rollout(
+        simulator, scene.q, scene.target, steps,
+        force=lambda t, q: scene.force, record="light", progress=False,
+    )  # fmt: skip
+    len(run.findings)
+    return time.perf_counter() - start
+
+
+def _mujoco_step(scene: Scene) -> Job:
+    """A step of MuJoCo from rest: with velocities, boxes that slide leave the floor."""
+    step = import_module("mujoco").mj_step
+    model, data = scene.model()
+
+    def from_rest() -> None:
+        step(model, data)
+        data.qvel[:] = 0.0
+
+    return from_rest

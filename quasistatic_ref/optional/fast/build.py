@@ -1,0 +1,73 @@
+"""The library of the C files: made when the package is installed, by hatch_build.py.
+
+It needs nothing but Python and a C compiler. ``python quasistatic_ref/optional/fast/build.py``
+makes the library of a checkout that is not installed.
+"""
+
+import hashlib
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).parent
+SOURCE = FOLDER / "source"
+LIBRARY = FOLDER / "compiled.so"
+PROBLEM = FOLDER / "not_compiled.txt"
+"""Why there is no library, in words; made in its place."""
+FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-shared", "-fPIC")
+"""The third: no compiler may join a product and a sum that the source keeps apart. The fourth: a
+square root is one instruction, of several numbers at once."""
+
+
+def digest() -> str:
+    """What follows from all that the library is made of; it carries this."""
+    files = sorted(SOURCE.glob("*.[ch]"))
+    text = b"\0".join(part for file in files for part in (file.name.encode(), file.read_bytes()))
+    return hashlib.sha256(text + repr(FLAGS).encode()).hexdigest()[:32]
+
+
+def problem() -> str | None:
+    """Make the library; why that failed, in words, or None."""
+    try:
+        compiler = shlex.split(os.environ.get("CC", "")) or [
+            path for path in [shutil.which("cc")] if path
+        ]
+    except ValueError as error:
+        return f"$CC cannot be read as a command: {error}"
+    if not compiler and (system := shutil.which("cc")) is not None:
+        compiler = [system]
+    if not compiler:
+        return "there was no C compiler, cc or $CC"
+    files = [str(file) for file in sorted(SOURCE.glob("*.c"))]
+    made = LIBRARY.with_suffix(".made")
+    command = [*compiler, *FLAGS, f'-DDIGEST="{digest()}"', "-o", str(made), *files, "-lm"]
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, errors="replace", check=False
+        )
+    except OSError as error:
+        return f"{compiler[0]} cannot be run: {error.strerror}"
+    if done.returncode or not made.exists():
+        lines = [line for line in done.stderr.splitlines() if "error" in line]
+        why = lines[0].strip() if lines else f"exit status {done.returncode}"
+        return f"{compiler[0]} could not compile it: {why}"
+    made.replace(LIBRARY)
+    return None
+
+
+def build() -> Path:
+    """Make the library, or the file that says why there is none; which of both."""
+    for file in (LIBRARY, PROBLEM):
+        file.unlink(missing_ok=True)
+    why = problem()
+    if why is None:
+        return LIBRARY
+    PROBLEM.write_text(why, encoding="utf-8")
+    return PROBLEM
+
+
+if __name__ == "__main__":
+    sys.exit(None if build() == LIBRARY else PROBLEM.read_text("utf-8"))

@@ -1,0 +1,122 @@
+"""The closest points of all pairs: of clouds on simple solids by C, of all others by the core."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.separations import OWN
+from quasistatic_ref.optional.fast.library import Structure, library
+from quasistatic_ref.optional.fast.poses import Poses
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
+from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.step.data import Array, Indices
+
+
+def solid_size(pair: ContactPair) -> Array | None:
+    """The four numbers that fast.h wants of the solid under a cloud; None where C does not know it.
+
+    Returns
+    -------
+    ndarray, shape (4,), or None
+        Half extents of the core and the ball's radius [m]; or normal [-] and offset [m].
+    """
+    a, b = pair.alpha.shape, pair.beta.shape
+    if not pair.has_cloud:
+        return None
+    solid = b if isinstance(a, PointCloud) else a
+    if isinstance(solid, HalfSpace):
+        return np.array([*solid.normal, solid.offset])
+    return np.array([*solid.core[0], solid.core[1]]) if isinstance(solid, Rounded) else None
+
+
+def cloud(
+    pair: ContactPair, size: Array, poses: Poses, written: dict[str, Array | Indices]
+) -> Structure:
+    """``Cloud`` of fast.h.
+
+    Parameters
+    ----------
+    pair : ContactPair
+    size : ndarray, shape (4,)
+        Of its :func:`solid_size` [m; -].
+    poses : Poses
+    written : dict of str to ndarray
+        Where its contacts go, shapes (n_c,) and (n_c, 3) [m; of a normal -].
+    """
+    first = isinstance(pair.alpha.shape, PointCloud)
+    side, other = (pair.alpha, pair.beta) if first else (pair.beta, pair.alpha)
+    assert isinstance(side.shape, PointCloud)
+    points = side.shape.points
+    fields: dict[str, int | Array | Indices] = {
+        "is_half_space": int(isinstance(other.shape, HalfSpace)),
+        "cloud_is_alpha": int(first),
+        "points": len(points),
+        "count": pair.n_c,
+        "size": size,
+        "resolution": np.array([pair.resolution]),
+        "solid_on_link": np.column_stack([other.R, other.t]),
+        "cloud_on_link": np.column_stack([side.R, side.t]),
+        "point": points.T,
+        "distance": np.zeros(len(points)),
+        **written,
+    }
+    addresses = {
+        "R_solid": int(poses.R[other.link]),
+        "t_solid": int(poses.t[other.link]),
+        "R_cloud": int(poses.R[side.link]),
+        "t_cloud": int(poses.t[side.link]),
+    }
+    return Structure("Cloud", fields, addresses)
+
+
+class Closest:
+    """Writes the contacts of all pairs, in order.
+
+    Parameters
+    ----------
+    pairs : sequence of ContactPair
+    poses : Poses
+    written : ClosestPoints
+        Where they go.
+    """
+
+    def __init__(self, pairs: Sequence[ContactPair], poses: Poses, written: ClosestPoints) -> None:
+        self._poses = poses
+        self._by_c: list[tuple[Structure, ContactPair, ClosestPoints]] = []
+        self._by_core: list[tuple[ContactPair, ClosestPoints]] = []
+        end = 0
+        for pair in pairs:
+            start = end
+            end += pair.n_c
+            own = ClosestPoints._make(field[start:end] for field in written)
+            size = solid_size(pair)
+            if size is None:
+                self._by_core.append((pair, own))
+            else:
+                names: dict[str, Array | Indices] = {
+                    "phi": own.phi,
+                    "n": own.n,
+                    "alpha": own.alpha,
+                    "beta": own.beta,
+                    "index": own.point,
+                }
+                self._by_c.append((cloud(pair, size, poses, names), pair, own))
+
+    def write(self) -> None:
+        """Write the contacts at the poses; ContactError as of ``closest_points``."""
+        left = self._by_core
+        compiled = library().closest_of_cloud
+        for structure, pair, own in self._by_c:
+            if compiled(structure.pointer):
+                own.tie[:] = OWN
+            else:
+                left = [*left, (pair, own)]
+        if left:
+            kinematics = self._poses.kinematics()
+            check_finite(kinematics.R, kinematics.t)
+            for pair, own in left:
+                contacts = pair_closest_points(pair, kinematics.R, kinematics.t)
+                for field, values in zip(own, contacts, strict=True):
+                    field[:] = values + 0.0 if field is own.phi or field is own.n else values

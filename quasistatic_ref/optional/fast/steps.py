@@ -1,0 +1,238 @@
+"""The data of a simulator's steps, formed in C: right by construction, and not checked again."""
+
+from operator import itemgetter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.optional.fast.closest import Closest
+from quasistatic_ref.optional.fast.library import Structure, library
+from quasistatic_ref.optional.fast.poses import Poses
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.arrays import read_only
+from quasistatic_ref.step.cones import cone, cone_function, cone_matrix
+from quasistatic_ref.step.contacts import Contacts, friction_coefficients
+from quasistatic_ref.step.data import Array, Indices, StepData, hessian, no_rows, row_layout
+from quasistatic_ref.step.pivots import positive_definite
+from quasistatic_ref.step.standard_form import StandardForm
+
+FRAMES = ("d1", "d2", "J", "tau", "g")
+PARTS = itemgetter(*ClosestPoints._fields, *FRAMES)
+"""What C writes of a step."""
+
+
+class KeptColumns:
+    """The columns of J that can differ from zero, of each contact.
+
+    Parameters
+    ----------
+    simulator : Simulator
+
+    Attributes
+    ----------
+    fields : dict
+        Of ``Rows`` of fast.h.
+    pattern : ndarray, shape (n_c, 4, n_v)
+        1.0 in the kept columns, else 0.0.
+    """
+
+    def __init__(self, simulator: Simulator) -> None:
+        layout = simulator.layout
+        owner = simulator.system.column_map.owner
+        moves = simulator.system.column_map.moves[:, 0]
+        n_c = len(layout.rows)
+        both = zip(moves[layout.link_alpha], moves[layout.link_beta], strict=True)
+        joints = [np.flatnonzero((a > 0) | (b > 0)) for a, b in both]
+        kept = [np.unique(owner[own]) for own in joints]
+        most_joints = max(map(len, joints), default=0)
+        most_kept = max(map(len, kept), default=0)
+        shapes = {"joint": most_joints, "place": most_joints, "coordinate": most_kept}
+        indices = {name: np.zeros((n_c, width), np.int64) for name, width in shapes.items()}
+        sides = {name: np.zeros((n_c, most_joints)) for name in ("moves_alpha", "moves_beta")}
+        self.pattern = np.zeros((n_c, 4, simulator.system.n_v))
+        for c, (own, coordinates) in enumerate(zip(joints, kept, strict=True)):
+            indices["joint"][c, : len(own)] = own
+            indices["place"][c, : len(own)] = np.searchsorted(coordinates, owner[own])
+            indices["coordinate"][c, : len(coordinates)] = coordinates
+            sides["moves_alpha"][c, : len(own)] = moves[layout.link_alpha[c], own]
+            sides["moves_beta"][c, : len(own)] = moves[layout.link_beta[c], own]
+            self.pattern[c, :, coordinates] = 1.0
+        self.kept = np.array(list(map(len, kept)), np.int64)
+        self.coordinate = indices["coordinate"]
+        self.most_joints = most_joints
+        self.most_kept = most_kept
+        self.fields: dict[str, int | NDArray[Any]] = {
+            "most_joints": most_joints,
+            "most_kept": most_kept,
+            "joints": np.array(list(map(len, joints)), np.int64),
+            "kept": self.kept,
+            **indices,
+            **sides,
+        }
+
+
+def cone_terms(name: str) -> dict[str, Array | Indices]:
+    """Coefficients of slip_1, slip_2 and spin in a cone's rows [-], and which terms exist; (R, 3).
+
+    A term with coefficient zero differs from no term: it can change the sign of a zero.
+    """
+    of_nan = cone_function(name)(0.0, *np.where(np.eye(3) > 0, np.nan, 0.0))
+    has = np.isnan(np.array([np.broadcast_to(row, 3) for row in of_nan]))
+    return {"coefficient": cone_matrix(name)[:, 1:], "has": has.astype(np.int64)}
+
+
+class Steps:
+    """The steps of a simulator, one after the other.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    poses : Poses
+        From which a step is formed.
+
+    Attributes
+    ----------
+    template : StepData
+        A step of that kind, whose J has 1.0 where it can differ from zero.
+    kept : KeptColumns
+    rows : Structure
+        ``Rows`` of fast.h; what C writes is overwritten by the next step.
+    """
+
+    def __init__(self, simulator: Simulator, poses: Poses) -> None:
+        system = simulator.system
+        layout = simulator.layout
+        n_a = system.n_a
+        n_v = system.n_v
+        n_c = len(layout.rows)
+        self._poses = poses
+        self._layout = layout
+        self._mass = system.varying_mass
+        self._gravity = tuple(simulator.gravity.tolist())
+        self._polyhedral = cone(simulator.cone).polyhedral
+        M_u = read_only(system.M_u(system.q_start) + 0.0)
+        rows = row_layout(simulator.cone, layout.rows.tobytes())
+        self._of_all: dict[str, object] = {
+            "h": simulator.h,
+            "cone": simulator.cone,
+            "K_q": simulator.K_q,
+            "M_u": positive_definite("M_u", M_u),
+            "extra": no_rows(n_v),
+            "H": hessian(simulator.h, simulator.K_q, M_u),
+            "row_layout": rows,
+        }
+        mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        self._of_contacts = {
+            "mu_v": layout.mu_v,
+            "mu_omega": layout.mu_omega,
+            "rows": layout.rows,
+            "mu": mu,
+        }
+        self._dtype = np.dtype(
+            [
+                *((name, np.int64, (n_c,)) for name in ("point", "tie")),
+                ("phi", np.float64, (n_c,)),
+                *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
+                ("J", np.float64, (n_c, 4, n_v)),
+                ("tau", np.float64, (n_v,)),
+                ("g", np.float64, (n_v,)),
+            ]
+        )
+        self._bytes = np.zeros(self._dtype.itemsize, np.uint8)
+        written = np.ndarray((), self._dtype, self._bytes)
+        self._closest = Closest(
+            simulator.pairs,
+            poses,
+            ClosestPoints._make(written[name] for name in ClosestPoints._fields),
+        )
+        self.kept = kept = KeptColumns(simulator)
+        counts = rows.counts if self._polyhedral else np.zeros(n_c, np.int64)
+        m = int(counts.sum())
+        self._force = np.zeros(n_v)
+        self._change = np.zeros(n_a)
+        self.rows = Structure(
+            "Rows",
+            {
+                "n_c": n_c, "n_v": n_v, "n_a": n_a, **kept.fields,
+                "column": poses.columns, "gravity": poses.gravity,
+                "rows": counts, "mu_v": mu[:, 0], "mu_omega": mu[:, 2],
+                **(cone_terms(simulator.cone) if self._polyhedral else {}),
+                "h": np.array([simulator.h]), "weighs": simulator.gravity_factor,
+                "force": self._force, "K_q": simulator.K_q, "delta_q_bar_a": self._change,
+                **{name: written[name] for name in ("phi", "n", "alpha", "beta", *FRAMES)},
+                "work": np.zeros(14 * kept.most_joints + 8 * kept.most_kept),
+                "kept_A": np.zeros((m, kept.most_kept)), "A": np.zeros((m, n_v)), "b": np.zeros(m),
+            },
+        )  # fmt: skip
+        self._A = self.rows["A"]
+        self._b = self.rows["b"]
+        self._names: tuple[list[int], tuple[str, ...]] = [], ()
+        self.template = self._step(self._names_of([0] * n_c), written, np.zeros(n_a), kept.pattern)
+
+    def closest(self) -> None:
+        """Write the closest points at the poses; ContactError as of ``closest_points``."""
+        self._closest.write()
+
+    def form(self, change: Array, force: Array) -> tuple[StepData, StandardForm, ClosestPoints]:
+        """The step from the poses and their closest points, with its matrices.
+
+        A and b of the matrices are overwritten by the next step; in a curved cone they are empty.
+
+        Parameters
+        ----------
+        change : ndarray, shape (n_a,)
+            delta_q_bar_a [m, rad].
+        force : ndarray, shape (n_v,)
+            In addition to gravity [N, N m].
+
+        Raises
+        ------
+        StepDataError
+            If M_u is not positive definite.
+        """
+        compiled = library()
+        self._force[:] = force
+        self._change[:] = change
+        self._poses.weigh(self._gravity)
+        compiled.contact_rows(self.rows.pointer)
+        compiled.load(self.rows.pointer)
+        if self._mass is not None:
+            self._with_mass(self._mass.at(self._poses.kinematics()))
+        # A copy of the bytes is read-only; copying field by field takes ten times as long.
+        written = np.ndarray((), self._dtype, self._bytes.tobytes())
+        *closest, _, _, J, _, g = PARTS(written)
+        points = ClosestPoints(*closest)
+        names = self._names_of(points.point.tolist())
+        step = self._step(names, written, read_only(change), J)
+        return step, StandardForm(step.H, g, self._A, self._b), points
+
+    def _names_of(self, point: list[int]) -> tuple[str, ...]:
+        names = self._names
+        if point != names[0]:
+            self._names = names = point, self._layout.contact_names(np.array(point, np.int64))
+        return names[1]
+
+    def _with_mass(self, M_u: Array) -> None:
+        """Take over an M_u, (n_u, n_u) [kg, kg m^2]; StepDataError if it is not definite."""
+        of_all = self._of_all
+        if M_u is not of_all["M_u"]:
+            positive_definite("M_u", M_u)
+            H = hessian(self.template.h, self.template.K_q, M_u)
+            self._of_all = {**of_all, "M_u": M_u, "H": H}
+
+    def _step(
+        self, names: tuple[str, ...], written: NDArray[Any], change: Array, J: Array
+    ) -> StepData:
+        own = {name: written[name] for name in ("phi", "n", "d1", "d2")}
+        contacts = Contacts.unchecked(name=names, J=J, **own, **self._of_contacts)
+        tau = written["tau"]
+        n_a = len(change)
+        return StepData.unchecked(
+            tau_a=tau[:n_a],
+            tau_u=tau[n_a:],
+            delta_q_bar_a=change,
+            contacts=contacts,
+            **self._of_all,
+        )

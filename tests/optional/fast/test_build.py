@@ -1,0 +1,69 @@
+"""The compiled library: what is said where it cannot be made, is missing, or is another's."""
+
+import pytest
+
+from quasistatic_ref.optional.fast import build, library
+
+NO_COMPILERS = {
+    "gcc '": "$CC cannot be read as a command: No closing quotation",
+    "/nowhere/cc": "/nowhere/cc cannot be run: No such file or directory",
+    "false": "false could not compile it: exit status 1",
+    r"""sh -c 'printf "\377 an error\n" >&2; exit 1'""": "sh could not compile it: \ufffd an error",
+    "true": "true could not compile it: exit status 0",
+}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder in which libraries are made and sought in the place of the package's."""
+    for module in (build, library):
+        monkeypatch.setattr(module, "LIBRARY", tmp_path / "compiled.so")
+        monkeypatch.setattr(module, "PROBLEM", tmp_path / "not_compiled.txt")
+    library._loaded.cache_clear()
+    yield tmp_path
+    library._loaded.cache_clear()
+
+
+@pytest.mark.parametrize(("command", "reason"), NO_COMPILERS.items(), ids=NO_COMPILERS.values())
+def test_a_compiler_that_fails_leaves_the_reason(folder, monkeypatch, command, reason):
+    monkeypatch.setenv("CC", command)
+    assert build.build() == folder / "not_compiled.txt"
+    assert [file.name for file in folder.iterdir()] == ["not_compiled.txt"]
+    when = "it was not compiled when the package was installed: "
+    assert library.missing() == when + reason
+
+
+def test_without_a_compiler_the_reason_says_so(folder, monkeypatch):
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", str(folder))
+    build.build()
+    assert library.missing().endswith("there was no C compiler, cc or $CC")
+
+
+@pytest.mark.extra("fast")
+def test_a_library_that_is_made_is_loaded_and_one_of_other_sources_is_not(folder, monkeypatch):
+    assert build.build() == folder / "compiled.so"
+    assert library.missing() is None
+    assert [file.name for file in folder.iterdir()] == ["compiled.so"]
+    library._loaded.cache_clear()
+    monkeypatch.setattr(library, "digest", lambda: "of other sources")
+    assert library.missing().startswith("it was compiled from other sources than those here")
+
+
+def test_a_file_that_is_no_library_is_not_loaded(folder):
+    (folder / "compiled.so").write_bytes(b"not a library")
+    assert library.missing().startswith("it cannot be loaded: ")
+
+
+def test_a_package_that_was_copied_says_so(folder):
+    assert library.missing().endswith("installed: the package was copied")
+
+
+def test_no_flag_comes_from_the_environment(folder, monkeypatch):
+    """Products and sums stay apart whatever CFLAGS says: an echo in the compiler's place."""
+    monkeypatch.setenv("CFLAGS", "-ffast-math")
+    monkeypatch.setenv("CC", "sh -c 'echo error: $* >&2; exit 1' sh")
+    build.build()
+    reason = library.missing()
+    assert "-ffp-contract=off" in reason
+    assert "fast-math" not in reason

@@ -1,0 +1,165 @@
+"""Contacts in compiled code (source/clouds.c) against the core: the same bits."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref import (
+    Box,
+    Capsule,
+    ContactError,
+    ContactPair,
+    Cylinder,
+    HalfSpace,
+    PointCloud,
+    Sphere,
+    convex_hull,
+)
+from quasistatic_ref.contact.distance import closest_points, pair_closest_points
+from quasistatic_ref.contact.separations import OF_CLOUD
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.fast import closest as in_c
+from quasistatic_ref.optional.fast.closest import solid_size
+from quasistatic_ref.tolerances import TIED_FACES
+from tests.contact.still import pair, placed_shape, standing_links
+from tests.oracles.posed_pairs import PosedPairs
+
+pytestmark = pytest.mark.extra("fast")
+WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
+BY_C = {
+    "sphere": Sphere(0.1),
+    "box": Box((0.05, 0.125, 0.25)),
+    "capsule": Capsule(0.05, 0.1),
+    "half-space": HalfSpace((0.0, 0.0, 1.0), -0.0625),
+    "tilted half-space": HalfSpace((1.0, 2.0, 2.0), 0.1),
+}
+SHAPES = BY_C | {"cylinder": Cylinder(0.1, 0.05), "hull": convex_hull(WEDGE)}
+
+
+def cloud(kind, N, rng):
+    """Points of which many are equally near to something: a grid, one point N times, a shell."""
+    match kind:
+        case "grid":  # exact in binary, so that ties are exact
+            side = int(np.ceil(N ** (1 / 3)))
+            return (np.stack(np.unravel_index(np.arange(N), (side,) * 3), axis=1) - side / 2) / 64
+        case "copies":
+            return np.repeat(rng.normal(size=(max(1, N // 8), 3)) / 16, 8, axis=0)[:N]
+        case "shell":
+            points = rng.normal(size=(N, 3))
+            return 0.1 * points / np.linalg.norm(points, axis=1, keepdims=True)
+        case _:
+            return rng.uniform(-0.1, 0.1, size=(N, 3))
+
+
+def same_bits(posed, pairs, *poses):
+    """The contacts of C, which are those of the core, with links 1.. at poses (R, t)."""
+    links = standing_links(*poses)
+    try:
+        expected = closest_points(pairs, links)
+    except ContactError:  # a normal that is not defined
+        with pytest.raises(ContactError):
+            posed.closest_points(links)
+        return None
+    written = posed.closest_points(links)
+    for name, own in written._asdict().items():
+        assert bits(own) == bits(getattr(expected, name)), name
+    return written
+
+
+def at(*t):
+    """Links at places t, none turned."""
+    return [(np.eye(3), np.array(place)) for place in t]
+
+
+@settings(max_examples=25)
+@given(
+    names=st.lists(st.sampled_from(sorted(SHAPES)), min_size=1, max_size=4),
+    kind=st.sampled_from(["grid", "copies", "shell", "random"]),
+    N=st.sampled_from([1, 3, 30, 500]),
+    k=st.sampled_from([1, 5, 12]),
+    seed=st.integers(0, 1000),
+)
+def test_contacts_of_clouds_on_solids_in_any_pose(names, kind, N, k, seed):
+    """Pairs that C knows and others, either side first, apart and inside each other."""
+    rng = np.random.default_rng(seed)
+    pairs = []
+    for i, name in enumerate(names):
+        turn = Rotation.random(rng=rng).as_matrix() if i % 2 else np.eye(3)
+        solid = placed_shape(SHAPES[name], 1 + i, turn, rng.uniform(-0.1, 0.1, size=3) * (i % 2))
+        points = placed_shape(PointCloud(cloud(kind, N, rng)), 1 + len(names))
+        sides = (solid, points) if i % 3 else (points, solid)
+        pairs.append(ContactPair(f"p{i}", *sides, 0.5, 0.0, 4, k))
+    posed = PosedPairs(pairs, 2 + len(names))
+    for size in (0.0, 0.01, 0.3):
+        turns = [Rotation.from_rotvec(10 * size * v).as_matrix() for v in rng.normal(size=(9, 3))]
+        places = size * rng.normal(size=(9, 3))
+        same_bits(posed, pairs, *list(zip(turns, places, strict=True))[: 1 + len(names)])
+
+
+@pytest.mark.parametrize("cloud_first", [False, True])
+def test_zero_is_positive(cloud_first):
+    """Half a turn about z whose zeros are -0.0, and a height that is -0.0."""
+    turned = -np.eye(3)
+    turned[2, 2] = 1.0
+    points = placed_shape(PointCloud([[1.0, 1.0, 0.0]]), 1)
+    pairs = []
+    for z in (1.0, -1.0):
+        solid = placed_shape(HalfSpace((0.0, 0.0, z), 0.0), R=turned)
+        pairs.append(pair(points, solid) if cloud_first else pair(solid, points))
+    written = same_bits(PosedPairs(pairs, 2), pairs, *at((0, 0, 0)))
+    assert not np.signbit(written.phi).any()
+    assert not np.signbit(written.n[:, :2]).any()
+
+
+def test_points_that_touch_two_faces_at_once_are_left_to_the_core(monkeypatch):
+    """Points about two edges of a box, at multiples of half of what counts as equal."""
+    left = []
+
+    def recorded(pair, *args):
+        left.append(pair.name)
+        return pair_closest_points(pair, *args)
+
+    monkeypatch.setattr(in_c, "pair_closest_points", recorded)
+    far = np.array([4.0, 0.0, 0.0])  # of the cloud's frame: no place is larger
+    half = TIED_FACES * far[0] / 2
+    x, y, z = 0.25, 0.5, 1.0
+    box = placed_shape(Box((x, y, z)), 1)
+    pairs = []
+    tied = []
+    for i, j, side in itertools.product(range(-4, 4), range(-4, 4), (1, -1)):
+        # The other point makes the whole cloud farthest out along y.
+        points = side * np.array([(x + i * half, y + j * half, 0.0), (x / 2, 1.5 * y, 0.0)]) - far
+        cloud = placed_shape(PointCloud(points), 2)
+        pairs.append(ContactPair(f"{i} {j} {side}", box, cloud, 0.5, 0.0, 4, 1))
+        phi = max(i, j) if max(i, j) <= 0 else np.hypot(max(i, 0), max(j, 0))
+        if phi <= 2 and abs(i - j) <= 2:
+            tied.append(pairs[-1].name)
+    written = same_bits(PosedPairs(pairs, 3), pairs, *at((0, 0, 0), far))
+    assert {*tied} <= {*left}
+    of_cloud = {pairs[i].name for i in np.flatnonzero(written.tie == OF_CLOUD)}
+    assert {*left} >= of_cloud
+    left.clear()
+    pairs = [
+        ContactPair("off", box, placed_shape(PointCloud([[x, 0.0, 0.0]] - far), 2), 0.5, 0.0, 4, 1)
+    ]
+    same_bits(PosedPairs(pairs, 3), pairs, *at((0, 0, 0), far))
+    assert not left
+
+
+def test_clouds_on_other_solids_and_solids_on_solids_are_the_core_s(rng):
+    points = placed_shape(PointCloud(cloud("random", 99, rng)), 1)
+    known = {name: solid_size(pair(placed_shape(shape), points)) for name, shape in SHAPES.items()}
+    assert {name for name, size in known.items() if size is not None} == {*BY_C}
+    box = placed_shape(SHAPES["box"])
+    assert solid_size(pair(box, placed_shape(SHAPES["sphere"], 1))) is None
+
+
+def test_a_pose_that_is_not_finite_is_refused(rng):
+    pairs = [pair(placed_shape(SHAPES["box"], 1), placed_shape(PointCloud([[0.0] * 3]), 2))]
+    posed = PosedPairs(pairs, 3)
+    with pytest.raises(ContactError, match="poses: must be finite"):
+        posed.closest_points(standing_links(*at((0, 0, 0), (0, 0, np.nan))))

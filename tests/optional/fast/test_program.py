@@ -1,0 +1,174 @@
+"""Programs in natural units (source/natural.c) and DAQP, called group by group."""
+
+from types import SimpleNamespace
+
+import daqp
+import numpy as np
+import pytest
+
+from quasistatic_ref import Extra, solve_step, standard_form
+from quasistatic_ref.lab.bench.scenes import boxes
+from quasistatic_ref.optional.fast.program import STATUS, NaturalProgram, Program, Workspace
+from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    hessian_in_both_units,
+    natural_step,
+    units_of,
+)
+from quasistatic_ref.step.groups import Group
+from quasistatic_ref.step.standard_form import StandardForm
+from tests.helpers import changed, error, free_displacement, planted_step, random_step
+from tests.tolerances import ACTIVE_SET
+
+HALF = np.sqrt(2.0)
+"""Between 1 and 2, as near to one as to the other by its logarithm."""
+
+
+def units(H, g, A, b):
+    """Units by C, and by NumPy; and the program that C has written, if it has."""
+    H, g, A, b = (np.array(values, dtype=np.float64) for values in (H, g, A, b))
+    m, n = A.shape
+    each = np.arange(m)
+    program = Program([Group(np.arange(n), each, each[:0], each)])
+    one_row = np.ones(m, np.int64)
+    every = np.tile(np.arange(n), (m, 1))
+    steps = SimpleNamespace(
+        template=SimpleNamespace(row_layout=SimpleNamespace(counts=one_row, offsets=each)),
+        kept=SimpleNamespace(most_kept=n, coordinate=every, kept=n * one_row),
+        rows={"rows": one_row, "coordinate": every, "g": g, "kept_A": A, "b": b},
+    )
+    hessian = hessian_in_both_units(H)
+    in_c = NaturalProgram(steps, program).write(hessian)
+    with np.errstate(all="ignore"):
+        expected = units_of(StandardForm(H, g, A, b), hessian)
+    return in_c, expected, program
+
+
+DECIDED = {
+    "rows of one length": ([3.0, 0.0], [[1.0, 0.0]], [-1.0]),
+    "an even number of rows": ([3.0, 0.0], [[1.0, 0.0], [0.0, 5.0]], [-1.0, -1.0]),
+    "rows of many lengths": (
+        [3.0, 0.0],
+        [[2.0**k, 0.0] for k in (6, 0, 10, 2, 8, 1, 4)],
+        [-1.0] * 7,
+    ),
+    "rows of zeros and others": ([3.0, 0.0], [[0.0, 0.0], [0.0, 7.0], [0.0, 0.0]], [0.0] * 3),
+    "rows of zeros alone": ([3.0, 0.0], [[0.0, 0.0]], [-1.0]),
+    "penetration": ([1e-3, 0.0], [[4.0, 0.0]], [9.0]),
+    "no load, and a gap": ([0.0, 0.0], [[4.0, 0.0]], [-9.0]),
+    "nothing at all": ([0.0, 0.0], [[4.0, 0.0]], [0.0]),
+}
+OPEN = {
+    "a row whose length is between two powers": ([3.0, 0.0], [[1.0, 1.0]], [-1.0]),
+    "a load between two powers": ([1.0, 1.0], [[1.0, 0.0]], [-1.0]),
+    "a load next to that": ([HALF, 1e-13], [[1.0, 0.0]], [-1.0]),
+    "a load whose square vanishes": ([1e-200, 0.0], [[4.0, 0.0]], [-1.0]),
+    "a push out between two powers": ([0.0, 0.0], [[1.0, 0.0]], [HALF]),
+    "a number that is none": ([np.nan, 0.0], [[1.0, 0.0]], [-1.0]),
+    "an infinite gap": ([1.0, 0.0], [[1.0, 0.0]], [-np.inf]),
+    "a row that is too long": ([1.0, 0.0], [[1e200, 0.0]], [-1.0]),
+    "a row that is too short": ([1.0, 0.0], [[1e-150, 0.0]], [-1.0]),
+}
+
+
+@pytest.mark.extra("fast")
+@pytest.mark.parametrize("case", DECIDED.values(), ids=DECIDED)
+def test_units_are_those_of_numpy(case):
+    in_c, expected, program = units(np.diag([1.0, 16.0]), *case)
+    assert (in_c.length, in_c.size) == (expected.length, expected.size)
+    assert (in_c.coordinate == [1.0, 0.25]).all()
+    g, A, b = map(np.array, case)
+    S, ell, rho = in_c
+    assert program.f.tobytes() == (g * (S / -rho)).tobytes()
+    assert program.A.tobytes() == (A * (S / ell)).tobytes()
+    assert program.b.tobytes() == (b * (1 / (rho * ell))).tobytes()
+
+
+@pytest.mark.extra("fast")
+@pytest.mark.parametrize("case", OPEN.values(), ids=OPEN)
+def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
+    in_c, _, program = units(np.eye(2), *case)
+    assert in_c is None
+    assert not any(part.any() for part in (program.f, program.A, program.b))
+
+
+def with_own_row(rng):
+    step = random_step(rng)
+    contacts = changed(step.contacts, J=1e-3 * step.contacts.J)
+    return step.replace(contacts=contacts, extra=Extra(("own",), 1e-3 * np.ones((1, 7)), [-1e-3]))
+
+
+def test_the_program_is_the_standard_form_of_the_natural_step(rng):
+    """Written again, it holds nothing of the step before."""
+    solver = FastSolver(with_own_row(rng))
+    for step in (with_own_row(rng), with_own_row(rng)):
+        both = DenseStepInBothUnits(step)
+        assert both.units.length != 1
+        solver.answer(both, 1e-9)
+        expected = standard_form(natural_step(step, both.units))
+        np.testing.assert_array_equal(solver.program.f, -expected.g)
+        np.testing.assert_array_equal(solver.program.A.reshape(-1, 7), expected.A)
+        np.testing.assert_array_equal(solver.program.b, expected.b)
+
+
+def test_a_step_without_rows_needs_no_call(rng):
+    step = random_step(rng, rows=())
+    answer = solve_step(step, FastSolver(step), certify="off")
+    assert error(step, answer.delta_q, free_displacement(step)) <= ACTIVE_SET
+
+
+def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
+    step = planted_step(rng)[0]
+    solver = FastSolver(step)
+    right = solve_step(step, solver, certify="off").delta_q
+    honest = Workspace._solved
+    calls = []
+
+    def solved(self, *, warm):
+        calls.append(warm)
+        return Reply(None, None, False, "at a loss") if warm else honest(self, warm=warm)
+
+    monkeypatch.setattr(Workspace, "_solved", solved)
+    again = solve_step(step, solver, certify="off").delta_q
+    assert error(step, again, right) <= ACTIVE_SET
+    assert calls == [True, False]
+
+
+def test_boxes_that_cannot_touch_are_groups_of_their_own(rng):
+    """What is put together from their answers is that to all of it; rows that couple them join."""
+    scene = boxes(3)
+    step = scene.simulator("off", False).step(scene.q, np.zeros(0), scene.force).step
+    solver = FastSolver(step)
+    assert [len(group.coordinates) for group in solver.program.groups] == [6, 6, 6]
+    answer = solve_step(step, solver, certify="off")
+    assert error(step, answer.delta_q, solve_step(step, "none").delta_q) <= ACTIVE_SET
+    assert answer.statistics.iterations > 3
+    coupled = step.replace(extra=Extra(("rod",), np.ones((1, 18)), [-1.0]))
+    joined = FastSolver(coupled)
+    assert len(joined.program.groups) == 1
+    found = solve_step(coupled, joined, certify="off").delta_q
+    assert error(coupled, found, solve_step(coupled, "none").delta_q) <= ACTIVE_SET
+
+
+def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):
+    """J of a kept solver may have entries where it had zeros."""
+    scene = boxes(2)
+    step = scene.simulator("off", False).step(scene.q, np.zeros(0), scene.force).step
+    solver = FastSolver(step)
+    J = step.contacts.J.copy()
+    J[0, 0, 6] = 0.5
+    coupled = step.replace(contacts=changed(step.contacts, J=J))
+    for one in (step, coupled):
+        answer = solve_step(one, solver, certify="off").delta_q
+        assert error(one, answer, solve_step(one, "none").delta_q) <= ACTIVE_SET
+
+
+def test_every_exit_flag_of_daqp_has_a_word(rng):
+    """By its manual 1 and 2 are solutions, -1 to -6 are none; -1 is that of no feasible point."""
+    assert sorted(STATUS) == [-6, -5, -4, -3, -2, -1, 1, 2]
+    A = np.array([[1.0], [-1.0]])
+    b = np.array([1.0, 1.0])
+    flag = daqp.solve(np.eye(1), np.zeros(1), A, np.full(2, np.inf), b, np.zeros(2, np.int32))[2]
+    assert STATUS[flag] == "infeasible"

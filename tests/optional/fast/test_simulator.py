@@ -1,0 +1,297 @@
+"""Steps by compiled code against those of the plain path: equal bits, signs of zeros included."""
+
+import pickle
+from dataclasses import replace
+from itertools import cycle
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import (
+    Body,
+    ContactPair,
+    Extension,
+    FastSimulator,
+    HalfSpace,
+    InputError,
+    PlacedShape,
+    PointCloud,
+    Simulator,
+    StepDataError,
+    System,
+    load_scenario,
+    standard_form,
+)
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.model.joints.axis_joint import Revolute
+from quasistatic_ref.optional.fast import simulator as of_fast
+from tests.helpers import error, residuals_of
+from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
+from tests.optional.fast.test_closest import SHAPES as SOLIDS
+from tests.scenes import chain_scene
+from tests.tolerances import ACTIVE_SET
+
+BOX = SOLIDS["box"]
+SHAPES = SOLIDS | {"cloud": PointCloud(BOX.corners(np.ones(3))[0])}
+UP = np.array([2.0, 1.0, 2.0]) / 3
+KNOWN = ("cloud", "box", "cloud", "hull", "cloud")
+CONES = ("pyramid", "product", "facets-8", "frictionless")
+
+needs_compiler = pytest.mark.extra("fast")
+STONE = robot(link("stone", "", inertial("0.3", ("3e-4",) * 3)))
+CART = robot(link("cart", "", inertial("2", ("0.1",) * 3)))
+WHEELS = robot(
+    link("axle", "", inertial("1", ("0.1",) * 3)),
+    link("wheel", "", inertial("1", ("0.1",) * 3)),
+    joint("turn", "axle", "wheel", "continuous", "0 0 1"),
+    link("near", "", inertial("1", ("0.1",) * 3)),
+    joint("open", "axle", "near", "prismatic", "1 0 0"),
+    link("far", "", inertial("1", ("0.1",) * 3)),
+    joint("shut", "axle", "far", "prismatic", "-1 0 0", '<mimic joint="open"/>'),
+)
+
+
+def bodies(folder):
+    """A body that is held, a free one, one in the plane, and joints that turn, slide and mimic."""
+    stone = urdf_of_text(folder, STONE, "stone.urdf")
+    cart = urdf_of_text(folder, CART, "cart.urdf")
+    wheels = urdf_of_text(folder, WHEELS, "wheels.urdf")
+    return System(
+        [
+            Body("cart", cart, "planar", ()),
+            Body("free", stone, "floating", ()),
+            Body("held", stone, "floating", ("base",)),
+            Body("wheels", wheels, "planar", ("base", "turn", "open"), xyz=(0.1, 0.2, 0.0)),
+        ]
+    )
+
+
+def touching(system, names):
+    """Contacts of a shape on each link with a slope, and of every two."""
+    q = system.q_start
+    shapes = cycle([SHAPES[name] for name in names])
+    ball = SHAPES["sphere"]  # of 0.1 m
+    pairs = []
+    for at, name in enumerate(system.links[1:], start=1):
+        R, t = system.pose(q, name)
+        solid = PlacedShape("solid", at, np.eye(3), np.zeros(3), next(shapes))
+        down = -UP[None] @ R
+        points = getattr(solid.shape, "points", None)  # of a cloud
+        reach = solid.shape.support_value(down) if points is None else points @ down[0]
+        nearest = UP @ t - reach.max()
+        side = HalfSpace(UP, nearest - 1e-4 * (at % 3))
+        wall = PlacedShape.in_world("wall", side)
+        mu_omega, rows = (0.01, 6) if at % 2 else (0.0, 4)
+        pairs.append(ContactPair(f"p{at}", wall, solid, 0.1 * at, mu_omega, rows, 1 + at % 4))
+        if at % 2 == 0:
+            _, before = system.pose(q, system.links[at - 1])
+            neighbour = PlacedShape("ball", at, np.eye(3), R.T @ (before - t + 0.2001 * UP), ball)
+            one = PlacedShape("ball", at - 1, np.eye(3), np.zeros(3), ball)
+            pairs.append(ContactPair(f"b{at}", one, neighbour, 0.3, 0.01, 6, 1))
+    return pairs
+
+
+def boxes(folder):
+    """40, of which the first is held."""
+    return System(
+        [
+            Body.of_shape(f"b{i}", BOX, 1.0, xyz=(i, 0.0, 0.0), actuated=() if i else ("base",))
+            for i in range(40)
+        ]
+    )
+
+
+def with_a_ball(folder):
+    return System([*bodies(folder).bodies, Body.of_shape("b", BOX, 1.0, base="ball")])
+
+
+def some(make, own):
+    """Some of the bodies of a system."""
+    return lambda folder: System(make(folder).bodies[own])
+
+
+OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
+KINDS = {
+    **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}) for cone in CONES},
+    "no contacts": (bodies, (), {}),
+    "one body": (some(bodies, slice(1)), KNOWN, {}),
+    "40 boxes": (boxes, ("cloud", "box"), {}),
+    "nothing claimed": (bodies, KNOWN, {"certify": "off"}),
+    "residuals": (bodies, KNOWN, {"certify": "residual"}),
+    "the ellipsoid": (bodies, KNOWN, {"cone": "ellipsoid"}),
+    "Coulomb's law": (bodies, KNOWN, {"law": "coulomb"}),
+    "own rows": (bodies, KNOWN, OWN),
+    "another backend": (bodies, KNOWN, {"backend": "clarabel"}),
+    "no backend": (bodies, KNOWN, {"backend": "none"}),
+    "a joint that C does not know": (with_a_ball, KNOWN, {}),
+    "a mass that varies": (some(chain_scene, slice(2)), KNOWN, {}),
+    "solids alone": (bodies, ("box", "hull", "cylinder"), {}),
+}
+"""Bodies, shapes and settings."""
+
+
+def all_of(result):
+    """What no choice is left of in a result; of q and delta_q, if the step is certified exactly."""
+    solution = result.solution
+    certificate = solution.certificate
+    found = {"points": result.points, "forces": result.forces, "H": result.step.H}
+    for part in (result.step, result.step.contacts):
+        found |= {name: getattr(part, name) for name in part.kept() if name != "contacts"}
+    if certificate.kind == "exact":
+        found |= {"q": result.q, "delta_q": solution.delta_q, "A'lam": solution.net_impulse}
+        unique = {"multipliers_unique", "differentiable", "smallest_inactive_slack", "error_bound"}
+        if certificate.multipliers_unique:
+            found |= {"lam": solution.lam, "lam_extra": solution.lam_extra}
+            unique |= {"active", "smallest_active_multiplier"}
+        found |= {name: getattr(certificate, name) for name in unique}
+    return {name: bits(value) for name, value in found.items()}
+
+
+def scene(kind, folder):
+    """Arguments of a simulator."""
+    make, names, own = KINDS[kind]
+    system = make(folder)
+    pairs = touching(system, names) if names else []
+    K_q = np.diag(np.arange(500.0, 500.0 + system.n_a))
+    same = {"system": system, "pairs": pairs, "h": 0.01, "K_q": K_q, "gravity": -9.81 * UP}
+    return same | own
+
+
+def two_steps(simulators, q):
+    """Results of some simulators, each step from where the last of them has led."""
+    system = simulators[0].system
+    force = np.linspace(-1.0, 1.0, system.n_v)
+    for _ in range(2):
+        goal = system.integrate(q, np.full(system.n_v, 1e-3))[: system.n_q_a]
+        found = [simulator.step(q, goal, force) for simulator in simulators]
+        yield found
+        q = found[-1].q
+
+
+@needs_compiler
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_of_a_result_is_the_plain_path_s(tmp_path, kind):
+    """An answer that is not certified exactly is near to it, and q+ its sum by the core."""
+    same = scene(kind, tmp_path)
+    system = same["system"]
+    q = system.q_start
+    proved = {} if kind == "the ellipsoid" else {"backend": "none", "certify": "full"}
+    plain = Simulator(**same | proved)
+    fast = FastSimulator(Simulator(**same))
+    kinds = {"off": "none", "residual": "residual"}
+    for one, other in two_steps([plain, fast], q):
+        answer = other.solution
+        claimed = answer.certificate.kind
+        assert claimed == kinds.get(fast.certify, one.solution.certificate.kind)
+        assert fast.by_c
+        expected = all_of(one)
+        assert all(value == expected[name] for name, value in all_of(other).items())
+        if claimed != "exact":
+            assert error(one.step, answer.delta_q, one.solution.delta_q) < ACTIVE_SET
+            assert residuals_of(other.step, answer.delta_q, answer.lam).worst < ACTIVE_SET
+            assert bits(other.q) == bits(system.integrate(q, answer.delta_q))
+        q = other.q
+    assert not same["pairs"] or np.abs(other.forces).max() > 0.1
+
+
+@needs_compiler
+@pytest.mark.parametrize("cone", CONES)
+def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(tmp_path, cone):
+    """The guard of the first step compares one configuration; here are small moves and jumps."""
+    rng = np.random.default_rng(CONES.index(cone))
+    system = bodies(tmp_path)
+    K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
+    plain = Simulator(system, touching(system, KNOWN), h=0.01, K_q=K_q, cone=cone)
+    fast = FastSimulator(plain)
+    q = system.q_start
+    for k in range(24):
+        size = 0.3 if k % 4 == 0 else 1e-4
+        q = system.integrate(q, size * rng.normal(size=system.n_v) * (k != 0))
+        move = 1e-3 * rng.normal(size=system.n_v)
+        goal = system.integrate(q, move)[: system.n_q_a]
+        force = rng.normal(size=system.n_v)
+        kinematics = system.kinematics(q)
+        points = plain.closest_points(kinematics)
+        step = plain.step_data(q, goal, force, points, kinematics)
+        fast._poses.move(q)
+        fast._steps.closest()
+        in_c = fast._steps.form(system.actuated_difference(q, goal) + 0.0, force)
+        assert bits(in_c) == bits((step, standard_form(step), points))
+        assert bits(fast._sums.integrate(move)) == bits(system.integrate(q, move))
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["coefficient", "moves_beta", "kind"])
+def test_steps_that_compiled_code_forms_wrong_are_left_to_the_plain_path(name, capfd):
+    of_fast.say.cache_clear()
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
+    one = scenario.simulator()
+    if name == "kind":
+        one._sums.structure["kind"][:] = Revolute.in_c  # as if a base were a joint of another kind
+    else:
+        one._steps.rows[name][:] *= 2  # as if the compiled code were wrong
+    q = scenario.system.q_start
+    goal = scenario.targets(scenario.h)
+    expected = replace(scenario, fast=False).simulator().step(q, goal)
+    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    assert not one.by_c
+    assert "compiled code forms another step than the core" in capfd.readouterr().err
+
+
+def test_without_compiled_code_the_plain_path_takes_the_steps_and_says_so(monkeypatch, capfd):
+    of_fast.say.cache_clear()
+    monkeypatch.setattr(of_fast, "missing", lambda: "there is none")
+    scenario = load_scenario("sphere_spin", fast=True)
+    one = scenario.simulator()
+    q = scenario.system.q_start
+    goal = scenario.targets(scenario.h)
+    expected = replace(scenario, fast=False).simulator().step(q, goal)
+    assert one.step(q, goal).q.tobytes() == expected.q.tobytes()
+    assert (one.by_c, one.backend) == (False, "clarabel")
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.startswith("quasistatic-ref: fast needs compiled code: there is none; the plain ")
+
+
+@needs_compiler
+def test_a_target_that_is_no_number_is_refused_in_the_words_of_the_plain_path():
+    scenario = load_scenario("block_push", fast=True)
+    target = np.full_like(scenario.targets(0.0), np.nan)
+    with pytest.raises(StepDataError, match="delta_q_bar_a: must contain finite numbers only"):
+        scenario.simulator().step(scenario.system.q_start, target)
+
+
+def test_what_is_no_plain_simulator_is_refused():
+    class Own(Simulator):
+        pass
+
+    plain = load_scenario("sphere_spin").simulator()
+    with pytest.raises(InputError, match=r"^fast: is no argument; write qr.FastSimulator"):
+        Simulator(**plain.settings(), fast=True)
+    with pytest.raises(InputError, match=r"^simulator: has steps of its own.*got 'Own'"):
+        FastSimulator(Own(**plain.settings()))
+    with pytest.raises(InputError, match=r"^simulator: "):
+        FastSimulator(load_scenario("sphere_spin"))
+
+
+@needs_compiler
+def test_a_copy_is_a_fast_simulator_of_its_own():
+    scenario = load_scenario("sphere_spin", fast=True)
+    one = scenario.simulator()
+    goal = scenario.targets(scenario.h)
+    other = pickle.loads(pickle.dumps(one))
+    assert type(other) is FastSimulator
+    assert other.simulator is not one.simulator
+    q = scenario.system.q_start
+    assert bits(other.step(q, goal).q) == bits(one.step(q, goal).q)
+
+
+@needs_compiler
+def test_a_step_that_is_formed_in_c_is_equal_to_the_checked_one():
+    scenario = load_scenario("two_finger_pinch", fast=True)
+    step = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h)).step
+    checked = step.replace(contacts=replace(step.contacts))
+    assert checked == step
+    for name in ("H", "counts", "mask", "offsets"):
+        np.testing.assert_array_equal(getattr(checked, name), getattr(step, name))
+    with pytest.raises(StepDataError, match=r"^tau_u: must contain finite"):
+        step.replace(tau_u=np.full(step.n_u, np.nan))
