@@ -1,7 +1,7 @@
 """The answer of a step as JSON: ``quasistatic-ref/solution``, version 2.
 
 Besides the answer itself a file holds only claims that `verify` proves: no timings, and no name of
-a backend. Files of version 1 are read too; their fields that nothing proves are listed by name.
+a backend.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.files import json_read, json_text
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.step.cones import CLAIMS, PYRAMID, cone
+from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
@@ -33,8 +33,6 @@ MAY_BE_NULL = {
 }
 """Numbers that may be missing: of a step without idle rows, or without active rows, or of an answer
 without a bound."""
-VERSION_1_UNCHECKED = ("backend", "wrench", "certificate.residuals")
-"""Fields of a file of version 1 that nothing proves; in some cones there are more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +49,6 @@ class SolutionFile:
     certificate : Certificate or None
     farkas : tuple of str or None
         For an infeasible step: the proof, as fractions ``"p/q"``.
-    unchecked : tuple of str
-        Fields of a file of version 1 that nothing proves.
     """
 
     delta_q: Array | None = None
@@ -60,7 +56,6 @@ class SolutionFile:
     wrench: Array | None = None
     certificate: Certificate | None = None
     farkas: tuple[str, ...] | None = None
-    unchecked: tuple[str, ...] = ()
 
 
 def solution_text(solution: StepSolution) -> str:
@@ -116,13 +111,11 @@ def _head(step: StepData, status: str) -> dict[str, Any]:
 
 
 def _solution(top: TableReader, step: StepData) -> SolutionFile:
-    first = top.check_format(SOLUTION_FORMAT, 1, VERSION) == 1
+    top.check_format(SOLUTION_FORMAT, VERSION)
     status = top.text("status", choices=("optimal", "infeasible"))
-    named = top.text("cone", PYRAMID) if first else top.text("cone")
+    named = top.text("cone")
     if named != step.cone:
         raise top.error_about("cone", f"must be that of the step, {step.cone!r}", named)
-    if first:
-        top.text("backend")
     if top.text("step_sha256") != step_sha256(step):
         return SolutionFile()  # its shapes are another step's
     if status == "infeasible":
@@ -130,15 +123,14 @@ def _solution(top: TableReader, step: StepData) -> SolutionFile:
         if not all(isinstance(y, str) for y in farkas):
             raise top.error_about("farkas", 'must be a list of fractions such as "1/3"', farkas)
         top.close()
-        return SolutionFile(farkas=tuple(farkas), unchecked=("backend",) if first else ())
+        return SolutionFile(farkas=tuple(farkas))
     lam = _nested(top, step)
     claims = top.table("certificate")
     solution = SolutionFile(
         delta_q=top.array("delta_q", (step.n_v,)),
         lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
         wrench=top.array("wrench", (step.contacts.n_c, 4)),
-        certificate=(_first_certificate if first else _certificate)(claims, step),
-        unchecked=(*VERSION_1_UNCHECKED, *cone(step.cone).unproved) if first else (),
+        certificate=_certificate(claims, step),
     )
     top.close()
     return solution
@@ -166,18 +158,6 @@ def _certificate(table: TableReader, step: StepData) -> Certificate:
     if active != tuple(sorted(set(active))):
         raise table.error_about("active", "must be in increasing order", active)
     return Certificate(kind, **claims, step=None if kind == "none" else step)
-
-
-def _first_certificate(table: TableReader, step: StepData) -> Certificate:
-    """Version 1: any claim may be missing, or null; its residuals are read and not used."""
-    kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
-    residuals = table.table("residuals", {})
-    for name in residuals.names_left():
-        residuals.number(name)
-    claims = {name: _claim(table, name, True) for name in CLAIMS["exact"] if name in table}
-    table.close()
-    made = {name: claim for name, claim in claims.items() if claim is not None}
-    return Certificate(kind, **made, step=None if kind == "none" else step)
 
 
 def _claim(table: TableReader, name: str, may_be_null: bool) -> Any:

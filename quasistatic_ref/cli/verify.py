@@ -25,24 +25,19 @@ def run(options: argparse.Namespace) -> int:
     solution = solution_read(options.solution, step)
     reason = refutation(step, solution)
     if options.json:
-        known = {"verified": reason is None, "reason": reason}
-        shared.print_json(known | {"not_checked": solution.unchecked})
+        shared.print_json({"verified": reason is None, "reason": reason})
     elif reason is not None:
         print(f"refuted: {reason}")
     else:
         proved = "the step has no solution; the Farkas vector proves it"
         if solution.certificate is not None:
             proved = in_words(solution.certificate)
-        left = ", ".join(solution.unchecked)
-        print(f"verified: {proved}{f'; not checked: {left}' if left else ''}")
+        print(f"verified: {proved}")
     return 0 if reason is None else 1
 
 
 def refutation(step: StepData, solution: SolutionFile) -> str | None:
-    """What is wrong with a solution; None if all that it claims is proved.
-
-    What ``SolutionFile.unchecked`` names, in files of version 1, is not looked at.
-    """
+    """What is wrong with a solution; None if all that it claims is proved."""
     if solution.farkas is not None:
         return farkas_refutation(step, solution.farkas)
     certificate = solution.certificate
@@ -55,10 +50,9 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     assert solution.wrench is not None
     if certificate.kind == "none":
         return "a certificate of kind 'none' proves nothing; solve with full"
-    if "wrench" not in solution.unchecked:
-        right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
-        for j, (given, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
-            if wrong := wrong_bits(f"wrench[{j}]", given, wrench):
-                return wrong
+    right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
+    for j, (given, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
+        if wrong := wrong_bits(f"wrench[{j}]", given, wrench):
+            return wrong
     verdict = verify(step, delta_q, certificate.active, lam, certificate)
     return None if verdict else verdict.reason

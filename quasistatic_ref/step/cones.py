@@ -80,9 +80,6 @@ class FrictionCone(ABC):
         (gap, slip_1, slip_2, spin) -> the rows of a contact in A.
     claims : mapping of str to tuple of str
         The kinds of certificate in it, each with its further fields in a solution file.
-    unproved : tuple of str
-        Fields of a solution file of version 1 that nothing proves in this cone, beyond those that
-        nothing proves in any.
     """
 
     name: str
@@ -90,7 +87,6 @@ class FrictionCone(ABC):
     without_torsion: int
     function: ConeFunction
     claims: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: CLAIMS)
-    unproved: tuple[str, ...] = ()
 
     @property
     def curved(self) -> CurvedCone | None:

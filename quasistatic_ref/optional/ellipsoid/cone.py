@@ -50,11 +50,6 @@ CLAIMS: dict[str, tuple[str, ...]] = {
     "none": (),
 }
 """What a certificate of each kind holds in the ellipsoid."""
-UNPROVED = (
-    "lam", "lam_extra", "certificate.multipliers_unique", "certificate.differentiable",
-    "certificate.smallest_inactive_slack", "certificate.smallest_active_multiplier",
-)  # fmt: skip
-"""Further fields of a solution file of version 1 that nothing proves in the ellipsoid."""
 
 
 class EllipsoidCone(CurvedCone):
@@ -171,7 +166,7 @@ def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     return gap, slip_1, slip_2, spin
 
 
-ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion, CLAIMS, UNPROVED)
+ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion, CLAIMS)
 CURVED_CONE.fill(ELLIPSOID_CONE)
 
 
