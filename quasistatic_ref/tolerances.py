@@ -372,6 +372,13 @@ a spring of 1e5 N/m presses 1e-9 m with 0.1 mN."""
 SLIDES: Final = 1e-4
 """Slip of a contact that an account says slides, at least [m/s]: 1 mm in ten seconds."""
 
+SPINS: Final = 1e-3
+"""Turn about its normal of a contact that an account says spins, at least [rad/s]: 0.6 deg in ten
+seconds."""
+
+SPUN: Final = 2e-3
+"""Turn about a normal that is an event [rad]: 0.1 deg."""
+
 SLID: Final = 1e-4
 """Slip that is an event [m]: what a body shifts while it comes to rest is no event."""
 

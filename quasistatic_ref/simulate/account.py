@@ -33,7 +33,8 @@ class Loads(NamedTuple):
     torque : ndarray, shape (steps,)
         Of the sizes of tau_n [N m].
     share : ndarray, shape (steps,)
-        Friction over mu_v times the normal force [-]; 0 where that is 0.
+        Normal force that the cone needs for their friction and torsion, over what there is [-]; 0
+        where that is 0.
     lift : ndarray, shape (steps,)
         Of the parts of the forces on beta that are opposite to gravity [N].
     """
@@ -62,10 +63,12 @@ class PairAccount(Plain):
         allows, which is unique. Without J, only what has a positive multiplier is known to touch.
     slip : ndarray, shape (steps,), or None
         Mean slip of the contacts that touch [m]; None where the record has no J.
+    turn : ndarray, shape (steps,), or None
+        Mean turn about the normals of the contacts that touch [rad], likewise.
     loads : Loads or None
         None where the forces are not known.
-    near, contact, sliding : list of Span
-        When its shapes were near, when it touched, and when it slid.
+    near, contact, sliding, spinning : list of Span
+        When its shapes were near, when it touched, when it slid, and when it turned about a normal.
     """
 
     name: str
@@ -75,10 +78,12 @@ class PairAccount(Plain):
     phi: Array
     touches: Mask
     slip: Array | None
+    turn: Array | None
     loads: Loads | None
     near: list[Span]
     contact: list[Span]
     sliding: list[Span]
+    spinning: list[Span]
 
 
 @dataclass(frozen=True, eq=False)

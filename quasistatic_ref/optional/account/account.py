@@ -10,6 +10,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.optional.account.gauges import gauge
 from quasistatic_ref.optional.account.spans import spans
 from quasistatic_ref.simulate.account import (
     Account,
@@ -23,7 +24,7 @@ from quasistatic_ref.simulate.account import (
 from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, TOUCHES
+from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, SPINS, TOUCHES
 
 
 def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
@@ -152,7 +153,9 @@ def _pairs(
                        "positive multiplier is not known")  # fmt: skip
     touch = _touches(run, motion)
     slip = None
+    turn = None
     if motion is not None:
+        turn = np.where(run["rows"] == 6, np.abs(motion[:, :, 3]), 0.0)
         across = [np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
         slip = np.hypot(*across)
     for name, alpha, beta in named:
@@ -165,8 +168,10 @@ def _pairs(
         if wrench is not None:
             normal = wrench[:, own, 2].sum(axis=1)
             friction = np.hypot(wrench[:, own, 0], wrench[:, own, 1]).sum(axis=1)
-            most = run["mu_v"][own][0] * normal
-            share = np.divide(friction, most, out=np.zeros_like(most), where=most > 0)
+            mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[own]
+            needs = gauge(run.header["cone"], wrench[:, own], run["mu_v"][own], mu_omega)
+            needs = needs.sum(axis=1)
+            share = np.divide(needs, normal, out=np.zeros_like(needs), where=normal > 0)
             torque = np.abs(wrench[:, own, 3]).sum(axis=1)
             ways = np.stack([run[axis][:, own] @ up for axis in ("d1", "d2", "n")], axis=2)
             loads = Loads(
@@ -174,7 +179,11 @@ def _pairs(
             )
         phi = run["phi"][:, own].min(axis=1)
         touches = np.asarray(on.any(axis=1))
-        slid = None if slip is None else np.where(on, slip[:, own], 0.0).sum(axis=1) / count
+        slid, turned = (
+            None if way is None else np.where(on, way[:, own], 0.0).sum(axis=1) / count
+            for way in (slip, turn)
+        )
+        h = float(run.header["h"])
         yield PairAccount(
             name=name,
             alpha=alpha,
@@ -183,10 +192,12 @@ def _pairs(
             phi=phi,
             touches=touches,
             slip=slid,
+            turn=turned,
             loads=loads,
             near=spans(phi <= NEAR),
             contact=spans(touches),
-            sliding=[] if slid is None else spans(slid > SLIDES * float(run.header["h"])),
+            sliding=[] if slid is None else spans(slid > SLIDES * h),
+            spinning=[] if turned is None else spans(turned > SPINS * h),
         )
 
 

@@ -20,6 +20,8 @@ from quasistatic_ref.tolerances import BEYOND, LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
+TWISTED = 0.1
+"""Share of its torsion that a grip which turns away takes at least [-]."""
 HELD = 1e-12
 """What interpolation between equal waypoints leaves [m, rad, -]."""
 TRIAL = 50
@@ -285,10 +287,23 @@ def lost(task: Task) -> Iterator[Said]:
         k = int(slips[worst].argmax())
         on = np.array([name in {task.accounts[i].name for i in pairs} for name in
                        task.trajectory.pair_names])  # fmt: skip
-        pressed = float(task.run.forces(k)[on, 2].sum())
+        forces = task.run.forces(k)[on]
+        pressed = float(forces[:, 2].sum())
         bears = task.pairs[worst].mu_v * pressed
         body = task.held(worst)
         weight = task.system.mass(body.partition("/")[0]) * task.run.g
+        mu_omega = task.pairs[worst].mu_omega if task.pairs[worst].rows == 6 else 0.0
+        turning = mu_omega * pressed
+        torque = float(np.abs(forces[:, 3]).sum())
+        if weight < bears and torque > TWISTED * turning > 0:
+            yield Said(
+                f"raise mu_omega of contacts.{table}, or hold {body} nearer to its centre of mass",
+                f"{body} slips by {length(way)} along {task.holder(worst)} as it turns there; at "
+                f"{task.trajectory['t'][k]:.2f} s torsion takes {torque:.3g} of the {turning:.3g} "
+                f"N m that the grip could bear alone, and what is left does not hold {body}",
+                {"slip_mm": 1e3 * way, "torque_Nm": torque, "bears_Nm": turning, "step": k},
+            )
+            continue
         yield Said(
             f"raise mu_v of contacts.{table}, or K_q of what closes it or how far it closes",
             f"{body} slips by {length(way)} along {task.holder(worst)}; at "

@@ -11,7 +11,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Span
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import BRIEF, SLID
+from quasistatic_ref.tolerances import BRIEF, SLID, SPUN
 
 PRINTED = 4
 """Bodies and joints of a short account."""
@@ -59,6 +59,10 @@ def events(account: Account) -> list[Event]:
         for span in pair.sliding:
             if slid(pair, span) >= SLID:
                 way = f"slides {length(slid(pair, span))} along {pair.alpha}"
+                found.append((span.first, f"{pair.beta} {way} {_until(span, t)}"))
+        for span in pair.spinning:
+            if turned(pair, span) >= SPUN:
+                way = f"spins {degrees(turned(pair, span))} about the normal of {pair.alpha}"
                 found.append((span.first, f"{pair.beta} {way} {_until(span, t)}"))
     found += [(span.first, stop.name) for stop in account.stops for span in stop.bears]
     said = [Event(float(t[k]), words) for k, words in found]
@@ -161,6 +165,11 @@ def slid(pair: PairAccount, span: Span) -> float:
     return 0.0 if pair.slip is None else float(pair.slip[span.first : span.last + 1].sum())
 
 
+def turned(pair: PairAccount, span: Span) -> float:
+    """How far a pair turned about its normals in a span [rad]; 0 where that is not known."""
+    return 0.0 if pair.turn is None else float(pair.turn[span.first : span.last + 1].sum())
+
+
 def driven(drive: Drive, t: Array) -> str:
     """How an actuated joint ended, and what its spring bore."""
     largest = ""
@@ -176,7 +185,12 @@ def _pair(pair: PairAccount, t: Array) -> Iterator[str]:
     """Near, touching, sliding; normal force, friction, torque and share."""
     k = int(pair.phi.argmin())
     yield f"{pair.name}: least distance {signed(pair.phi[k])} at {t[k]:.2f} s"
-    for word, held in (("near", pair.near), ("touches", pair.contact), ("slides", pair.sliding)):
+    for word, held in (
+        ("near", pair.near),
+        ("touches", pair.contact),
+        ("slides", pair.sliding),
+        ("spins", pair.spinning),
+    ):
         if held:
             yield f"  {word} {times(held, t)}"
     if pair.sliding:
@@ -239,6 +253,7 @@ def tables(account: Account) -> dict[str, Any]:
                 "near_s": seconds(pair.near),
                 "touches_s": seconds(pair.contact),
                 "slides_s": seconds(pair.sliding),
+                "spins_s": seconds(pair.spinning),
                 "slip_m": None if pair.slip is None else float(pair.slip.sum()),
             }
             | ({} if pair.loads is None else {

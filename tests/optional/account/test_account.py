@@ -25,6 +25,12 @@ def run(request, tmp_path_factory):
     return trajectory_read(path)
 
 
+def coefficients(run, own):
+    """mu_v twice and mu_omega, which contacts without torsion do not use."""
+    for j in own:
+        yield run["mu_v"][j], run["mu_v"][j], run["mu_omega"][j] * (run["rows"][j] == 6)
+
+
 def lasting_times(of_steps, t):
     """First and last times of what holds, changes of BRIEF steps left out, step by step."""
     found = []
@@ -72,9 +78,15 @@ def test_numbers_of_pairs_are_those_of_the_arrays(run):
         tangential = [[np.hypot(*f[k, i, :2]) for i in range(len(own))] for k in range(run.steps)]
         friction = [sum(each) for each in tangential]
         normal = [f[k, :, 2].sum() for k in range(run.steps)]
-        mu_v = run["mu_v"][own[0]]
-        bears = [mu_v * each for each in normal]
-        share = [r / most if most > 0 else 0 for r, most in zip(friction, bears, strict=True)]
+        assert run.header["cone"] == "pyramid"
+        needs = [
+            sum(
+                sum(abs(part) / mu for part, mu in zip(f[k, i, [0, 1, 3]], mus, strict=True) if mu)
+                for i, mus in enumerate(coefficients(run, own))
+            )
+            for k in range(run.steps)
+        ]
+        share = [need / most if most > 0 else 0 for need, most in zip(needs, normal, strict=True)]
         torque = [np.abs(f[k, :, 3]).sum() for k in range(run.steps)]
         expected = {
             "normal_N": max(normal),

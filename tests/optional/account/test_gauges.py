@@ -1,0 +1,146 @@
+"""The share of friction and torsion in what a cone can bear, and what a grip that turns lost."""
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.optional.account.account import account_of
+from quasistatic_ref.optional.account.gauges import gauge
+from quasistatic_ref.optional.account.words import events
+from quasistatic_ref.step.cones import cone
+
+MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
+
+
+@pytest.mark.parametrize(
+    ("name", "wrench", "normal"),
+    [
+        ("pyramid", (1.0, 1.0, 9.0, 0.02), 5.0),  # (1 + 1) / 0.5 + 0.02 / 0.02
+        ("pyramid", (-1.0, 0.0, 9.0, -0.04), 4.0),
+        ("facets-4", (1.0, 1.0, 9.0, 0.02), 5.0),
+        ("product", (1.0, 1.0, 9.0, 0.02), 4.0),  # the larger of both
+        ("product", (0.1, 0.0, 9.0, 0.04), 2.0),
+        ("ellipsoid", (1.0, 1.0, 9.0, 0.02), 3.0),  # sqrt(2^2 + 2^2 + 1)
+        ("facets-8", (1.0, 0.0, 9.0, 0.0), 2.0),  # a corner of the octagon
+        ("frictionless", (0.0, 0.0, 9.0, 0.0), 0.0),
+    ],
+)
+def test_the_normal_force_that_a_cone_needs_is_its_gauge(name, wrench, normal):
+    own = gauge(name, np.array([wrench]), MU_V, MU_OMEGA)
+    assert own == pytest.approx([normal], rel=1e-12)
+    none = gauge(name, np.array([(0.0, 0.0, 9.0, 0.02)]), MU_V, np.zeros(1))
+    assert none.tolist() == [0.0]  # a coefficient of 0 is left out
+
+
+@pytest.mark.parametrize("name", ["pyramid", "product", "facets-6"])
+def test_forces_of_one_row_need_their_multiplier(name, rng):
+    """A force is on the cone's surface where one row alone bears it."""
+    rows = cone(name).matrix
+    for row in rows:
+        force = 3.0 * np.array([row[1] * 0.5, row[2] * 0.5, 1.0, row[3] * 0.02])
+        assert gauge(name, force[None], MU_V, MU_OMEGA) == pytest.approx([3.0], rel=1e-12)
+
+
+def urdf(mass, geometry, inertia="1e-3"):
+    return (
+        f'<robot name="r"><link name="r"><inertial><mass value="{mass}"/><inertia ixx="{inertia}" '
+        f'iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f"<collision><geometry>{geometry}</geometry></collision></link></robot>"
+    )
+
+
+def test_a_ball_that_spins_is_at_its_limit_and_its_spinning_is_an_event():
+    """0.1 N m about the vertical; its floor bears mu_omega m g = 0.0981 N m."""
+    made = qr.load_scenario(
+        {
+            "h": 0.01,
+            "steps": 50,
+            "gravity": [0, 0, -9.81],
+            "bodies": {
+                "ball": {
+                    "urdf": urdf(1.0, '<sphere radius="0.05"/>'),
+                    "base": "floating",
+                    "pose": {"xyz": [0, 0, 0.05]},
+                    "wrenches": [{"t": 0.0, "torque": [0, 0, 0.1]}],
+                }
+            },
+            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+            "contacts": {
+                "floor": {
+                    "alpha": "floor",
+                    "beta": "ball",
+                    "mu_v": 0.5,
+                    "mu_omega": 0.01,
+                    "rows": 6,
+                }
+            },
+        }
+    )
+    account = account_of(made.run(progress=False))
+    (pair,) = account.pairs
+    assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
+    assert len(pair.spinning) == 1
+    assert pair.sliding == []
+    assert any(" spins " in event.words for event in events(account))
+
+
+def finger(name):
+    return (
+        f'<link name="{name}"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" '
+        'izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
+        '<sphere radius="0.01"/></geometry></collision></link>'
+    )
+
+
+def slide(name, link, side):
+    return (
+        f'<joint name="{name}" type="prismatic"><parent link="base"/><child link="{link}"/>'
+        f'<origin xyz="0 {0.02 * side} 0"/><axis xyz="0 {-side} 0"/>'
+        '<limit lower="-1" upper="1" effort="100" velocity="1"/></joint>'
+    )
+
+
+FINGERS = (
+    f'<robot name="g"><link name="base"/>{finger("l")}{finger("r")}{slide("jl", "l", -1)}'
+    f"{slide('jr', 'r', 1)}</robot>"
+)
+
+
+@pytest.mark.parametrize(
+    ("aside", "mu_v", "remedy"), [(0.04, 0.5, "raise mu_omega"), (0.0, 0.2, "raise mu_v")]
+)
+def test_a_grip_that_is_lost_says_which_limit_was_reached(aside, mu_v, remedy):
+    """Two fingers press with 3 N each on a bar of 0.2 kg, beside its middle or too loosely."""
+    made = qr.load_scenario(
+        {
+            "h": 0.01,
+            "steps": 100,
+            "gravity": [0, 0, -9.81],
+            "bodies": {
+                "gripper": {
+                    "urdf": FINGERS,
+                    "actuated": ["jl", "jr"],
+                    "K_q": {"jl": 1000, "jr": 1000},
+                    "targets": [{"t": 0.0, "jl": 0.003, "jr": 0.003}],
+                    "pose": {"xyz": [0, 0, 0.3]},
+                },
+                "bar": {
+                    "urdf": urdf(0.2, '<box size="0.2 0.02 0.03"/>', "5e-4"),
+                    "base": "floating",
+                    "pose": {"xyz": [aside, 0, 0.3]},
+                },
+            },
+            "contacts": {
+                "grip": {
+                    "alpha": "gripper/*",
+                    "beta": "bar",
+                    "mu_v": mu_v,
+                    "mu_omega": 0.02,
+                    "rows": 6,
+                    "k": 1,
+                }
+            },
+        }
+    )
+    said = [one for one in made.run(progress=False).findings if one.name == "lost grip"]
+    assert [one.remedy.startswith(remedy) for one in said] == [True]
