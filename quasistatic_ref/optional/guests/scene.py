@@ -285,6 +285,13 @@ def controls_of(
             if not np.isfinite(number):
                 raise InputError("must be a finite number", field=f"targets.{name}", value=number)
             if name in actuators:
+                kind = model.actuator_dyntype[actuators[name]]
+                if kind == mujoco.mjtDyn.mjDYN_INTEGRATOR and number:
+                    problem = (
+                        "is the control of an actuator that integrates it, and a run keeps its "
+                        "activation; leave it at 0, or drive a position actuator"
+                    )
+                    raise InputError(problem, field=f"targets.{name}", value=number)
                 control[actuators[name]] = number
             elif name in joints:
                 positions[name] = float(number)
@@ -302,7 +309,8 @@ def controls_of(
         return lambda t: checked(drive(t))
     if isinstance(targets, str | Path):
         names, times, values = table_read(Path(targets))
-        checked(dict(zip(names, values[0].tolist(), strict=True)))
+        for row in values.tolist():
+            checked(dict(zip(names, row, strict=True)))
         return lambda t: checked(
             dict(zip(names, piecewise_linear(times, values, t).tolist(), strict=True))
         )

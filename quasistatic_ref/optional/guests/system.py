@@ -350,8 +350,9 @@ class MujocoSystem(System):
         """Forces of servos, within their ranges, and of other actuators at q, (nv,) each."""
         state = self.state(q)
         data = state.data
-        before = data.ctrl.copy()
+        before = data.ctrl.copy(), data.act.copy()
         data.ctrl[:] = control
+        data.act[:] = self._activations(data.act, control)
         state.mujoco.mj_fwdActuation(state.own, data)
         servos = self._servos()
         moments = state.moments
@@ -360,9 +361,23 @@ class MujocoSystem(System):
         taken = data.qfrc_actuator - data.actuator_force @ moments
         force = force + np.where(moments[servos].any(axis=0), taken, 0.0)
         others = data.qfrc_actuator - force
-        data.ctrl[:] = before
+        data.ctrl[:], data.act[:] = before
         state.mujoco.mj_fwdActuation(state.own, data)
         return force, others
+
+    def _activations(self, act: Array, control: Array) -> Array:
+        """Activations at rest, (na,): of a filter its control, others as they are in `act`."""
+        model = self.model
+        rest = act.copy()
+        for i in range(model.nu):
+            if kind_of(self._state, "actuator_dyntype", i) in ("FILTER", "FILTEREXACT"):
+                asked = control[i]
+                if model.actuator_ctrllimited[i]:
+                    asked = np.clip(asked, *model.actuator_ctrlrange[i])
+                if model.actuator_actlimited[i]:
+                    asked = np.clip(asked, *model.actuator_actrange[i])
+                rest[model.actuator_actadr[i] + model.actuator_actnum[i] - 1] = asked
+        return rest
 
     def target(self, q: Array, control: Array, positions: Mapping[str, float]) -> Array:
         """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,).
