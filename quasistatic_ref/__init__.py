@@ -34,7 +34,6 @@ _HOMES = {
     "scenario.scenario": "Scenario load_scenario",
     "optional.runs.scene_file": "scenario_written",
     "optional.scans.body": "scanned_body",
-    "optional.targets.joint_targets": "joint_targets",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
     "step.files": "step_read step_written",

@@ -28,7 +28,6 @@ COMMANDS = {
     "inspect": "show what a URDF or a scenario holds, and what the model ignores",
     "body": "make a body of a scenario from a scan, a point cloud or a mesh",
     "opinion": "say whether the contacts of a MuJoCo scene hold, next to the exact answer",
-    "targets": "write targets of joints that move a link along straight lines between poses",
     "extract": "write one step of a trajectory as a step file",
     "serve": "answer steps that another program asks for, one at a time, over a pipe",
     "vectors": "reference vectors: check another implementation against them, layer by layer",

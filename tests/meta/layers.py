@@ -39,7 +39,6 @@ OPTIONAL = (
     "optional/runs",
     "optional/scans",
     "optional/show",
-    "optional/targets",
 )
 
 # The command line and the lab import anything before them, in this order.
@@ -93,7 +92,7 @@ WALLS = {
         "lab/study/compiled_problems.py",
     ),
     "qpsolvers": ("optional/qpsolvers",),
-    "pinocchio": ("model", "optional/derivatives/model", "optional/targets"),
+    "pinocchio": ("model", "optional/derivatives/model"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),

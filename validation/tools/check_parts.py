@@ -36,7 +36,6 @@ PARTS = {
     "runs": (["--resume"], "resume"),
     "scans": ([], ""),
     "show": (["--view"], "view"),
-    "targets": ([], ""),
 }
 """The parts, and of each the options of ``run`` that need it, and the word in the refusal."""
 

@@ -1,1 +1,0 @@
-"""Targets in space, written as targets of joints, by inverse kinematics."""
