@@ -53,7 +53,13 @@ def point_cloud(path: str | Path) -> PointCloud:
 
 
 def seen_points(path: str | Path) -> tuple[Array, int]:
-    """The points of a file, shape (N, 3) [m], and how many are left out since they are NaN."""
+    """The points of a file, shape (N, 3) [m], and how many are left out since they are NaN.
+
+    Raises
+    ------
+    ModelError
+        As of :func:`point_cloud`.
+    """
     path = Path(path)
     kind = path.suffix.lower()
     if kind not in KINDS:

@@ -22,6 +22,10 @@ LARGEST_MESH = 16 * 2**20
 """Largest mesh [bytes]."""
 
 
+MOST_ABOVE = 8
+"""Folders above a file in which its package is looked for, where no repository bounds them."""
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """What a mesh file holds, all of its objects where it places them.
@@ -44,8 +48,9 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     Parameters
     ----------
     uri : str
-        ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders, or a
-        path relative to `folder`.
+        ``package://NAME/PATH``, looked for as NAME/PATH in each of the package folders and in the
+        folders above `folder`, up to that of its repository, then as PATH in those that are called
+        NAME, then as PATH in each; or a path relative to `folder`.
     folder : Path
         Of the file that the URI stands in.
     package_dirs : sequence of str or Path
@@ -53,20 +58,22 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     Raises
     ------
     ModelError
-        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in one of
-        the package folders after symbolic links are resolved: what is loaded is never a surprise.
-        Or if it is too large.
+        If there is no such file, its kind is unknown, or it lies neither in `folder` nor in
+        a folder that it was looked for in after symbolic links are resolved: what is loaded is
+        never a surprise. Or if it is too large.
     """
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
         raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
     packages = [Path(given) for given in package_dirs]
     if uri.startswith(PACKAGE):
-        if not packages:
-            problem = "needs package_dirs (--root FOLDER), which contain package:// files"
-            raise ModelError(problem, value=uri)
         inside = uri.removeprefix(PACKAGE).lstrip("/")
-        places = [package / inside for package in packages]
+        name, _, below = inside.partition("/")
+        above = _repository(folder.resolve())
+        places = [package / inside for package in [*packages, *above]]
+        places += [parent / below for parent in above if parent.name == name]
+        places += [parent / below for parent in above]
+        packages += above
     elif "://" in uri:
         raise ModelError("must be package://NAME/PATH or a relative path", value=uri)
     else:
@@ -76,8 +83,9 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
         path = None
     if path is None:
-        where = ", ".join(str(package) for package in packages) or str(folder)
-        raise ModelError(f"no such file (looked for in {where})", value=uri)
+        where = ", ".join(str(package) for package in packages) or str(folder.resolve())
+        hint = "; --root FOLDER names another" if uri.startswith(PACKAGE) else ""
+        raise ModelError(f"no such file (looked for in {where}{hint})", value=uri)
     if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
             f"leads to {path}, outside the folder of this file and of package_dirs; "
@@ -89,6 +97,14 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
         problem = f"is larger than {LARGEST_MESH / 2**20:g} MiB; take a simpler mesh"
         raise ModelError(problem, value=uri)
     return path
+
+
+def _repository(folder: Path) -> list[Path]:
+    """A folder and those above it, up to that of its repository, but for the root of all."""
+    above = [folder, *folder.parents][:MOST_ABOVE]
+    above = [each for each in above if each != each.parent]
+    top = [i for i, each in enumerate(above) if (each / ".git").exists()]
+    return above[: top[0] + 1] if top else above
 
 
 def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
@@ -170,9 +186,12 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
 
 
 def hull_of_loaded(mesh: Mesh, scale: Array) -> ConvexMesh:
-    """Convex hull of all vertices, times `scale`, (3,) [-]; ModelError if there is none.
+    """Convex hull of all vertices, times `scale`, (3,) [-]; points alone are their own hull.
 
-    Points alone are their own hull.
+    Raises
+    ------
+    ModelError
+        If there are fewer than four, or they have no volume.
     """
     if not len(mesh.vertices):
         raise ModelError("is empty: the mesh has no vertices", field="vertices")

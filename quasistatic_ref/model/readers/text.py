@@ -33,7 +33,7 @@ def decimal(text: str) -> float:
 
 
 def number_or_nan(text: str) -> float:
-    """Number as :func:`decimal` reads it, or NaN where the text is ``nan``."""
+    """Number as :func:`decimal` reads it [any unit], or NaN where the text is ``nan``."""
     return math.nan if text.strip().lower() in ("nan", "-nan") else decimal(text)
 
 

@@ -216,7 +216,13 @@ class Tag:
         return rotation(origin.rpy()), origin.numbers("xyz", 3, default=0.0)
 
     def rpy(self) -> Array:
-        """Roll, pitch and yaw of an origin, shape (3,) [rad]."""
+        """Roll, pitch and yaw of an origin, shape (3,) [rad].
+
+        Raises
+        ------
+        ModelError
+            If it has a quaternion too, or one that is zero.
+        """
         if "quat_xyzw" not in self.element.attrib:
             return self.numbers("rpy", 3, default=0.0)
         where = f"{self.where}.quat_xyzw"

@@ -93,6 +93,11 @@ def unpacked(packed: bytes, size: int) -> bytes:
     A byte below 32 is followed by one more literal bytes than it says. Any other begins a copy of
     what was unpacked before: its upper three bits are the length less two, and where these are 7,
     the next byte is added; its lower five and the next byte are the distance back, less one.
+
+    Raises
+    ------
+    ModelError
+        If they are not so many, or a copy begins before the first.
     """
     content = bytearray()
     i = 0

@@ -65,12 +65,34 @@ def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
     assert found == expected.resolve()
 
 
+PLACES = {
+    "in the repository": "repo/arm/meshes/a.obj",
+    "next to the file": "repo/arm/urdf/arm/meshes/a.obj",
+    "in a folder of another name": "repo/meshes/a.obj",
+}
+
+
+@pytest.mark.parametrize("place", PLACES.values(), ids=PLACES)
+def test_a_package_address_is_looked_for_above_the_file(tmp_path, place):
+    urdf = tmp_path / "repo" / "arm" / "urdf"
+    urdf.mkdir(parents=True)
+    (tmp_path / "repo" / ".git").mkdir()
+    outside = tmp_path / "arm" / "meshes"
+    for folder in (outside, (tmp_path / place).parent):
+        folder.mkdir(parents=True, exist_ok=True)
+        urdf_of_text(folder, TETRAHEDRON, "a.obj")
+    assert mesh_path("package://arm/meshes/a.obj", urdf) == (tmp_path / place).resolve()
+    (tmp_path / place).unlink()
+    with pytest.raises(ModelError, match="no such file"):  # nothing outside of the repository
+        mesh_path("package://arm/meshes/a.obj", urdf)
+
+
 OUTSIDE = {
     "up": ("../secret.obj", "leads to .*, outside the folder of this file"),
     "absolute": ("{root}/secret.obj", "leads to .*, outside the folder of this file"),
     "link": ("link.obj", "leads to .*, outside the folder of this file"),
     "file": ("file:///a.obj", "must be package://NAME/PATH or a relative path"),
-    "no package": ("package://arm/a.obj", r"needs package_dirs \(--root FOLDER\), which contain"),
+    "no package": ("package://arm/b.obj", r"no such file \(looked for in .*home.*--root FOLDER"),
     "missing": ("b.obj", "no such file"),
     "kind": ("a.blend", "is not a known kind of mesh; known: .3mf, .dae, .glb"),
 }
