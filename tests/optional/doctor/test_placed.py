@@ -2,14 +2,13 @@
 
 from math import cos, pi, sin
 
+import mujoco
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.optional.doctor.falls import fall
 from quasistatic_ref.optional.doctor.start import Start
-
-mujoco = pytest.importorskip("mujoco")
 
 LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <site name="hook" pos="0 0 {hook}"/>

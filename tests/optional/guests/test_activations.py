@@ -1,12 +1,11 @@
 """Servos whose force follows an activation: at rest that of a filter is its control."""
 
+import mujoco
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
-
-mujoco = pytest.importorskip("mujoco")
 
 SLIDER = """<mujoco><worldbody><body name="b"><joint name="j" type="slide" axis="1 0 0"/>
 <geom size="0.05" mass="1"/></body></worldbody><actuator>{}</actuator></mujoco>"""
