@@ -101,7 +101,7 @@ def slot(clearance, **settings):
         )
         for side in (-1, 1)
     ]  # fmt: skip
-    settings = {"law": "coulomb", "fast": True} | settings
+    settings = {"law": "coulomb"} | settings
     return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=(0, 0, 0), **settings)
 
 
