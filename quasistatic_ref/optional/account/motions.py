@@ -69,6 +69,13 @@ def relative_turn(
     -------
     ndarray, shape (steps + 1,)
         Angles from 0 to pi [rad], the start included.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("block_push", steps=2)
+    >>> run = scenario.run(progress=False)
+    >>> qr.relative_turn(scenario.system, run, "block", "block")
+    array([0., 0., 0.])
     """
     motion = link_motion(system, trajectory, link)
     return motion.relative_to(link_motion(system, trajectory, to)).rotation_since(since)

@@ -69,6 +69,16 @@ def animate(
     InputError
         If the ending is another one, the run has no steps, the speed is not positive, or ffmpeg is
         not there for MP4.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> scenario = qr.load_scenario("sphere_spin", steps=2)
+    >>> run = scenario.run(progress=False)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     qr.animate(scenario, run, Path(folder) / "spin.gif", progress=False).name
+    'spin.gif'
     """
     path = _with_ending(Path(path))
     if not 0 < speed < np.inf:

@@ -40,6 +40,15 @@ def stick_slip_map(axes: Axes, run: Trajectory) -> None:
     ------
     InputError
         If the run has no steps, or another record.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> scenario = qr.load_scenario("block_incline", ["record=full"], steps=3)
+    >>> qr.stick_slip_map(axes, scenario.run(progress=False))
+    >>> axes.get_xlabel()
+    'time t [s]'
     """
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
@@ -87,6 +96,14 @@ def cone_with_load(
     ------
     InputError
         If there is no normal force, or mu_v is not positive.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> qr.cone_with_load(axes, [0.2, 0.1, 1.0, 0.0], mu_v=0.5, mu_omega=0.01)
+    >>> axes.get_xlim()[1]
+    np.float64(0.575)
     """
     f_1, f_2, f_n, torque = np.asarray(wrench, dtype=np.float64)
     if not (f_n > 0 and mu_v > 0):

@@ -77,6 +77,15 @@ def draw_scene(
         Centre, shape (3,), and half the width [m] of what is shown; everything by default.
     legend : bool
         Whether to write above the axes what is what, and the scale of forces.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().subplots()
+    >>> scenario = qr.load_scenario("block_push", steps=1)
+    >>> qr.draw_scene(axes, qr.moment(scenario, scenario.run(progress=False), 0))
+    >>> axes.get_xlabel()
+    'x [mm]'
     """
     box = extent(of)
     if around is not None:
@@ -114,6 +123,16 @@ def draw_scenes(
     view : str or Camera
     options
         Further arguments of :func:`draw_scene`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> panels = Figure().subplots(1, 2)
+    >>> scenario = qr.load_scenario("block_push", steps=2)
+    >>> run = scenario.run(progress=False)
+    >>> qr.draw_scenes(panels, [qr.moment(scenario, run, k) for k in (0, 1)])
+    >>> panels[0].get_xlim() == panels[1].get_xlim()
+    True
     """
     around = middle(box_of(np.concatenate([extent(of) for of in moments])))
     fixed: dict[str, Any] = {

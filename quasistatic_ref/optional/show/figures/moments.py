@@ -121,6 +121,12 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     ------
     InputError
         If there is no such step.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin", steps=2)
+    >>> len(qr.moment(scenario, scenario.run(progress=False), -1).contacts)
+    1
     """
     if not -run.steps <= k < run.steps:
         raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)

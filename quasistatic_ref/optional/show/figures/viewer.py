@@ -94,6 +94,14 @@ def view_written(
     ------
     InputError
         If the extra ``view`` is not installed, the run has no steps, or its scene is not known.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     qr.view_written(qr.load_scenario("sphere_spin"), Path(folder) / "spin.html").name
+    'spin.html'
     """
     if not isinstance(path, str | Path):
         problem = "must be a file; give what is shown, then the file, then the run"
