@@ -9,9 +9,8 @@ from quasistatic_ref.parts import needing
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
-        "scan", type=Path, help="a cloud (CSV, XYZ, PLY, PCD, NPY, NPZ) or a mesh (STL, OBJ, DAE)"
-    )
+    formats = "a cloud (CSV, XYZ, PTS, PCD, NPY, NPZ) or a mesh (STL, OBJ, PLY, OFF, GLB, 3MF, DAE)"
+    parser.add_argument("scan", type=Path, help=formats)
     weight = parser.add_mutually_exclusive_group(required=True)
     weight.add_argument("--mass", type=float, metavar="KG", help="of the body [kg]")
     weight.add_argument("--density", type=float, metavar="RHO", help="in its place [kg/m^3]")
