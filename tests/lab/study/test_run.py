@@ -84,7 +84,13 @@ def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
 def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(study, small, tmp_path):
     """While a function sleeps in its process: whatever it started has ended, too."""
     study(small.replace("honest", "sleeps"))
-    command = [sys.executable, "-m", "quasistatic_ref", "study", "run", "study.toml"]
+    # Where this was started in the background, SIGINT is ignored, also by what it starts.
+    program = (
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "from quasistatic_ref.cli.main import main; "
+        "raise SystemExit(main(['study', 'run', 'study.toml']))"
+    )
+    command = [sys.executable, "-c", program]
     process = subprocess.Popen(
         command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": ROOT}, stderr=subprocess.PIPE
     )

@@ -48,7 +48,7 @@ def vector_scene(name, **settings):
     (case,) = [case for case in cases("derivative") if case.id == f"derivative/{name}"]
     posed = posed_case(case.input)
     own = posed.simulator
-    given = {"h": own.h, "K_q": own.K_q, "gravity": own.gravity, "cone": own.cone, "fast": True}
+    given = {"h": own.h, "K_q": own.K_q, "gravity": own.gravity, "cone": own.cone}
     return Simulator(own.system, own.pairs, **(given | settings)), posed.q, posed.q_bar_a
 
 
