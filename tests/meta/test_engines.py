@@ -3,11 +3,12 @@
 import subprocess
 import sys
 from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from validation.make.engines import ENGINES, RESULTS, ROOT, records
+from validation.make.engines import ENGINES, RESULTS, ROOT, records, unanswered
 from validation.programs.engines import ask
 from validation.programs.engines.phenomena import BALL, PHENOMENA
 from validation.programs.engines.scenes import Scene, Shape, simulated, times
@@ -57,6 +58,11 @@ def test_a_state_that_is_no_number_is_named():
     scene = Scene((BALL,), 0.5, 0.01, times(0.25, 0.5, 0.25))
     with pytest.raises(ValueError, match=r"^the state at 0\.25 s is no number$"):
         simulated(scene, Broken())
+    module = SimpleNamespace(NO_TORSION="", Engine=lambda scene, setting: Broken())
+    cell = {"setting": "s", "phenomenon": "p"}
+    cell |= ask.cell(module, {}, PHENOMENA["sticks_on_slope"])
+    (sentence,) = unanswered("broken", {"cells": [cell]})
+    assert sentence == "broken, s, p: ValueError: the state at 0.5 s is no number"
 
 
 def test_a_shape_that_no_engine_knows_is_refused():

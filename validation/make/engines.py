@@ -4,8 +4,8 @@ Makes one environment of Python 3.11 with the pinned engines and this project (i
 folder; ``--environment`` keeps it in a folder of yours, and takes what is there), asks each engine,
 or those named, in a process of its own, and writes ``NAME.json``, the page phenomena.md and the
 picture. ``--tables`` only writes page and picture, from the committed results. An engine that is
-missing, or ends in the middle, is named in a sentence; the others are asked, and the exit status
-is 2.
+missing, or ends in the middle, and a cell without an answer, such as a state that is no number, are
+named in a sentence each; the others are asked, and the exit status is 2.
 """
 
 import json
@@ -62,11 +62,24 @@ def asked(names: tuple[str, ...], python: Path | str, results: Path) -> int:
         replies = {name: pool.submit(answers, name, python) for name in names}
         for name, reply in replies.items():
             try:
-                record_written(results / f"{name}.json", reply.result())
+                record = reply.result()
             except RuntimeError as error:
-                failures += 1
-                print(error, file=sys.stderr)
+                sentences = [str(error)]
+            else:
+                record_written(results / f"{name}.json", record)
+                sentences = unanswered(name, record)
+            failures += len(sentences)
+            print(*sentences, sep="\n", end="\n" if sentences else "", file=sys.stderr)
     return failures
+
+
+def unanswered(name: str, record: dict[str, Any]) -> list[str]:
+    """A sentence for each cell to which an engine came to no answer."""
+    return [
+        f"{name}, {cell['setting']}, {cell['phenomenon']}: {cell['failed']}"
+        for cell in record["cells"]
+        if "failed" in cell
+    ]
 
 
 def records(results: Path) -> dict[str, dict[str, Any]]:
