@@ -170,7 +170,8 @@ def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
     """Of an answer and the maxima near it, the widest gap that is proved."""
     if not np.isfinite(start.n).all():
         return start
-    best = _widest([start, *(judged(a, b, *way) for way in settled(a, b, Witness(*start[:4])))])
+    ways = [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
+    best = _widest([*ways, start], last=start)
     if best.proves_its_normal or best.phi < 0:
         return best
     # A corner or a tip near a rim: Newton's method has next to nothing to hold on to there.
@@ -192,14 +193,18 @@ def _nearest_corner(solid: ShapeInWorld, other: ShapeInWorld, n: Array) -> list[
     return [Witness(phi - radius, points[i] - phi * out, points[i] - radius * out, out)]
 
 
-def _widest(every: list[Judged]) -> Judged:
-    """The widest gap that is proved, or what misses its proof by least."""
+def _widest(every: list[Judged], last: Judged | None = None) -> Judged:
+    """The widest gap that is proved, or what misses its proof by least.
+
+    Of equal gaps `last` is taken if there is no other: coal's points lie on the solids to its
+    tolerance alone, which a gap and a normal that are right to rounding do not show.
+    """
     for tolerance in (ENOUGH, WITNESS):
         proved = [found for found in every if found.defect <= tolerance]
         if proved:  # no gap exceeds the distance
             widest = max(found.phi for found in proved)
             level = [found for found in proved if found.phi >= widest - tolerance]
-            return min(level, key=lambda found: found.defect)
+            return min(level, key=lambda found: (found is last, found.defect))
     return min(every, key=lambda found: found.defect)
 
 

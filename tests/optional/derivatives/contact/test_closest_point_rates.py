@@ -25,8 +25,6 @@ from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 X, Y, N = np.eye(3)
 ACROSS = np.stack([X, Y])
 PHI = 0.1
-OF_POINTS = 1e-4
-"""Points of two solids are right to 1e-9 or better, and their differences are over 1e-5."""
 DIAGONAL = (X + Y) / np.sqrt(2)
 EDGE, FACE = (Feature(free=free) for free in (DIAGONAL[None], ACROSS))
 
@@ -101,9 +99,7 @@ def test_r29_random_pairs_change_as_differences_say(shapes, rng):
     found = np.concatenate([rates.phi[0, None], rates.n[0], rates.alpha[0], rates.beta[0]]) @ e
     expected = rate(moved)
     size = np.abs(expected).max()
-    gap_and_normal = slice(4)
-    assert_within(found[gap_and_normal], expected[gap_and_normal], DIFFERENCE_OF_STEPS * size)
-    assert_within(found, expected, OF_POINTS * size)
+    assert_within(found, expected, DIFFERENCE_OF_STEPS * size)
 
 
 def test_r34_tangents_change_as_written(rng):
