@@ -115,7 +115,8 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     total = np.ones((1, len(unspanned)))
     if len(unspanned) > 1 and small_combinations(form, working, unspanned, total)[0]:
         # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
-        unique, smooth = False, True
+        unique = False
+        smooth = True
     else:
         smooth = differentiable(form, working, unspanned)
         unique = multipliers_unique(form, working, spanned, unspanned)

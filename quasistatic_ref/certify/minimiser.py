@@ -113,7 +113,8 @@ def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution[arb]:
 
 def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution[fmpz]:
     """The solution without rounding; ZeroDivisionError if the rows are not independent."""
-    n, k = form.n, len(working)
+    n = form.n
+    k = len(working)
     rows = form.exact_rows(working)
     equations = []
     for block in form.blocks:

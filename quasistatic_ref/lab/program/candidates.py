@@ -17,9 +17,11 @@ FILLED = 1e6
 REPEATED = 1e-9
 """[m], and [-] of normals: candidates that differ by less are one."""
 
-RANKED, SPANNED = 1e-9, 1e-6
-"""Over the smaller shape's size: distances are rounded to multiples of the first before they rank;
-a closest pair may be out of the hull of others by the second."""
+RANKED = 1e-9
+"""Over the smaller shape's size: distances are rounded to multiples of it before they rank."""
+
+SPANNED = 1e-6
+"""Over the smaller shape's size: a closest pair may be out of the hull of others by it."""
 
 SAME_NORMAL = 1e-6
 """Components of normals that differ by less are one [-]."""

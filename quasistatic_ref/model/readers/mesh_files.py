@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -154,12 +155,12 @@ def _check_collada(path: Path) -> None:
     Collada(str(path), ignore=[DaeUnsupportedError, DaeBrokenRefError])  # such as of images
 
 
-def _parts(placed: Sequence[object]) -> Iterator[tuple[Array, Indices]]:
+def _parts(placed: Sequence[Any]) -> Iterator[tuple[Array, Indices]]:
     """Vertices and triangles of each object; lines have none that count."""
     for part in placed:
         faces = getattr(part, "faces", np.zeros((0, 3)))
         if type(part).__name__ in ("Trimesh", "PointCloud"):
-            vertices = np.asarray(getattr(part, "vertices"), dtype=np.float64)  # noqa: B009
+            vertices = np.asarray(part.vertices, dtype=np.float64)
             yield vertices.reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3)
 
 
