@@ -229,10 +229,6 @@ EXTRAPOLATED: Final = 1e-10
 """Least singular value, relative to the largest [-], of the changes of residuals that s is
 extrapolated from: they are right to 1e-16 of s, and what is left of smaller ones is rounding."""
 
-FEASIBLE: Final = 1e-6
-"""Residual of the least-squares problem of a system of inequalities [-] above which float64 counts
-as having solved it. A solution of length z, in its natural scale, leaves 1 / sqrt(1 + z^2)."""
-
 BEARS: Final = 1e-9
 """Least normal force of a contact that bears load, over the largest normal force of its step [-]:
 solvers leave 1e-12 of the largest on contacts that do not touch."""
