@@ -286,6 +286,7 @@ class StepForm(ExactForm):
         self._frame[:, 3, 3] = 1.0
         self._own = own
         self._contact, self._kind = np.nonzero(self._mask)
+        self._places = list(zip(self._contact.tolist(), self._kind.tolist(), strict=True))
         self._motions: dict[int, arb_mat] = {}
         self._rows: dict[int, list[Row]] = {}
         self.n = len(a) + len(u)
@@ -309,13 +310,13 @@ class StepForm(ExactForm):
 
     def exact_row(self, i: int) -> Row:
         """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        if i >= len(self._contact):
-            return [arb(v) for v in self._own[i - len(self._contact)].tolist()]
-        c = int(self._contact[i])
+        if i >= len(self._places):
+            return [arb(v) for v in self._own[i - len(self._places)].tolist()]
+        c, kind = self._places[i]
         if c not in self._rows:
             with ctx.workprec(EXACT):
                 self._rows[c] = (exact_matrix(self._cone) * self.motion(c)).tolist()
-        return self._rows[c][self._kind[i]]
+        return self._rows[c][kind]
 
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
         """As of the base."""
@@ -323,13 +324,13 @@ class StepForm(ExactForm):
         of_contact: dict[int, list[arb]] = {}
         slacks = []
         for i in some:
-            if i >= len(self._contact):
+            if i >= len(self._places):
                 slacks += (arb_mat([self.exact_row(i)]) * z).entries()
                 continue
-            c = int(self._contact[i])
+            c, kind = self._places[i]
             if c not in of_contact:
                 of_contact[c] = (matrix * (self.motion(c) * z)).entries()
-            slacks.append(of_contact[c][self._kind[i]])
+            slacks.append(of_contact[c][kind])
         return slacks
 
     def float_rows(self, some: Sequence[int]) -> Array:

@@ -388,10 +388,8 @@ def _contacts(
 
 def in_world(pair: ContactPair, R: Array, t: Array) -> tuple[ShapeInWorld, ShapeInWorld]:
     """Alpha's and beta's shape where their links are; R (L, 3, 3), t (L, 3) [m] are the links'."""
-    sides = (pair.alpha, pair.beta)
-    links = [side.link for side in sides]
-    on_links = np.array([np.column_stack([side.R, side.t]) for side in sides])
-    world = product(R[links], on_links)
+    links = [pair.alpha.link, pair.beta.link]
+    world = product(R[links], pair.poses)
     world[:, :, 3] += t[links]
     of_alpha, of_beta = world
     return (

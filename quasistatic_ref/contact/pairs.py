@@ -97,6 +97,11 @@ class ContactPair(Plain):
                 )
 
     @cached_property
+    def poses(self) -> Array:
+        """[R, t] of alpha and of beta on their links, shape (2, 3, 4); R [-], t [m]."""
+        return np.array([np.column_stack([side.R, side.t]) for side in (self.alpha, self.beta)])
+
+    @cached_property
     def has_cloud(self) -> bool:
         """Whether one side is a cloud."""
         return isinstance(self.alpha.shape, PointCloud) or isinstance(self.beta.shape, PointCloud)

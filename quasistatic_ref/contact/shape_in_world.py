@@ -37,5 +37,12 @@ class Witness(NamedTuple):
 
 
 def moved(pose: Array, points: Array) -> Array:
-    """Points (N, 3) [m] of one frame in another; the pose is [R, t], shape (3, 4) [-, m]."""
-    return rotated(pose[:, :3], points) + pose[:, 3]
+    """Points (N, 3) [m] of one frame in another; the pose is [R, t], shape (3, 4) [-, m].
+
+    They are stored coordinate by coordinate: of many points, loops over these are the inner ones.
+    """
+    x: Array = pose[:, :1] * points[:, 0]
+    x += pose[:, 1:2] * points[:, 1]
+    x += pose[:, 2:3] * points[:, 2]
+    x += pose[:, 3:]
+    return x.T

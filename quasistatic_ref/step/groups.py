@@ -35,9 +35,8 @@ class Group(NamedTuple):
 
     def within(self, rows: Sequence[int]) -> list[int]:
         """Those of some rows of the step that are in the group, counted in it, in their order."""
-        indices = np.array(rows, dtype=np.int64)
-        in_group = indices[np.isin(indices, self.rows)]
-        return [int(i) for i in np.searchsorted(self.rows, in_group)]
+        place = {row: i for i, row in enumerate(self.rows.tolist())}
+        return [place[row] for row in rows if row in place]
 
 
 def groups(step: StepData, near: Mask | None = None) -> list[Group]:
