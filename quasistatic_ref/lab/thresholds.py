@@ -60,12 +60,44 @@ def threshold(
     return high
 
 
+def threshold_near(
+    moves: Callable[[float], bool],
+    expected: float,
+    within: tuple[float, float] = (0.5, 2.0),
+    precision: float = PRECISION,
+) -> float:
+    """A threshold by bisection of the narrowest interval about the expected load that holds it.
+
+    Parameters
+    ----------
+    moves : callable
+        Whether a load moves the body.
+    expected : float
+        About where the threshold is [unit of the load].
+    within : (float, float)
+        Between which multiples of that it is looked for [-].
+    precision : float
+        Of the result, relative [-].
+
+    Returns
+    -------
+    float
+        A load [its unit]; NaN where none of the intervals has the threshold in it.
+    """
+    widths = 10.0 ** np.arange(np.log10(precision) + 1, 0)
+    for low, high in [*((1 - width, 1 + width) for width in widths), within]:
+        load = threshold(moves, low * expected, high * expected, precision)
+        if not np.isnan(load):
+            break
+    return load
+
+
 def thresholds(
     step: Callable[..., StepData],
     sweep: Array,
     limits: Array,
     within: tuple[float, float] = (0.5, 2.0),
-    part: slice = slice(None),
+    part: slice | list[int] = slice(None),
 ) -> Array:
     """Where steps begin to move something, by bisection on exact answers, shape (N,).
 
@@ -79,17 +111,16 @@ def thresholds(
         About where each threshold is [unit of what is bisected].
     within : (float, float)
         Between which multiples of that it is looked for [-].
-    part : slice
+    part : slice or list of int
         Of delta_q: what has to move.
     """
 
     def moves(x: float, of: Array) -> bool:
         return bool(np.any(exact(step(x, *of)).delta_q[part]))
 
-    low, high = within
     return np.array(
         [
-            threshold(partial(moves, of=of), low * limit, high * limit)
+            threshold_near(partial(moves, of=of), limit, within)
             for of, limit in zip(sweep, limits, strict=True)
         ]
     )

@@ -5,7 +5,6 @@ import numpy as np
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_within
 
-G = 9.81
 INSTANCES = 40
 INFEASIBLE = {11, 12}
 """Seeds of mixed steps, of those below INSTANCES."""

@@ -1,12 +1,15 @@
 """Equations and results that code and docs cite have one definition and a test.
 
 The equations are the paper's, 1 to 13, with tests in tests/equations. Our own results are (R1),
-(R2), ...; that of (R7) by random instances is called test_r7_...
+(R2), ...: a claim of `validate` cites it, which a test calls, or its test by random instances has
+the name test_r7_... for (R7).
 """
 
 import ast
 import re
 from pathlib import Path
+
+from quasistatic_ref.lab.claims.registry import CLAIMS
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "quasistatic_ref"
@@ -71,8 +74,9 @@ def test_every_result_is_derived_once_and_cited_ones_are():
     assert {int(n) for text in (*pages, *code) for n in RESULT.findall(text)} == set(numbers)
 
 
-def test_every_result_has_a_test_by_random_instances():
-    tested = set()
+def test_every_result_has_a_claim_or_a_test_by_random_instances():
+    claims = CLAIMS["Closed forms"].values()
+    tested = {int(n) for claim in claims for n in RESULT.findall(claim.where)}
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
         for found in RANDOM.finditer(path.read_text("utf-8")):
             assert re.search(r"\b(rng|seed)\b", found[0]), (path, found[1])

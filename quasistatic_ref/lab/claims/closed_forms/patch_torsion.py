@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.thresholds import exact, threshold
+from quasistatic_ref.lab.thresholds import exact, threshold_near
 from quasistatic_ref.step.data import Array, StepData
 
 MU = 0.6
@@ -53,25 +53,21 @@ def patch(r: Array, N: Array, tau: float) -> StepData:
     )  # fmt: skip
 
 
-def mu_omega(r: Array, N: Array) -> float:
-    """Torque that turns the body, over its load [m], from exact answers."""
-    limit = MU * LOAD * RADIUS
+def mu_omega(r: Array, N: Array) -> tuple[float, float]:
+    """Torque that turns the body, over its load [m]: from exact answers, and as a sum."""
+    total = MU * float(r @ N)
 
-    def moves(share: float) -> bool:
-        return bool(exact(patch(r, N, share * limit)).delta_q[-1])
+    def moves(tau: float) -> bool:
+        return bool(exact(patch(r, N, tau)).delta_q[-1])
 
-    return threshold(moves, 0.01, 1.5, PRECISION) * limit / LOAD
+    return threshold_near(moves, total, precision=PRECISION) / LOAD, total / LOAD
 
 
 def evidence() -> Evidence:
     """One ring; then more and more rings under two pressures."""
-    ring = [mu_omega(np.full(n, RADIUS), np.full(n, LOAD / n)) for n in (1, 3, 6)]
-    found = {
-        name: [mu_omega(*rings(pressure, n)) for n in RINGS]
-        for name, (pressure, _) in PRESSURES.items()
-    }
-    sums = {
-        name: [MU * float(np.dot(*rings(pressure, n))) / LOAD for n in RINGS]
+    ring = [mu_omega(np.full(n, RADIUS), np.full(n, LOAD / n))[0] for n in (1, 3, 6)]
+    both = {
+        name: np.array([mu_omega(*rings(pressure, n)) for n in RINGS]).T
         for name, (pressure, _) in PRESSURES.items()
     }
     unit = MU * RADIUS
@@ -79,12 +75,13 @@ def evidence() -> Evidence:
         comparison("ring: mu_omega / (mu a) [-]", np.array(ring) / unit, 1.0, 2 * PRECISION)
     ]
     for name, (_, limit) in PRESSURES.items():
-        ratio = np.array(found[name]) / unit
+        measured, sums = both[name]
+        ratio = measured / unit
         comparisons += [
-            comparison(f"{name}: mu_omega [m]", found[name], sums[name], 2 * PRECISION, sums[name]),
+            comparison(f"{name}: mu_omega [m]", measured, sums, 2 * PRECISION, sums),
             comparison(f"{name}: mu_omega / (mu a), 32 rings [-]", ratio[-1:], limit, CONTINUUM),
         ]
-    picture = {"rings": RINGS, "found": {k: np.array(v) / unit for k, v in found.items()},
+    picture = {"rings": RINGS, "found": {k: v[0] / unit for k, v in both.items()},
                "limits": {k: v[1] for k, v in PRESSURES.items()}}  # fmt: skip
     return Evidence.of(*comparisons, **picture)
 
