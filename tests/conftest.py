@@ -43,12 +43,14 @@ def pytest_collection_modifyitems(items):
 def pytest_collection():
     """Collect the tests without a search for garbage: what is imported stays.
 
-    The search would take a quarter of the time, in each worker.
+    The search would take a quarter of the time, in each worker. Nor do later searches, while tests
+    run, look at what was there at the end of the collection.
     """
     gc.disable()
     try:
         return (yield)
     finally:
+        gc.freeze()
         gc.enable()
 
 

@@ -75,7 +75,7 @@ time_limit = 20.0
 repetitions = 2
 [problems]
 set = "contact-qp"
-families = { contacts = { count = 2, most = 12 }, mass_ratio = 3 }
+families = { contacts = { count = 1, most = 12 }, mass_ratio = 2 }
 [solvers.mine]
 function = "solvers.py:honest"
 [[runs]]

@@ -28,7 +28,7 @@ from tests.lab.vectors.committed_cases import (
 MEBIBYTES = 25
 """Promised size of the folder."""
 FILE_ALONE = "expected/derivative.json"
-EVERY = {"distance": 24, "qp": 6, "step": 24}
+EVERY = {"distance": 48, "qp": 12, "step": 48}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 

@@ -43,7 +43,7 @@ def test_names_of_the_editions_that_it_was_made_of_lead_to_it():
 
 def test_every_problem_has_its_length(members):
     """The largest of the three lengths that are known of a problem of no step."""
-    for one in members[::7]:
+    for one in members[::31]:
         x = np.zeros(len(one.g)) if one.answer.farkas else one.answer.x
         wanted = error_length(energy_norm(one.H.toarray()), one.H.diagonal(), one.g, x, 0.0)
         assert one.error_length == one.facts["length"] == pytest.approx(wanted, rel=ROUNDING)
