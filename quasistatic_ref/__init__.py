@@ -56,7 +56,7 @@ _HOMES = {
     "optional.show.figures.draw": "draw_scene draw_scenes",
     "optional.show.figures.moments": "moment",
     "optional.show.figures.viewer": "view_written",
-    "optional.account.motions": "relative_turn",
+    "simulate.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "

@@ -359,7 +359,7 @@ DEEP: Final = 1e-3
 """Penetration that an answer mentions [m]: MuJoCo's contacts at rest are about 0.1 mm deep."""
 
 NEAR: Final = 1e-3
-"""Distance of a pair that an account calls near [m]: what cameras and calibration leave open."""
+"""Distance that counts as near [m]: what cameras and calibration leave open."""
 
 TOUCHES: Final = 1e-9
 """Slack of a row of a contact that touches, at most [m]: certified steps leave rounding, 1e-16, and
@@ -371,18 +371,6 @@ SLIDES: Final = 1e-4
 SPINS: Final = 1e-3
 """Turn about its normal of a contact that an account says spins, at least [rad/s]: 0.6 deg in ten
 seconds."""
-
-SPUN: Final = 2e-3
-"""Turn about a normal that is an event [rad]: 0.1 deg."""
-
-SLID: Final = 1e-4
-"""Slip that is an event [m]: what a body shifts while it comes to rest is no event."""
-
-CARRIES: Final = 0.1
-"""Share of the forces that lift a body from which on a part of them carries it [-]."""
-
-BRIEF: Final = 3
-"""Steps [-] for which a change is no event: the nearest points of a pair come and go so often."""
 
 ROUGH: Final = 5.0
 """Friction coefficient above which a number is none [-]: racing tyres have 1.7."""

@@ -20,6 +20,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
+from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.simulator import SCENE_FINDINGS
 from quasistatic_ref.step.cones import cone
 
@@ -105,7 +106,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
     known = SCENE_FINDINGS.found() is not None
-    record["findings"] = [asdict(found) for found in scenario.findings()] if known else []
+    record["findings"] = [finding_table(found) for found in scenario.findings()] if known else []
     record["fields"] = named_fields(scenario.path)
     return record
 

@@ -3,7 +3,6 @@
 import argparse
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.observer import DOCTOR
 from quasistatic_ref.simulate.rollout import FIRST_STEP
@@ -137,7 +137,8 @@ def run(options: argparse.Namespace) -> int:
         "largest_drag_share": trajectory.header["largest_drag_share"],
         "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
         "milliseconds_per_step": milliseconds,
-        "findings": [asdict(finding) for finding in trajectory.findings],
+        "findings": [finding_table(finding) for finding in trajectory.findings],
+        "not_looked_at": trajectory.header.get("not_looked_at", ""),
     }
     if scenario.law == COULOMB:
         summary["s_iterations"] = trajectory["s_iterations"].tolist()
@@ -147,12 +148,12 @@ def run(options: argparse.Namespace) -> int:
         summary["view"] = str(view)
     account = None
     if ACCOUNT.found() is not None:
-        from quasistatic_ref.optional.account import words
+        from quasistatic_ref.optional.doctor import telling
 
         account = trajectory.account(forces=False)
     if options.json:
         if account is not None:
-            summary["account"] = words.tables(account)
+            summary["account"] = account.numbers
         shared.print_json(summary)
         return status
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
@@ -172,8 +173,8 @@ def run(options: argparse.Namespace) -> int:
     if DOCTOR.found() is not None:
         print(_artifacts(trajectory.header))
     if account is not None:
-        for line in words.short(account):
-            print(line)
+        for line in telling.lines(account, telling.PRINTED):
+            shared.print_wrapped(line, "    ")
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
     written = [str(file) for file in (path, *tables.values(), view) if file is not None]

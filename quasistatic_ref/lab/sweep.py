@@ -23,7 +23,7 @@ from quasistatic_ref.formats.files import (
 )
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.parallel import InThisProcess, results, workers
-from quasistatic_ref.optional.account.words import measures
+from quasistatic_ref.optional.doctor.telling import measures
 from quasistatic_ref.optional.runs.saved_files import Lock, fingerprint, run_settings
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -79,7 +79,8 @@ def simulate_many(
     -------
     list of dict
         One row a run, in the order of the values: ``run``, its file; ``values``; ``outcome``;
-        ``reason``, why it ended early; ``measures``.
+        ``reason``, why it ended early; ``findings``, their names, and ``not_looked_at``, what they
+        leave out; ``measures``.
 
     Raises
     ------
@@ -256,7 +257,12 @@ def _check_folder(folder: Path, files: Set[str]) -> None:
 def _row(trajectory: Trajectory) -> Row:
     outcome = DONE if trajectory.failed is None else ENDED_EARLY
     own = {"outcome": outcome, "reason": trajectory.failed}
-    return own | {"measures": outcomes(trajectory)}
+    findings = [finding.name for finding in trajectory.findings]
+    return own | {
+        "findings": findings,
+        "not_looked_at": trajectory.header.get("not_looked_at", ""),
+        "measures": outcomes(trajectory),
+    }
 
 
 def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
@@ -269,7 +275,7 @@ def outcomes(trajectory: Trajectory) -> dict[str, float | None]:
     Returns
     -------
     dict
-        What :func:`.words.measures` gives of its account, ``boundary_layer_um``,
+        What :func:`.telling.measures` gives of its account, ``boundary_layer_um``,
         ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
     """
     Pi = trajectory.header["quasi_dynamic_number"]
@@ -292,9 +298,11 @@ def _table(rows: Sequence[Row]) -> str:
     named = ["steps_taken" if name == "steps" else name for name in names]
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
-    lines.writerow(["run", *rows[0]["values"], "outcome", "reason", *named])
+    about = ["outcome", "reason", "findings", "not_looked_at"]
+    lines.writerow(["run", *rows[0]["values"], *about, *named])
     for row in rows:
-        found = [row["measures"].get(name) for name in names]
-        lines.writerow([row["run"], *row["values"].values(), row["outcome"], row["reason"],
-                        *found])  # fmt: skip
+        cells = [row[word] for word in about]
+        cells[2] = "; ".join(row["findings"])
+        numbers = [row["measures"].get(name) for name in names]
+        lines.writerow([row["run"], *row["values"].values(), *cells, *numbers])
     return text.getvalue()

@@ -1,24 +1,18 @@
-"""What happened in a run, as ``optional/account`` finds it."""
+"""What happened in a run: numbers over time, and a table of the most telling ones."""
+
+from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.data import Array, Mask
 
-
-class Span(NamedTuple):
-    """Steps in a row.
-
-    Parameters
-    ----------
-    first, last : int
-    """
-
-    first: int
-    last: int
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 
 class Loads(NamedTuple):
@@ -65,10 +59,10 @@ class PairAccount(Plain):
         Mean slip of the contacts that touch [m]; None where the record has no J.
     turn : ndarray, shape (steps,), or None
         Mean turn about the normals of the contacts that touch [rad], likewise.
+    slides, spins : ndarray of bool, shape (steps,)
+        Whether these are fast; never where they are not known.
     loads : Loads or None
         None where the forces are not known.
-    near, contact, sliding, spinning : list of Span
-        When its shapes were near, when it touched, when it slid, and when it turned about a normal.
     """
 
     name: str
@@ -79,11 +73,9 @@ class PairAccount(Plain):
     touches: Mask
     slip: Array | None
     turn: Array | None
+    slides: Mask
+    spins: Mask
     loads: Loads | None
-    near: list[Span]
-    contact: list[Span]
-    sliding: list[Span]
-    spinning: list[Span]
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,16 +89,11 @@ class Motion(Plain):
         From the start, along the world's axes [m]; of a prismatic joint its position, along x.
     turned : ndarray, shape (steps + 1,)
         From the start [rad].
-    touched, carried : mapping of str to list of Span
-        By what it touched, while it did; by what lifted it, while that was at least a `CARRIES` of
-        all that lifted it. Nothing where the forces are not known, or without gravity.
     """
 
     of: Joint
     moved: Array
     turned: Array
-    touched: Mapping[str, list[Span]]
-    carried: Mapping[str, list[Span]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,15 +110,12 @@ class Drive(Plain):
     spring : ndarray, shape (steps,), or None
         Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
         K_q is not diagonal.
-    waypoints : tuple of float
-        Times [s].
     """
 
     of: Joint
     unit: str
     error: Array
     spring: Array | None
-    waypoints: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,18 +126,12 @@ class Stop(Plain):
     ----------
     name : str
         Such as ``door/hinge at its upper limit``.
-    unit : str
-        Of its force, ``"N"`` or ``"N m"``.
     force : ndarray, shape (steps,)
         lam / h of its row [N, N m].
-    bears : list of Span
-        When it bore load.
     """
 
     name: str
-    unit: str
     force: Array
-    bears: list[Span]
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +149,10 @@ class Account(Plain):
     stops : tuple of Stop
     missing : tuple of str
         What the record does not hold, in sentences.
-    findings : tuple of str
+    numbers : dict of str to dict of str to dict of str to float
+        The table: of each kind (``"bodies"``, ``"joints"``, ``"stops"``, ``"pairs"``) what was
+        measured of each of its names [any unit], by words that end in their unit. Where something
+        is not known its word is missing.
     """
 
     t: Array
@@ -181,4 +162,20 @@ class Account(Plain):
     drives: tuple[Drive, ...]
     stops: tuple[Stop, ...]
     missing: tuple[str, ...]
-    findings: tuple[str, ...]
+    numbers: Mapping[str, Mapping[str, Mapping[str, float]]]
+
+    def to_pandas(self) -> DataFrame:
+        """The table as a frame: a row a kind and name, a column a number.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        pandas = needed_package("pandas", "pandas", "a table")
+        rows = [
+            {"kind": kind, "name": name, **numbers}
+            for kind, names in self.numbers.items()
+            for name, numbers in names.items()
+        ]
+        return pandas.DataFrame(rows).set_index(["kind", "name"])

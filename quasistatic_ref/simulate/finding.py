@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.table_reader import TableReader
@@ -17,21 +18,41 @@ class Finding(Plain):
         Of its kind, such as ``"free fall"``.
     grave : bool
         Whether the run is not what was meant; ``--strict`` fails on such a finding only.
-    sentence : str
-        The remedy, then the cause with bodies and contacts.
-    remedy : str
+    remedy, cause : str
+        What to do, and why, with bodies and contacts.
     numbers : mapping of str to float
         What was measured [any unit], by names that end in their unit: ``{"depth_mm": 10.0}``.
     """
 
     name: str
     grave: bool
-    sentence: str
     remedy: str
+    cause: str
     numbers: Mapping[str, float]
+
+    @property
+    def sentence(self) -> str:
+        """The remedy, then the cause."""
+        return f"{self.remedy}: {self.cause}"
 
     def __str__(self) -> str:
         return self.sentence
+
+
+def finding_table(finding: Finding) -> dict[str, Any]:
+    """A finding as it stands in files: ``name``, ``grave``, ``sentence``, ``remedy``, ``numbers``.
+
+    Parameters
+    ----------
+    finding : Finding
+    """
+    return {
+        "name": finding.name,
+        "grave": finding.grave,
+        "sentence": finding.sentence,
+        "remedy": finding.remedy,
+        "numbers": dict(finding.numbers),
+    }
 
 
 def finding_read(table: object, where: str) -> Finding:
@@ -44,11 +65,12 @@ def finding_read(table: object, where: str) -> Finding:
     """
     fields = TableReader(table, where)
     numbers = fields.table("numbers")
+    remedy = fields.text("remedy")
     finding = Finding(
         name=fields.text("name"),
         grave=fields.boolean("grave"),
-        sentence=fields.text("sentence"),
-        remedy=fields.text("remedy"),
+        remedy=remedy,
+        cause=fields.text("sentence").removeprefix(f"{remedy}: "),
         numbers={name: numbers.number(name) for name in numbers.names_left()},
     )
     fields.close()

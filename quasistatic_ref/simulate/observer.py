@@ -56,16 +56,13 @@ class Observer:
         return trajectory
 
 
-NOTING: Slot[Callable[[], Observer]] = Slot("account.observer")
 DOCTOR: Slot[Callable[[bool], Observer]] = Slot("doctor.observer")
 
 
 def doctors(printed: bool = False) -> list[Observer]:
-    """The observers that note a run's scene, and find at its end, perhaps printing what they find.
+    """The observer that notes a run's scene and finds at its end, perhaps printing its findings.
 
-    They are of ``optional/account`` and ``optional/doctor``, where these are there.
+    It is of ``optional/doctor``, where that is there.
     """
-    noting = NOTING.found()
     doctor = DOCTOR.found()
-    found = [] if noting is None else [noting()]
-    return found if doctor is None else [*found, doctor(printed)]
+    return [] if doctor is None else [doctor(printed)]

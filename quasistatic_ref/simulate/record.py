@@ -100,6 +100,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.words("warnings", [])  # of files from before there were findings
     for i, table in enumerate(top.sequence("findings", [])):
         finding_read(table, f"findings[{i}]")
+    top.text("not_looked_at", "")
     top.boolean("alone", True)
     top.sequence("unanswered", [])
     top.take("scene", None)  # the account reads it

@@ -48,7 +48,7 @@ FIXED = {
     *("accuracy", "certify", "cone", "law", "limits", "backend"),
 }
 """What a simulator is made of: its problem, and what C keeps of it, are of these."""
-SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor.table")
+SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor.checks")
 EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
     EXTENDED_STEP.module
 )

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
 WHAT = "a trajectory written by this program"
-TIME_FINDINGS: Slot[Callable[[Trajectory], list[Finding]]] = Slot("doctor.table")
-ACCOUNT: Slot[Callable[[Trajectory, bool], Account]] = Slot("account.account")
+TIME_FINDINGS: Slot[Callable[[Trajectory], list[Finding]]] = Slot("doctor.checks")
+ACCOUNT: Slot[Callable[[Trajectory, bool], Account]] = Slot("doctor.account")
 STEPS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 COORDINATES_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 CONTACTS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
@@ -57,9 +57,10 @@ class Trajectory(Plain, HasPage):
         without which all three are None; ``alone``, false where the steps are not all that was
         solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
         ``"coulomb"``;
-        ``findings``, see :attr:`findings`; ``scene``, see
-        :class:`~quasistatic_ref.optional.account.observer.Noting`; and ``failed``: the reason, or
-        None for a complete run.
+        ``findings``, see :attr:`findings`; ``not_looked_at``, where there is anything, what they
+        leave out and why; ``scene``, see
+        :func:`~quasistatic_ref.optional.doctor.scene_notes.scene_notes`; and ``failed``: the
+        reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -316,7 +317,7 @@ class Trajectory(Plain, HasPage):
         Raises
         ------
         InputError
-            If there is no ``optional/account``, or the file has no names or no scene.
+            If there is no ``optional/doctor``, or the file has no names or no scene.
         """
         return ACCOUNT.needed("account")(self, forces)
 

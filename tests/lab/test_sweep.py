@@ -11,6 +11,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from quasistatic_ref.optional.runs import saved_files
 from quasistatic_ref.optional.runs.saved_files import Lock
+from tests.optional.doctor.mistake_scenes import scenes_written
 from tests.scenes import BALL, PUSH, written_scenario
 
 SLOPE = ["block_incline", "--set", "steps=2", "--sweep", "contacts.rough.mu_v=0:0.9:2", "--quiet"]
@@ -185,7 +186,7 @@ def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, 
     assert (
         "2 runs (fast path)" in cli(*argv, "--set", "fast=true", "--quiet", "--out", tmp_path).out
     )
-    header = (tmp_path / TABLE).read_text().splitlines()[0].split(",")
+    header = next(csv.reader((tmp_path / TABLE).read_text().splitlines()))
     assert len(set(header)) == len(header)
     lines = table(tmp_path)
     assert [(line["steps"], line["steps_taken"]) for line in lines] == [("1", "1.0"), ("2", "2.0")]
@@ -249,3 +250,13 @@ def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, cli):
         "contacts.rough.mu_v: is swept twice"
         in cli("run", *SLOPE, "--sweep", "contacts.rough.mu_v=1", "--out", tmp_path, status=2).err
     )
+
+
+def test_a_sweep_has_a_column_of_findings(tmp_path):
+    """Its records are light: the grip without friction is named all the same."""
+    scenes_written(tmp_path)
+    mu_v = {"contacts.grip.mu_v": [0.01, 0.6]}
+    rows = simulate_many(tmp_path / "grasp.toml", mu_v, tmp_path / "map", workers=1, progress=False)
+    assert [row["findings"] for row in rows] == [["lost grip"], []]
+    table = list(csv.DictReader((tmp_path / "map" / TABLE).read_text().splitlines()))
+    assert [row["findings"] for row in table] == ["lost grip", ""]

@@ -23,7 +23,6 @@ BETWEEN = "optional/between"
 
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
-    "optional/account",
     "optional/coulomb",
     "optional/curved",
     "optional/derivatives",

@@ -37,6 +37,9 @@ EXCEPTIONS = {
     ),
     "measured of an answer or of a run; the next step does not read it": (
         "model/system.py:System.mass",
+        "simulate/motions.py:LinkMotion.relative_to",
+        "simulate/motions.py:LinkMotion.rotation_since",
+        "simulate/motions.py:rotation_angle",
         "simulate/wrenches.py:ContactsOverSteps.force",
         "simulate/wrenches.py:pair_forces",
         "simulate/wrenches.py:wrench_on",

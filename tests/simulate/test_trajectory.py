@@ -1,12 +1,11 @@
 """Trajectories: the same bits in and out, without pickles."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, load_scenario, trajectory_read
 from quasistatic_ref.cli.run import worst_residual
+from quasistatic_ref.simulate.finding import finding_table
 from tests.scenes import written_scenario
 
 SHAPES = {
@@ -72,7 +71,7 @@ def test_the_header_says_what_the_run_was(run):
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
     assert header.pop("largest_drag_share") > 0
     assert header.pop("largest_boundary_layer") > 0
-    assert header.pop("findings") == [dataclasses.asdict(found) for found in run.findings]
+    assert header.pop("findings") == [finding_table(found) for found in run.findings]
     assert header == {
         "format": "quasistatic-ref/trajectory",
         "version": 1,

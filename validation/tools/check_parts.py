@@ -20,7 +20,6 @@ from validation.tools.scripts import ROOT, script_options
 
 SCENARIO = "bunny_grasp"
 PARTS = {
-    "account": ([], ""),
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),
     "derivatives": ([], ""),

@@ -56,11 +56,13 @@ def run(options: argparse.Namespace) -> int:
         return int(failed > 0)
     swept = [name for name, values in variations.items() if len(values) > 1]
     names = list(rows[0]["measures"])[:SHOWN]
-    table: list[tuple[str, ...]] = [(*swept, "outcome", *names)]
+    table: list[tuple[str, ...]] = [(*swept, "outcome", *names, "findings")]
     for row in rows:
-        found = (row["measures"].get(name) for name in names)
-        cells = ("-" if v is None else f"{v:.4g}" for v in found)
-        table.append((*(f"{row['values'][name]}" for name in swept), row["outcome"], *cells))
+        numbers = (row["measures"].get(name) for name in names)
+        cells = ("-" if v is None else f"{v:.4g}" for v in numbers)
+        at = (f"{row['values'][name]}" for name in swept)
+        findings = "; ".join(row["findings"]) or "-"
+        table.append((*at, row["outcome"], *cells, findings))
     shared.print_rows(table)
     speed = "fast" if fast else "plain"
     print(

@@ -7,10 +7,10 @@ from itertools import product
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.start import Start, body, sizes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 
 DENSITIES = 10.0, 25_000.0
@@ -29,7 +29,7 @@ RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
 
-def density(start: Start) -> Iterator[Said]:
+def density(start: Start) -> Iterator[Finding]:
     """Free links that are lighter than foam or heavier than gold.
 
     A link is light where even its shapes alone are, and heavy where even their hull is: it may be
@@ -47,7 +47,9 @@ def density(start: Start) -> Iterator[Said]:
             (whole, mass / whole > DENSITIES[1]),
         ):
             if wrong:
-                yield Said(
+                yield Finding(
+                    "density",
+                    True,
                     f"check mass and size of {name}",
                     f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
                     f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
@@ -78,7 +80,7 @@ def _volume(shape: Shape) -> float:
     return shape.volume if isinstance(shape, ConvexMesh) else float(shape.coal.computeVolume())
 
 
-def inertia(start: Start) -> Iterator[Said]:
+def inertia(start: Start) -> Iterator[Finding]:
     """Free links with an inertia that nothing of their mass and size has."""
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
@@ -88,7 +90,9 @@ def inertia(start: Start) -> Iterator[Said]:
         largest = float(np.linalg.eigvalsh(moment).max())
         share = largest / (mass * radius**2) if radius > 0 else 1.0
         if not GYRATION[0] <= share <= GYRATION[1]:
-            yield Said(
+            yield Finding(
+                "inertia",
+                True,
                 f"check the inertia of {name}",
                 f"a moment of {largest:.3g} kg m^2 is {share:.2g} times m r^2, with {mass:.3g} kg "
                 f"and at most r = {1e3 * radius:.3g} mm from the centre of mass; a ball has 0.4",
@@ -96,7 +100,7 @@ def inertia(start: Start) -> Iterator[Said]:
             )
 
 
-def centre(start: Start) -> Iterator[Said]:
+def centre(start: Start) -> Iterator[Finding]:
     """Free links whose centre of mass is far outside of the hull of their shapes.
 
     The body that stands on feet is above them, by their distance at most.
@@ -109,7 +113,9 @@ def centre(start: Start) -> Iterator[Said]:
         away = float(hull.signed_distance(at[None])[0][0])
         extent = hull.extent
         if away > (1.0 if _are_feet(shapes, hull) else OUTSIDE) * extent:
-            yield Said(
+            yield Finding(
+                "centre of mass",
+                True,
                 f"check the centre of mass of {name}, or the origin of its shapes",
                 f"it is {1e3 * away:.3g} mm outside of its shapes, which are {1e3 * extent:.3g} mm "
                 "long; both are in the frame of the link",
@@ -117,7 +123,7 @@ def centre(start: Start) -> Iterator[Said]:
             )
 
 
-def sizes_apart(start: Start) -> Iterator[Said]:
+def sizes_apart(start: Start) -> Iterator[Finding]:
     """A body or shape that is a thousand times as long as another."""
     found: dict[str, float] = {}
     for placed in start.sides:
@@ -129,7 +135,9 @@ def sizes_apart(start: Start) -> Iterator[Said]:
     small = min(extents, key=extents.__getitem__)
     large = max(extents, key=extents.__getitem__)
     if extents[large] > RATIO * extents[small]:
-        yield Said(
+        yield Finding(
+            "sizes apart",
+            True,
             f"check the units of {large} and {small}",
             f"lengths are in metres, and {large} is {extents[large]:.3g} m long, {small} "
             f"{extents[small]:.3g} m",

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.artifacts import Drag, drags, moved
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import free_bases
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_natural
@@ -29,7 +29,7 @@ SLOWER = 16.0
 """By what M_u is divided, and with it the drag, to see what contacts bear without drag."""
 
 
-def drag(run: Run) -> Iterator[Said]:
+def drag(run: Run) -> Iterator[Finding]:
     """The worst step, if its drag exceeds a tenth of the friction of the same step without drag.
 
     Drag increases normal forces, too: a pusher has to overcome it. This raises the friction that
@@ -56,7 +56,9 @@ def drag(run: Run) -> Iterator[Said]:
         friction = "friction that its contacts can bear" if worst.rubs[0] else "its weight"
         of = f"the {bears_N:.3g} N of {friction}"
         numbers |= {"drag_N": drag_N, "bears_N": bears_N}
-    yield Said(
+    yield Finding(
+        "drag",
+        False,
         "move more slowly or take larger steps",
         f"the spurious drag m v / h on {on}, is {share:.2g} times {of}, in step {k}",
         numbers,

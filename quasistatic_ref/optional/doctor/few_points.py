@@ -9,7 +9,6 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.start import (
     Start,
     bodies,
@@ -19,6 +18,7 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
@@ -30,10 +30,10 @@ ROUNDING = 1e-6
 """Angle [rad] by which a centre of mass is over an edge."""
 
 
-def few_points(start: Start) -> Iterator[Said]:
+def few_points(start: Start) -> Iterator[Finding]:
     """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
     points = start.points
-    if not (start.small and start.g) or points is None:
+    if not start.g or points is None:
         return
     for name in free_bases(start.system):
         own = [(p, at) for p, at in slices(start.pairs) if name in bodies(start.system, p)]
@@ -57,7 +57,9 @@ def few_points(start: Start) -> Iterator[Said]:
         if _around(of_all - centre, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
             lacks = int(np.argmax(more))
-            yield Said(
+            yield Finding(
+                "too few points",
+                True,
                 f"raise k of {table(own[lacks][0])} to {len(every[lacks])}",
                 f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
                 "its centre of mass is not over these: it tips",

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
@@ -101,9 +101,9 @@ def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...],
             yield tuple(contacts[side == k] for k in choices[i]), weights[i] / weights[i].max()
 
 
-def guided(start: Start) -> Iterator[Said]:
+def guided(start: Start) -> Iterator[Finding]:
     """Contacts at the start that let a body crawl at most, once for each table and joint."""
-    if start.points is None or not start.small:
+    if start.points is None:
         return
     contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
     said: set[tuple[str, ...]] = set()
@@ -128,7 +128,9 @@ def guided(start: Start) -> Iterator[Said]:
                 f"and a contact that slides has to rise: it moves by at most {fastest:.3g} "
                 f"{unit}/s, whatever the force"
             )
-        yield Said(
+        yield Finding(
+            "guided friction",
+            True,
             _remedy(start, guide),
             cause,
             {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
@@ -150,7 +152,7 @@ def _remedy(start: Start, guide: Guide) -> str:
     return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
 
 
-def locked(run: Run) -> Iterator[Said]:
+def locked(run: Run) -> Iterator[Finding]:
     """Free coordinates that guides hold against more than friction could, in the worst step.
 
     That is the step with most friction. What contacts could bear is their friction coefficients
@@ -158,7 +160,7 @@ def locked(run: Run) -> Iterator[Said]:
     rise. A coordinate is locked if it moves by less than a tenth of what it then would.
     """
     rubbing = np.abs(run["wrench"][:, :, [0, 1, 3]]).sum(axis=(1, 2))
-    if not run.searched or not rubbing.any():
+    if not rubbing.any():
         return
     k = int(rubbing.argmax())
     contacts = run.contacts(k)
@@ -194,7 +196,9 @@ def locked(run: Run) -> Iterator[Said]:
         name = run.simulator.layout.names[j]
         coordinate = run.system.coordinates[i]
         unit = "N" if coordinate.unit == "m" else "N m"
-        yield Said(
+        yield Finding(
+            "locked guide",
+            True,
             _remedy(run, guide),
             f"{coordinate.name} does not move under {abs(force[i]):.3g} {unit} in step {k}, where "
             f"its contacts could bear {could[i]:.3g} {unit}: {name} presses with "

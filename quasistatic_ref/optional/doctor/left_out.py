@@ -9,9 +9,9 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, slices, table
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import BEARS, SUNK
 
 DEEP = SUNK / 100
@@ -20,7 +20,7 @@ EXCHANGES = 3
 """How often points come and go before it is said: now and then they do where a body rolls."""
 
 
-def border(run: Run) -> Iterator[Said]:
+def border(run: Run) -> Iterator[Finding]:
     """Pairs whose next nearest point is in the other body after the last step."""
     n_c = run["phi"].shape[1]
     f_n = run.forces(run.steps - 1)[:, 2]
@@ -30,7 +30,7 @@ def border(run: Run) -> Iterator[Said]:
         for pair, own in slices(run.pairs)
         if pair.n_c < pair.candidates and loaded[own].all()
     }
-    if not (n_c and run.small and wider):
+    if not (n_c and wider):
         return
     kinematics = run.system.kinematics(run["q"][-2])
     for pair in wider.values():
@@ -42,7 +42,9 @@ def border(run: Run) -> Iterator[Said]:
         contacts = geometry.contacts(points, kinematics)
         gap = points.phi + np.vecdot(points.n, contacts.motion(run["delta_q"][-1])[:, :3])
         if gap[-1] < -DEEP * least(pair):
-            yield Said(
+            yield Finding(
+                "border of k",
+                False,
                 f"raise k of {table(pair)}",
                 f"all {pair.k - 1} contacts of {pair.name} bear load in the last step, and point "
                 f"{points.point[-1]}, the next nearest, ends {-1e6 * gap[-1]:.3g} um deep",
@@ -50,7 +52,7 @@ def border(run: Run) -> Iterator[Said]:
             )
 
 
-def exchanged(run: Run) -> Iterator[Said]:
+def exchanged(run: Run) -> Iterator[Finding]:
     """Pairs that bear load and whose nearest points change from step to step and back."""
     for pair, own in slices(run.pairs):
         kept = np.sort(run["point"][:, own], axis=1)
@@ -59,7 +61,9 @@ def exchanged(run: Run) -> Iterator[Said]:
         bears = run["wrench"][2:, own, 2].any(axis=1)
         times = int((changed[1:] & back & bears).sum())
         if times >= EXCHANGES:
-            yield Said(
+            yield Finding(
+                "exchanged points",
+                False,
                 f"raise k of {table(pair)}, or take a smaller h",
                 f"the nearest points of {pair.name} change and change back {times} times in "
                 f"{run.steps} steps, and its forces with them",

@@ -1,8 +1,8 @@
-"""The observer of a run: it notes numbers of each step, and finds at the end."""
+"""The observer of a run: it notes numbers of each step and the scene, and finds at the end."""
 
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,9 +13,17 @@ from quasistatic_ref.optional.doctor.artifacts import (
     largest_share,
     quasi_dynamic_number,
 )
+from quasistatic_ref.optional.doctor.checks import (
+    NO_STEPS,
+    OF_RUN,
+    OF_SCENE,
+    findings,
+    not_looked_at,
+)
 from quasistatic_ref.optional.doctor.run import Run, largest
+from quasistatic_ref.optional.doctor.scene_notes import scene_notes
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.table import AFTER, NO_STEPS, OF_SCENE, findings
+from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.observer import DOCTOR, Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.result import StepArrays, StepResult
@@ -32,7 +40,7 @@ class Doctor(Observer):
         Whether to print the findings on standard error, too.
     """
 
-    notes = ("gap", "Pi", "drag", "pushed", "layer")
+    notes = ("gap", "moved", "Pi", "drag", "pushed", "layer")
 
     def __init__(self, printed: bool) -> None:
         self.printed = printed
@@ -42,8 +50,9 @@ class Doctor(Observer):
     ) -> dict[str, Array]:
         """What is read at the end, of each step.
 
-        Gaps after the step, shape (steps, n_c) [m]; each (steps,): Pi, share of drag, the same of
-        bodies that something touches [-], and boundary layer [m].
+        Gaps after the step, shape (steps, n_c) [m]; J delta_q, (steps, n_c, 4) [m, m, m, rad], of
+        which a light record holds nothing; each (steps,): Pi, share of drag, the same of bodies
+        that something touches [-], and boundary layer [m].
         """
         system = recorder.system
         simulator = recorder.simulator
@@ -58,6 +67,7 @@ class Doctor(Observer):
         touched = [np.where(x.touched, x.share, np.nan) for x in found]
         return {
             "gap": gap,
+            "moved": arrays["motion"],
             "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
             "drag": largest_share([x.share for x in found], len(delta_q)),
             "pushed": largest_share(touched, len(delta_q)),
@@ -66,24 +76,26 @@ class Doctor(Observer):
 
     def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings."""
-        if trajectory.steps:
-            run = Run(recorder, trajectory)
-            found = findings((*OF_SCENE, *AFTER), run)
-        else:
-            start = Start(recorder.simulator, recorder.start)
-            kinds = OF_SCENE if trajectory.failed else (*OF_SCENE, NO_STEPS)
-            found = findings(kinds, start)
+        start = Start(recorder.simulator, recorder.start)
+        of: Start = Run(recorder, trajectory) if trajectory.steps else start
+        checks = (*OF_SCENE, *(OF_RUN if trajectory.steps else ()))
+        if not (trajectory.steps or trajectory.failed):
+            checks = (*OF_SCENE, *NO_STEPS)
+        skipped = not_looked_at(checks, of)
         header = {
             **trajectory.header,
+            "scene": scene_notes(recorder),
             "quasi_dynamic_number": largest(recorder.noted("Pi")),
             "largest_drag_share": largest(recorder.noted("drag")),
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
-            "findings": [asdict(finding) for finding in found],
-        }
+            "findings": [finding_table(finding) for finding in findings(checks, of)],
+        } | ({"not_looked_at": skipped} if skipped else {})
         trajectory = replace(trajectory, header=header)
         if self.printed:
             for finding in trajectory.findings:
                 print(f"quasistatic-ref: {finding}", file=sys.stderr)
+            if skipped:
+                print(f"quasistatic-ref: not looked at: {skipped}", file=sys.stderr)
         return trajectory
 
 

@@ -8,7 +8,6 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.falls import fall, held
 from quasistatic_ref.optional.doctor.start import (
     Start,
@@ -19,13 +18,14 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import NEAR, SUNK
 
 BEARING = 0.1
 """Cosine of the steepest surface that may bear a body [-]: 84 degrees."""
 
 
-def gravity(start: Start) -> Iterator[Said]:
+def gravity(start: Start) -> Iterator[Finding]:
     """A body that starts on the world where gravity does not press it there."""
     for name, own in _contacts(start):
         near = [x for x in own if x[1] <= SUNK * least(x[0])]
@@ -33,7 +33,9 @@ def gravity(start: Start) -> Iterator[Said]:
         if world and len(world) == len(near) and max(up for *_, up in near) < BEARING:
             pair, _, up = world[0]
             x, y, z = start.gravity
-            yield Said(
+            yield Finding(
+                "gravity",
+                True,
                 "check the direction of gravity",
                 f"it is ({x:g}, {y:g}, {z:g}) m/s^2, and does not press {name} on what it lies on, "
                 f"{pair.name}",
@@ -41,23 +43,27 @@ def gravity(start: Start) -> Iterator[Said]:
             )
 
 
-def in_the_air(start: Start) -> Iterator[Said]:
+def in_the_air(start: Start) -> Iterator[Finding]:
     """A body that touches nothing where it starts, above what is to bear it."""
     for name, own in _falling(start):
         pair, gap = min(own, key=lambda x: x[1])
         if np.isfinite(gap):
-            yield Said(
+            yield Finding(
+                "starts in the air",
+                True,
                 f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
                 f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it ({pair.name})",
                 {"gap_mm": 1e3 * gap},
             )
 
 
-def nothing_below(start: Start) -> Iterator[Said]:
+def nothing_below(start: Start) -> Iterator[Finding]:
     """A body that touches nothing where it starts, and of whose tables none is of what is below."""
     for name, own in _falling(start):
         if all(gap == np.inf for _, gap in own):
-            yield Said(
+            yield Finding(
+                "unsupported body",
+                True,
                 f"add a table [contacts.NAME] of {name} and what should bear it",
                 f"nothing that may touch {name} is below it: it falls past "
                 f"{listed(sorted({pair.name for pair, _ in own}))}",
@@ -65,9 +71,9 @@ def nothing_below(start: Start) -> Iterator[Said]:
             )
 
 
-def penetration(start: Start) -> Iterator[Said]:
+def penetration(start: Start) -> Iterator[Finding]:
     """Of each table of contacts the deepest pair, where it is deep for its smaller shape."""
-    deepest: dict[str, Said] = {}
+    deepest: dict[str, Finding] = {}
     if start.points is None:
         return
     for pair, own in slices(start.pairs):
@@ -75,7 +81,9 @@ def penetration(start: Start) -> Iterator[Said]:
         name = table(pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
-            deepest[name] = Said(
+            deepest[name] = Finding(
+                "initial penetration",
+                True,
                 f"start {pair.alpha.name} and {pair.beta.name} {1e3 * depth:.3g} mm farther apart",
                 f"{pair.name} is {1e3 * depth:.3g} mm deep at the start, and a step undoes that at "
                 f"once, with {depth / start.h**2:.3g} N for each kilogram",

@@ -14,8 +14,10 @@ from quasistatic_ref.certify.contact_forces import (
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.optional.between import TASK, TaskOfRun
+from quasistatic_ref.optional.doctor.account import pair_accounts
+from quasistatic_ref.optional.doctor.scene_notes import sides
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -41,14 +43,15 @@ class Run(Start):
         self.arrays = trajectory.arrays
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
-        self._found: dict[int, ContactForces] = {}
+        self._forces: dict[int, ContactForces] = {}
         self._contacts: dict[int, Contacts] = {}
         self._steps: dict[int, StepData] = {}
 
     @cached_property
-    def task(self) -> TaskOfRun:
-        """What it was made for, which ``optional/account`` knows."""
-        return TASK.needed("a finding of the task")(self, self.trajectory)
+    def pair_accounts(self) -> list[PairAccount]:
+        """What its pairs did, whatever the record holds; without forces."""
+        named = [sides(self.system, pair) for pair in self.pairs]
+        return pair_accounts(self.trajectory, named, self.gravity, self.noted("moved"), None)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -96,21 +99,17 @@ class Run(Start):
 
         Where they cannot be formed, what the multipliers of the step combine to.
         """
-        if not self.searched or CONTACT_FORCES.found() is None:
-            return np.asarray(self["wrench"][k])
-        if "forces" in self.arrays:
-            return np.asarray(self["forces"][k])
-        return self._compliant(k).wrench
+        compliant = self.compliant(k)
+        return np.asarray(self["wrench"][k]) if compliant is None else compliant.wrench
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
-        return self._compliant(k) if self.searched and CONTACT_FORCES.found() else None
-
-    def _compliant(self, k: int) -> ContactForces:
-        if k not in self._found:
+        if not self.searched or CONTACT_FORCES.found() is None:
+            return None
+        if k not in self._forces:
             near = self["delta_q"][k], self["wrench"][k]
-            self._found[k] = forces_near(self.step_data(k), near)
-        return self._found[k]
+            self._forces[k] = forces_near(self.step_data(k), near)
+        return self._forces[k]
 
 
 def wrenches(step: StepData) -> Array | None:

@@ -5,8 +5,8 @@ from math import log10
 
 import numpy as np
 
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
@@ -18,7 +18,7 @@ SHARE = 0.8
 """Of the time of such a run, above which its proofs are named [-]."""
 
 
-def backend_failures(run: Run) -> Iterator[Said]:
+def backend_failures(run: Run) -> Iterator[Finding]:
     """Steps whose exact optimum the backend missed.
 
     An accuracy of 10^-2k gives k digits of delta_q: by strong convexity the error is the square
@@ -43,7 +43,9 @@ def backend_failures(run: Run) -> Iterator[Said]:
     others = [name for name in able if name != simulator.backend.removeprefix(QPSOLVERS)]
     said = f"failed in {failed} of {run.steps} steps" if failed else ""
     fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
-    yield Said(
+    yield Finding(
+        "failing backend",
+        True,
         f"choose another backend than {simulator.backend}, such as {' or '.join(others)}",
         f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
         f"{first}; {other} solved them",
@@ -51,7 +53,7 @@ def backend_failures(run: Run) -> Iterator[Said]:
     )
 
 
-def proofs(trajectory: Trajectory) -> Iterator[Said]:
+def proofs(trajectory: Trajectory) -> Iterator[Finding]:
     """A run that was proved in full, and could have had bounds of its errors in less time."""
     proved = np.isin(trajectory["certificate"], ("exact", "enclosure")).any()
     if not proved or trajectory.header.get("law", CONVEX) != CONVEX:
@@ -59,7 +61,9 @@ def proofs(trajectory: Trajectory) -> Iterator[Said]:
     total = sum(float(seconds.sum()) for seconds in trajectory.seconds.values())
     proof = float(trajectory.seconds["proof"].sum())
     if total > WORTH and proof > SHARE * total:
-        yield Said(
+        yield Finding(
+            "time of proof",
+            False,
             'take certify = "residual", which bounds the error of each step in less time',
             f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
             {"proof_s": proof, "total_s": total},

@@ -2,16 +2,17 @@
 
 from collections.abc import Iterator
 
-from quasistatic_ref.optional.between import STRAY, Said
+from quasistatic_ref.optional.between import STRAY
 from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.simulate.finding import Finding
 
 FEWEST, MOST = 50, 200_000
 """Points of a cloud that is looked at: fewer have no surface, more take a second."""
 SHOWN = 3
 
 
-def strays(start: Start) -> Iterator[Said]:
+def strays(start: Start) -> Iterator[Finding]:
     """Clouds with points that no gap of a few spacings joins to the others."""
     clouds = {
         id(p.shape): (p.shape, body(start.system, p.link))
@@ -26,7 +27,9 @@ def strays(start: Start) -> Iterator[Said]:
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
             more = ["..."] if len(found) > SHOWN else []
-            yield Said(
+            yield Finding(
+                "stray points",
+                False,
                 f"leave {len(found)} stray points out of the cloud of {name}, or make it by "
                 "quasistatic-ref body",
                 f"they lie at {', '.join(places + more)} mm, apart from the {len(shape.points)} "

@@ -6,16 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, slices, table
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUNK
 
 
-def sunk(run: Run) -> Iterator[Said]:
+def sunk(run: Run) -> Iterator[Finding]:
     """Of each table of contacts the first that is found."""
-    first: dict[str, Said] = {}
+    first: dict[str, Finding] = {}
     gap = run.noted("gap")
     for pair, own in slices(run.pairs):
         said = _surprise(pair, run["phi"][:, own], run["point"][:, own], gap[:, own])
@@ -25,7 +25,9 @@ def sunk(run: Run) -> Iterator[Said]:
     yield from first.values()
 
 
-def _surprise(pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array) -> Said | None:
+def _surprise(
+    pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array
+) -> Finding | None:
     deepest = SUNK * least(pair)
     k, j = np.nonzero(phi[1:] < -deepest)  # contacts are in ascending distance
     before = point[k]
@@ -46,8 +48,14 @@ def _surprise(pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Ar
     raised = f"raise k of {table(pair)}"
     if not considered[i]:
         left_out = f"was not among its {pair.n_c} closest at step {step - 1}"
-        return Said(raised, f"{what} {number[i]} of {pair.name} {left_out} and is {deep}", numbers)
+        return Finding(
+            "sunk contact",
+            True,
+            raised,
+            f"{what} {number[i]} of {pair.name} {left_out} and is {deep}",
+            numbers,
+        )
     more = f", or {raised}" if pair.n_c < pair.candidates else ""
     left = f"the step before, which is right to first order, left it at {1e3 * predicted[i]:.3g} mm"
     cause = f"{what} {number[i]} of {pair.name} is {deep}; {left}"
-    return Said(f"take a smaller h or move slower{more}", cause, numbers)
+    return Finding("sunk contact", True, f"take a smaller h or move slower{more}", cause, numbers)

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
 
@@ -16,7 +16,7 @@ it lags by pi / 2: quaternions are 2 sin(pi / 8) = 0.77 apart then, and one of f
 that."""
 
 
-def beyond_limits(run: Run) -> Iterator[Said]:
+def beyond_limits(run: Run) -> Iterator[Finding]:
     """Targets beyond a limit that the URDF names, of each joint the farthest."""
     for joint, unit in _limited(run):
         if not joint.actuated:
@@ -24,7 +24,9 @@ def beyond_limits(run: Run) -> Iterator[Said]:
         target, limit, k = _farthest(joint, run["q_bar_a"])
         far = unit == "m" and abs(target) > IN_METRES  # its unit is doubted already
         if abs(target - limit) > BEYOND and not far:
-            yield Said(
+            yield Finding(
+                "target beyond a limit",
+                True,
                 f"change the target of {joint.name}, {target:.3g} {unit} at step {k}, or the "
                 f"limit in its URDF, {limit:.3g} {unit}",
                 "the model ignores limits, the robot does not",
@@ -32,7 +34,7 @@ def beyond_limits(run: Run) -> Iterator[Said]:
             )
 
 
-def joints_beyond(run: Run) -> Iterator[Said]:
+def joints_beyond(run: Run) -> Iterator[Finding]:
     """Joints that are pushed beyond a limit that the URDF names, of each the farthest."""
     for joint, unit in _limited(run):
         position, limit, k = _farthest(joint, run["q"])
@@ -42,7 +44,9 @@ def joints_beyond(run: Run) -> Iterator[Said]:
                 continue  # its target is said
         if abs(position - limit) > BEYOND:
             body = joint.name.partition("/")[0]
-            yield Said(
+            yield Finding(
+                "joint beyond a limit",
+                True,
                 f'say bodies.{body}.joint_limits = "urdf", for stops at the limits',
                 f"{joint.name} is at {position:.3g} {unit} at step {k}, beyond its limit, "
                 f"{limit:.3g} {unit}, which the model ignores",
@@ -69,7 +73,7 @@ def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:
     return float(at[k]), float(within[k]), k
 
 
-def half_turns(run: Run) -> Iterator[Said]:
+def half_turns(run: Run) -> Iterator[Finding]:
     """Joints that come to lag their target by half a turn, from where springs turn them back."""
     for joint in run.system.joints:
         if not joint.actuated or joint.unit is None:
@@ -83,7 +87,9 @@ def half_turns(run: Run) -> Iterator[Said]:
         turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
         if turned_over.any():
             k = int(turned_over.argmax()) + 1
-            yield Said(
+            yield Finding(
+                "half a turn behind",
+                True,
                 "take a larger K_q or a slower target",
                 f"{joint.name} lags its target by half a turn at step {k}, and a spring turns the "
                 "shorter way",

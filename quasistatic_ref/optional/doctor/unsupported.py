@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.optional.between import Said
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start, bodies, free_bases
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS
 
@@ -21,21 +21,23 @@ def alone(start: Start) -> set[str]:
     return free - borne
 
 
-def unsupported(start: Start) -> Iterator[Said]:
+def unsupported(start: Start) -> Iterator[Finding]:
     """Bodies that are joined to nothing, if they weigh anything."""
     joined = [bodies(start.system, pair) for pair in start.pairs]
     for name in sorted(alone(start)) if start.g else ():
         touching = [pair - {name} for pair in joined if name in pair]
         others = " but to bodies that fall as well" if any(touching) else ""
         weight = start.system.mass(name) * start.g
-        yield Said(
+        yield Finding(
+            "unsupported body",
+            True,
             f"add a table [contacts.NAME] of {name} and what should bear it",
             f"no table joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
             {"weight_N": weight},
         )
 
 
-def falling(run: Run) -> Iterator[Said]:
+def falling(run: Run) -> Iterator[Finding]:
     """Free bodies that nothing touches in the last step, and that move down in it."""
     if not run.g:
         return
@@ -54,7 +56,9 @@ def falling(run: Run) -> Iterator[Said]:
         if falls[-1]:
             first = int(len(falls) - np.argmin(falls[::-1])) if not falls.all() else 0
             fallen = float(drop[first:].sum())
-            yield Said(
+            yield Finding(
+                "free fall",
+                True,
                 _remedy(own, run, first),
                 f"nothing touches {name} from step {first} to the end, and it falls by "
                 f"{1e3 * fallen:.3g} mm, h^2 g = {1e3 * most:.3g} mm a step",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from types import ModuleType
@@ -26,7 +26,7 @@ from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
-from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
@@ -128,10 +128,10 @@ class Crossing(Observer):
         cause += f"{system.places.margin:g} m to {1e3 * depth:.3g} mm deep in step {k}, which had "
         cause += "no row for it"
         numbers = {"depth_mm": 1e3 * depth, "step": k}
-        found = Finding("crossed margin", True, f"{remedy}: {cause}", remedy, numbers)
+        found = Finding("crossed margin", True, remedy, cause, numbers)
         if self.printed:
             print(f"quasistatic-ref: {found}", file=sys.stderr)
-        findings = [*trajectory.header["findings"], asdict(found)]
+        findings = [*trajectory.header["findings"], finding_table(found)]
         return replace(trajectory, header={**trajectory.header, "findings": findings})
 
 

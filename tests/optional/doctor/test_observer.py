@@ -1,13 +1,13 @@
 """Findings of runs: too few contacts end to end, the command line, scenarios that come along."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, trajectory_read
+from quasistatic_ref.simulate.finding import finding_table
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
 
@@ -99,7 +99,7 @@ def test_findings_are_those_of_the_page_and_strict_fails_on_grave_ones(tmp_path,
     (said,) = [str(found) for found in run.findings if found.name == "sunk contact"]
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
     assert json.loads(cli(*arguments, "--strict", "--json", status=1).out)["findings"] == [
-        asdict(f) for f in run.findings
+        finding_table(f) for f in run.findings
     ]
     assert str(run.findings[0])[:40] in repr(run)
 

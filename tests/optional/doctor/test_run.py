@@ -37,7 +37,7 @@ class Made:
 
 
 def sentences(scenario, **arrays):
-    return [f"{said.remedy}: {said.cause}" for said in sunk(Made(scenario.pairs, **arrays))]
+    return [said.sentence for said in sunk(Made(scenario.pairs, **arrays))]
 
 
 @pytest.mark.parametrize(("share", "gap", "warned"), [

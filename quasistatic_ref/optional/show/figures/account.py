@@ -19,9 +19,8 @@ PANEL: Final = 1.3
 """Height of a panel with lines [in]."""
 MOST: Final = 8
 """Most lines of a panel: those that reach farthest."""
-HEIGHTS: Final = (("near", 0.2), ("contact", 0.5), ("sliding", 0.8))
-"""Of bars, over the room of a pair [-]."""
-WORDS: Final = {"near": "near", "contact": "touches", "sliding": "slides"}
+HEIGHTS: Final = {"touches": 0.3, "slides": 0.6, "spins": 0.8}
+"""Of bars, over the height of a pair's row [-]."""
 
 
 def page(account: Account) -> bytes:
@@ -79,17 +78,13 @@ def figure(account: Account) -> Figure:
 
 
 def _contacts(axes: Axes, account: Account) -> None:
-    """A row a pair: a thin bar while it is near, a thicker one while it touches or slides."""
-    t = account.t
-    for row, pair in enumerate(account.pairs):
-        for i, (kind, height) in enumerate(HEIGHTS):
-            held = getattr(pair, kind)
-            parts = [
-                (t[span.first] - account.h, t[span.last] - t[span.first] + account.h)
-                for span in held
-            ]
-            label = WORDS[kind] if row == 0 else None
-            axes.broken_barh(parts, (row - height / 2, height), color=f"C{i}", label=label)
+    """A row a pair: a thin bar while it touches, thicker ones while it slides or spins."""
+    for i, (word, height) in reversed(list(enumerate(HEIGHTS.items()))):
+        for row, pair in enumerate(account.pairs):
+            starts = account.t[getattr(pair, word)] - account.h
+            parts = [(start, account.h) for start in starts]
+            label = word if row == 0 else None
+            axes.broken_barh(parts, (row - height / 2, height), color=f"C{i}", lw=0, label=label)
     axes.set_yticks(range(len(account.pairs)), [pair.name for pair in account.pairs])
     axes.tick_params(axis="y", labelsize="x-small")
     axes.set_ylim(len(account.pairs) - 0.5, -0.5)

@@ -1,6 +1,6 @@
 """Whether a run did what its scene was made for: the findings of the task."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import product
 
@@ -8,12 +8,11 @@ import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.account.account import pair_accounts
-from quasistatic_ref.optional.account.observer import side
-from quasistatic_ref.optional.account.words import amount, length
-from quasistatic_ref.optional.between import OF_TASK, TASK, FinishedRun, Said
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.scene_notes import side
+from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import BEYOND, LAGS, SLIPPED, STALLED, SUNK
@@ -49,27 +48,21 @@ class Task:
     Parameters
     ----------
     run : Run
-        As the doctor has it.
-    trajectory : Trajectory
     """
 
-    def __init__(self, run: FinishedRun, trajectory: Trajectory) -> None:
+    def __init__(self, run: Run) -> None:
         self.run = run
-        self.trajectory = trajectory
-        self.system = run.simulator.system
-        self.pairs = run.simulator.pairs
-        self.h = run.simulator.h
-        self.steps = trajectory.steps
-        self.end = trajectory.steps * self.h
+        self.trajectory = run.trajectory
+        self.system = run.system
+        self.pairs = run.pairs
+        self.h = run.h
+        self.steps = run.steps
+        self.end = run.steps * run.h
         self.tracks = run.recorder.tracks
-        self.accounts = pair_accounts(trajectory, False, [])
+        self.accounts = run.pair_accounts
         moves = self.system.column_map.of_coordinates(self.system.column_map.moves)[:, 0] != 0
         self.driven = moves[:, : self.system.n_a].any(axis=1)
         self.free = moves[:, self.system.n_a :].any(axis=1) & ~self.driven
-
-    def found(self, name: str) -> Iterator[Said]:
-        """What the finding of a name has to say."""
-        return FINDINGS[name][1](self)
 
     @property
     def finished(self) -> bool:
@@ -112,11 +105,12 @@ class Task:
         return self.accounts[i].beta if self.free[pair.alpha.link] else self.accounts[i].alpha
 
 
-def late(task: Task) -> Iterator[Said]:
+def late(run: Run) -> Iterator[Finding]:
     """A run that ends long before the first waypoint at which something is to have moved.
 
     Who tries a scene takes its first steps alone: that is none.
     """
+    task = Task(run)
     first: dict[str, float] = {}
     for track in task.tracks:
         moved = (track.values != track.values[0]).any(axis=1)
@@ -125,7 +119,9 @@ def late(task: Task) -> Iterator[Said]:
     if not first or task.steps < TRIAL or min(first.values()) < LONG * task.end:
         return
     joint = min(first, key=first.__getitem__)
-    yield Said(
+    yield Finding(
+        "late waypoints",
+        True,
         "raise steps or h, or check the times of waypoints, which are in seconds",
         f"the run ends at {task.end:.4g} s ({task.steps} steps of {task.h:g} s), before the "
         f"first waypoint of {joint}, at {first[joint]:.4g} s",
@@ -133,8 +129,9 @@ def late(task: Task) -> Iterator[Said]:
     )
 
 
-def still(task: Task) -> Iterator[Said]:
+def still(run: Run) -> Iterator[Finding]:
     """Actuated joints that are to act on something, never reach it, and have nowhere to go."""
+    task = Task(run)
     n = task.system.n_q_a
     targets = task.trajectory["q_bar_a"]
     idle = [table for table in task.tables if task.idle(table)]
@@ -143,7 +140,9 @@ def still(task: Task) -> Iterator[Said]:
         return
     if np.abs(targets - task.trajectory["q"][0, :n]).max() <= HELD:
         bodies = sorted({j.name.partition("/")[0] for j in task.system.joints if j.actuated})
-        yield Said(
+        yield Finding(
+            "no motion",
+            True,
             f"add targets, [[bodies.{bodies[0]}.targets]]",
             f"all targets are where {listed(bodies)} starts, so that nothing is driven, and no "
             f"pair of contacts.{idle[0]} ever touches",
@@ -151,8 +150,9 @@ def still(task: Task) -> Iterator[Said]:
         )
 
 
-def through(task: Task) -> Iterator[Said]:
+def through(run: Run) -> Iterator[Finding]:
     """Bodies that come to be in each other and share no table: of each two the deepest."""
+    task = Task(run)
     system = task.system
     shapes = {s.name: s for s in system.shapes}
     shapes |= {s.name: s for pair in task.pairs for s in (pair.alpha, pair.beta)}
@@ -180,14 +180,16 @@ def through(task: Task) -> Iterator[Said]:
     depths = np.array([_depths(pair, points, radius, R, t) for pair in made])
     sizes = [min(float(s.shape.extent) or np.inf for s in pair) for pair in made]
     passed = (depths[:, :1] <= 0) & (depths[:, 1:] > SUNK * np.array(sizes)[:, None])
-    said: dict[frozenset[str], Said] = {}
+    said: dict[frozenset[str], Finding] = {}
     for i, j in np.argwhere(passed.T).tolist():
         k = steps[i]
         depth = float(depths[j, i + 1])
         names = [side(system, s) for s in made[j]]
         key = frozenset(name.partition("/")[0] for name in names)
         if key not in said or said[key].numbers["depth_mm"] < 1e3 * depth:
-            said[key] = Said(
+            said[key] = Finding(
+                "passes through",
+                True,
                 f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
                 f"no table joins them, and they pass through each other, {length(depth)} deep "
                 f"at {k * task.h:.2f} s",
@@ -249,8 +251,9 @@ def _points(placed: PlacedShape) -> Array:
     return np.array([placed.shape.support_point(way) for way in WAYS])
 
 
-def idle(task: Task) -> Iterator[Said]:
+def idle(run: Run) -> Iterator[Finding]:
     """Tables by which something driven was to act on something free, and never did."""
+    task = Task(run)
     if not task.finished:
         return
     for table, pairs in task.tables.items():
@@ -264,7 +267,9 @@ def idle(task: Task) -> Iterator[Said]:
         i = min(pairs, key=lambda i: float(task.accounts[i].phi.min()))
         near = task.accounts[i]
         k = int(near.phi.argmin())
-        yield Said(
+        yield Finding(
+            "idle contacts",
+            True,
             f"check where {task.held(i)} stands and how far {task.holder(i)} moves",
             f"no pair of contacts.{table} ever touches; the nearest, {near.name}, is "
             f"{length(near.phi[k])} apart at {task.trajectory['t'][k]:.2f} s",
@@ -272,8 +277,9 @@ def idle(task: Task) -> Iterator[Said]:
         )
 
 
-def lost(task: Task) -> Iterator[Said]:
+def lost(run: Run) -> Iterator[Finding]:
     """Grips, contacts from opposite sides, along which what they hold slips by much."""
+    task = Task(run)
     for table, pairs in task.tables.items():
         every = {i: slip for i in pairs if (slip := task.accounts[i].slip) is not None}
         long = any(slip.sum() > SLIPPED * task.size(i) for i, slip in every.items())
@@ -296,7 +302,9 @@ def lost(task: Task) -> Iterator[Said]:
         turning = mu_omega * pressed
         torque = float(np.abs(forces[:, 3]).sum())
         if weight < bears and torque > TWISTED * turning > 0:
-            yield Said(
+            yield Finding(
+                "lost grip",
+                True,
                 f"raise mu_omega of contacts.{table}, or hold {body} nearer to its centre of mass",
                 f"{body} slips by {length(way)} along {task.holder(worst)} as it turns there; at "
                 f"{task.trajectory['t'][k]:.2f} s torsion takes {torque:.3g} of the {turning:.3g} "
@@ -304,7 +312,9 @@ def lost(task: Task) -> Iterator[Said]:
                 {"slip_mm": 1e3 * way, "torque_Nm": torque, "bears_Nm": turning, "step": k},
             )
             continue
-        yield Said(
+        yield Finding(
+            "lost grip",
+            True,
             f"raise mu_v of contacts.{table}, or K_q of what closes it or how far it closes",
             f"{body} slips by {length(way)} along {task.holder(worst)}; at "
             f"{task.trajectory['t'][k]:.2f} s the grip presses with {pressed:.3g} N in all, its "
@@ -327,8 +337,9 @@ def _grips(task: Task, pairs: list[int]) -> Mask:
     return np.asarray(faces < OPPOSITE)
 
 
-def short(task: Task) -> Iterator[Said]:
+def short(run: Run) -> Iterator[Finding]:
     """Joints that end far from their targets and are not stopped by what they press on."""
+    task = Task(run)
     if not task.finished or not task.steps:
         return
     k = task.steps - 1
@@ -352,7 +363,9 @@ def short(task: Task) -> Iterator[Said]:
         if stopped and not _stalled(task, int(np.abs(pushes[:, v]).argmax()), error, unit):
             continue
         needed = abs(float(spring[v])) / (LAGS * ways[joint])
-        yield Said(
+        yield Finding(
+            "far from target",
+            True,
             f"raise K_q of {joint.name} to {needed:.2g} or more",
             f"it ends {amount(error, unit)} from its last target, with "
             f"{abs(spring[v]):.3g} {'N' if unit == 'm' else 'N m'} on its spring",
@@ -383,16 +396,5 @@ def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     return moved < SUNK * task.size(i)
 
 
-FINDINGS: dict[str, tuple[bool, Callable[[Task], Iterator[Said]]]] = {
-    "late waypoints": (True, late),
-    "no motion": (True, still),
-    "passes through": (True, through),
-    "idle contacts": (True, idle),
-    "lost grip": (True, lost),
-    "far from target": (True, short),
-}
-"""By its name: whether it is grave, and what finds it; causes come first."""
-
-
-TASK.fill(Task)
-OF_TASK.fill([(name, grave) for name, (grave, _) in FINDINGS.items()])
+OF_TASK = (late, still, through, idle, lost, short)
+"""Causes come first."""

@@ -1,6 +1,6 @@
-"""The account of a run, from its file alone: what each pair, body and joint did, and when."""
+"""The account of a run, from its file alone: what each pair, body and joint did."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,21 +10,20 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.account.gauges import gauge
-from quasistatic_ref.optional.account.spans import spans
+from quasistatic_ref.optional.doctor.gauges import gauge
+from quasistatic_ref.optional.doctor.telling import telling_numbers
 from quasistatic_ref.simulate.account import (
     Account,
     Drive,
     Loads,
     Motion,
     PairAccount,
-    Span,
     Stop,
 )
 from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import BEARS, CARRIES, NEAR, SLIDES, SPINS, TOUCHES
+from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, SPINS, TOUCHES
 
 
 def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
@@ -43,46 +42,34 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     """
     header = trajectory.header
     scene = _scene(header)
-    waypoints = scene.table("waypoints")
-    times = {name: tuple(waypoints.sequence(name)) for name in waypoints.names_left()}
     stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
-    every = list(joints_of(header["positions"], header["n_a"]))
+    joints = list(joints_of(header["positions"], header["n_a"]))
     missing: list[str] = []
-    pairs = pair_accounts(trajectory, forces, missing)
-    free = [joint for joint in every if not joint.actuated]
+    pairs: list[PairAccount] = []
+    drives: list[Drive] = []
+    if trajectory.steps:
+        motion = _motion_of_contacts(trajectory)
+        if motion is None:
+            missing.append(
+                f"a {header['record']} record has no slips, and what touches without a positive "
+                "multiplier is not known"
+            )
+        wrench = _forces(trajectory, forces, missing)
+        gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
+        pairs = pair_accounts(trajectory, scene.sequence("pairs"), gravity, motion, wrench)
+        drives = [_drive(joint, trajectory, stiffness) for joint in joints if joint.actuated]
+    motions = [_motion(joint, trajectory["q"]) for joint in joints if not joint.actuated]
+    stops = list(_stops(trajectory, {joint.name for joint in joints}))
     return Account(
         t=trajectory["t"],
         h=float(header["h"]),
-        pairs=pairs,
-        motions=tuple(_motion(joint, trajectory["q"], pairs) for joint in free),
-        drives=tuple(
-            _drive(joint, trajectory, stiffness, times.get(joint.name, ()))
-            for joint in every
-            if joint.actuated and trajectory.steps
-        ),
-        stops=tuple(_stops(trajectory, {joint.name: joint for joint in every})),
+        pairs=tuple(pairs),
+        motions=tuple(motions),
+        drives=tuple(drives),
+        stops=tuple(stops),
         missing=tuple(missing),
-        findings=tuple(str(finding) for finding in trajectory.findings),
+        numbers=telling_numbers(trajectory["t"], header["h"], pairs, motions, drives, stops),
     )
-
-
-def pair_accounts(
-    trajectory: Trajectory, forces: bool, missing: list[str]
-) -> tuple[PairAccount, ...]:
-    """The accounts of the pairs of a run; errors and `forces` as of :func:`account_of`.
-
-    Parameters
-    ----------
-    trajectory : Trajectory
-    forces : bool
-    missing : list of str
-        To which what is not known is added.
-    """
-    scene = _scene(trajectory.header)
-    if not trajectory.steps:
-        return ()
-    gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
-    return tuple(_pairs(trajectory, scene.sequence("pairs"), gravity, forces, missing))
 
 
 def _scene(header: Mapping[str, object]) -> TableReader:
@@ -137,68 +124,83 @@ def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
     return np.asarray(np.linalg.norm(np.array(turns), axis=1))
 
 
-def _pairs(
+def pair_accounts(
     run: Trajectory,
-    named: list[tuple[str, str, str]],
+    named: Sequence[Sequence[str]],
     gravity: Array,
-    forces: bool,
-    missing: list[str],
-) -> Iterator[PairAccount]:
+    motion: Array | None,
+    wrench: Array | None,
+) -> list[PairAccount]:
+    """The accounts of the pairs of a run that has steps.
+
+    Parameters
+    ----------
+    run : Trajectory
+    named : sequence of sequence of str
+        Of each pair its name, what alpha is and what beta is.
+    gravity : ndarray, shape (3,)
+        [m/s^2].
+    motion : ndarray, shape (steps, n_c, 4), or None
+        J delta_q [m, m, m, rad].
+    wrench : ndarray, shape (steps, n_c, 4), or None
+        Forces of single contacts [N, N m].
+    """
     up = -gravity / (np.linalg.norm(gravity) or 1.0)
     slots = np.array(run.pair_names)
-    motion = _motion_of_contacts(run)
-    wrench = _forces(run, forces, missing)
-    if motion is None:
-        missing.append(f"a {run.header['record']} record has no slips, and what touches without a "
-                       "positive multiplier is not known")  # fmt: skip
+    h = float(run.header["h"])
     touch = _touches(run, motion)
     slip = None
     turn = None
     if motion is not None:
         turn = np.where(run["rows"] == 6, np.abs(motion[:, :, 3]), 0.0)
-        across = [np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
-        slip = np.hypot(*across)
+        slip = np.hypot(*(np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")))
+    accounts = []
     for name, alpha, beta in named:
         own = slots == name
         if not own.any():
             continue
         on = touch[:, own]
-        count = np.maximum(on.sum(axis=1), 1)
-        loads = None
-        if wrench is not None:
-            normal = wrench[:, own, 2].sum(axis=1)
-            friction = np.hypot(wrench[:, own, 0], wrench[:, own, 1]).sum(axis=1)
-            mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[own]
-            needs = gauge(run.header["cone"], wrench[:, own], run["mu_v"][own], mu_omega)
-            needs = needs.sum(axis=1)
-            share = np.divide(needs, normal, out=np.zeros_like(needs), where=normal > 0)
-            torque = np.abs(wrench[:, own, 3]).sum(axis=1)
-            ways = np.stack([run[axis][:, own] @ up for axis in ("d1", "d2", "n")], axis=2)
-            loads = Loads(
-                normal, friction, torque, share, np.vecdot(wrench[:, own, :3], ways).sum(axis=1)
-            )
-        phi = run["phi"][:, own].min(axis=1)
         touches = np.asarray(on.any(axis=1))
-        slid, turned = (
-            None if way is None else np.where(on, way[:, own], 0.0).sum(axis=1) / count
-            for way in (slip, turn)
+        slid = None if slip is None else _mean(slip[:, own], on)
+        turned = None if turn is None else _mean(turn[:, own], on)
+        never = np.zeros(run.steps, dtype=bool)
+        accounts.append(
+            PairAccount(
+                name=name,
+                alpha=alpha,
+                beta=beta,
+                table=name.partition("(")[0],
+                phi=run["phi"][:, own].min(axis=1),
+                touches=touches,
+                slip=slid,
+                turn=turned,
+                slides=never if slid is None else slid > SLIDES * h,
+                spins=never if turned is None else turned > SPINS * h,
+                loads=None if wrench is None else _loads(run, wrench[:, own], own, up),
+            )
         )
-        h = float(run.header["h"])
-        yield PairAccount(
-            name=name,
-            alpha=alpha,
-            beta=beta,
-            table=name.partition("(")[0],
-            phi=phi,
-            touches=touches,
-            slip=slid,
-            turn=turned,
-            loads=loads,
-            near=spans(phi <= NEAR),
-            contact=spans(touches),
-            sliding=[] if slid is None else spans(slid > SLIDES * h),
-            spinning=[] if turned is None else spans(turned > SPINS * h),
-        )
+    return accounts
+
+
+def _mean(values: Array, on: Mask) -> Array:
+    """Mean over the contacts that are on, shape (steps,); 0 where none is."""
+    total = np.where(on, values, 0.0).sum(axis=1)
+    return np.asarray(total / np.maximum(on.sum(axis=1), 1))
+
+
+def _loads(run: Trajectory, wrench: Array, own: Mask, up: Array) -> Loads:
+    """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
+    normal = wrench[:, :, 2].sum(axis=1)
+    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[own]
+    needs = gauge(run.header["cone"], wrench, run["mu_v"][own], mu_omega).sum(axis=1)
+    ways = np.stack([run[axis][:, own] @ up for axis in ("d1", "d2", "n")], axis=2)
+    return Loads(
+        normal=normal,
+        friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
+        torque=np.abs(wrench[:, :, 3]).sum(axis=1),
+        share=np.divide(needs, normal, out=np.zeros_like(needs), where=normal > 0),
+        lift=np.vecdot(wrench[:, :, :3], ways).sum(axis=1),
+    )
 
 
 def _motion_of_contacts(run: Trajectory) -> Array | None:
@@ -225,64 +227,52 @@ def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
 
 
 def _touches(run: Trajectory, motion: Array | None) -> Mask:
-    """Which contacts have a row without slack, shape (steps, n_c)."""
+    """Which contacts have a row without slack, shape (steps, n_c).
+
+    A multiplier is positive where it is a share of the largest; of an answer without a proof they
+    are noise in a step in which nothing presses, and count next to a small slack only.
+    """
     friction = cone(run.header["cone"])
     counts = friction.counts(run["rows"])
     of_rows = np.maximum(run["lam"][:, : counts.sum()], 0.0)
     most = np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1)
     touches = np.asarray(most > BEARS * most.max(axis=1, initial=0.0, keepdims=True))
-    if motion is None or not friction.polyhedral:
+    if motion is None:
         return touches
     gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
     across = [run["mu_v"] * np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
     spin = np.where(run["rows"] == 6, run["mu_omega"], 0.0) * motion[:, :, 3]
+    if not friction.polyhedral:
+        slack = gap - np.linalg.norm([*across, spin], axis=0)
+        return np.asarray(touches & (slack <= NEAR))
     slack = np.min(friction.function(gap, across[0], across[1], spin), axis=0)
-    return np.asarray(touches | (slack <= TOUCHES))
+    return np.asarray(touches & (slack <= NEAR) | (slack <= TOUCHES))
 
 
-def _motion(joint: Joint, q: Array, pairs: tuple[PairAccount, ...]) -> Motion:
+def _motion(joint: Joint, q: Array) -> Motion:
     moved = np.zeros((len(q), 3))
     moved[:, : joint.lengths] = (q - q[0])[:, joint.q][:, : joint.lengths]
-    start = np.broadcast_to(q[0], q.shape)
-    body = joint.name.partition("/")[0]
-    touched: dict[str, Mask] = {}
-    lifted: dict[str, Array] = {}
-    for pair in pairs:
-        for own, other, sign in ((pair.alpha, pair.beta, -1.0), (pair.beta, pair.alpha, 1.0)):
-            if own.partition("/")[0] == body != other.partition("/")[0]:
-                touched[other] = touched.get(other, False) | pair.touches
-                if pair.loads is not None:
-                    up = np.maximum(sign * pair.loads.lift, 0.0)
-                    lifted[other] = lifted.get(other, 0.0) + up
-    whole = sum(lifted.values(), np.zeros(len(q) - 1))
-    carries = {who: (up > 0) & (up >= CARRIES * whole) for who, up in lifted.items()}
-    return Motion(joint, moved, _angle(joint, q, start), _spans(touched), _spans(carries))
+    return Motion(joint, moved, _angle(joint, q, np.broadcast_to(q[0], q.shape)))
 
 
-def _spans(held: Mapping[str, Mask]) -> dict[str, list[Span]]:
-    """When each holds; what never does is left out."""
-    return {who: found for who, holds in held.items() if (found := spans(holds))}
-
-
-def _stops(run: Trajectory, joints: Mapping[str, Joint]) -> Iterator[Stop]:
+def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
     """The limits that a joint came to; they are rows of an extension, by their names."""
     for i, name in enumerate(run.header["extra"]):
         joint, at, end = name.partition(" at its ")
         if at and end.endswith(" limit") and joint in joints:
             force = run["lam_extra"][:, i] / float(run.header["h"])
             if (force > 0).any():
-                unit = "N" if joints[joint].lengths else "N m"
-                yield Stop(name, unit, force, spans(force > BEARS * force.max()))
+                yield Stop(name, force)
 
 
-def _drive(joint: Joint, run: Trajectory, stiffness: Array, waypoints: tuple[float, ...]) -> Drive:
+def _drive(joint: Joint, run: Trajectory, stiffness: Array) -> Drive:
     target = run["q_bar_a"]
     q = run["q"][1:, : target.shape[1]]
     away = np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1)
     error = away if joint.lengths else _angle(joint, q, target)
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
-    return Drive(joint, "m" if joint.lengths else "rad", error, spring, waypoints)
+    return Drive(joint, "m" if joint.lengths else "rad", error, spring)
 
 
 ACCOUNT.fill(account_of)

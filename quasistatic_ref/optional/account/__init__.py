@@ -1,1 +1,0 @@
-"""What happened in a run, and whether its task failed."""

@@ -1,0 +1,141 @@
+"""The table of checks, on a scene and on a run: causes come before what comes of them."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+from quasistatic_ref.optional.doctor import (
+    contradictions,
+    drag,
+    few_points,
+    guides,
+    leaps,
+    left_out,
+    numbers,
+    placed,
+    solving,
+    strays,
+    sunk,
+    targets,
+    task,
+    unborne,
+    units,
+    unsupported,
+)
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.simulator import SCENE_FINDINGS, Simulator
+from quasistatic_ref.simulate.trajectory import TIME_FINDINGS, Trajectory
+from quasistatic_ref.step.data import Array
+
+
+class Check(NamedTuple):
+    """One line of the table.
+
+    Parameters
+    ----------
+    findings : callable
+        A scene at its start, a run at its end or its trajectory -> findings.
+    unless : callable
+        The same -> why this check does not look at it; nothing where it does.
+    name : str
+        What is not looked at then, where that is not plain.
+    """
+
+    findings: Callable[[Any], Iterator[Finding]]
+    unless: Callable[[Any], str] = lambda _: ""
+    name: str = ""
+
+
+def is_large(start: Start) -> str:
+    """Why J is not formed and no step solved again."""
+    return "" if start.small else "the scene is large"
+
+
+def is_beyond(run: Run) -> str:
+    """Why no convex step without an extension is solved again."""
+    if run.small and not run.searched:
+        return "steps are not those of the convex law alone"
+    return is_large(run)
+
+
+def is_cut_short(run: Run) -> str:
+    """Why it is not asked whether a task was done."""
+    return "" if run.complete else "the run ended early"
+
+
+OF_SCENE = (
+    Check(units.long_shapes),
+    Check(units.large_mu_omega),
+    Check(strays.strays),
+    Check(contradictions.sizes_apart),
+    Check(contradictions.density),
+    Check(contradictions.centre),
+    Check(contradictions.inertia),
+    Check(numbers.friction),
+    Check(numbers.angle),
+    Check(placed.gravity),
+    Check(unsupported.unsupported),
+    Check(placed.nothing_below),
+    Check(placed.penetration),
+    Check(placed.in_the_air),
+    Check(guides.guided, is_large, "guides"),
+    Check(few_points.few_points, is_large, "points of faces"),
+    Check(numbers.count),
+)
+OF_RUN = (
+    Check(units.far_targets),
+    Check(targets.beyond_limits),
+    *(Check(finds, is_cut_short) for finds in task.OF_TASK),
+    Check(guides.locked, is_beyond, "locked guides"),
+    Check(sunk.sunk),
+    Check(leaps.leaps),
+    Check(targets.joints_beyond),
+    Check(targets.half_turns),
+    Check(unsupported.falling),
+    Check(solving.backend_failures),
+    Check(drag.drag),
+    Check(left_out.border, is_large, "points beyond k"),
+    Check(left_out.exchanged),
+    Check(unborne.unborne, is_beyond, "forces of single contacts"),
+)
+NO_STEPS = (Check(numbers.no_steps),)
+OF_TIME = (Check(solving.proofs),)
+"""Of wall time, which is no part of a trajectory's file."""
+
+
+def findings(checks: Iterable[Check], of: Start | Trajectory) -> list[Finding]:
+    """What each line of a table finds, in its order.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+        `OF_SCENE`, `OF_RUN` or `OF_TIME`.
+    of : Start, Run or Trajectory
+        The scene at its start, the run at its end, or the trajectory of a run that has steps.
+    """
+    return [found for check in checks if not check.unless(of) for found in check.findings(of)]
+
+
+def not_looked_at(checks: Iterable[Check], of: Start) -> str:
+    """One line on what the lines of a table do not look at, and why; empty if they look at all.
+
+    Parameters
+    ----------
+    checks : iterable of Check
+    of : Start or Run
+    """
+    names: dict[str, list[str]] = {}
+    for check in checks:
+        if check.name and (reason := check.unless(of)):
+            names.setdefault(reason, []).append(check.name)
+    return "; ".join(f"{', '.join(each)}: {reason}" for reason, each in names.items())
+
+
+def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
+    """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
+    return findings(OF_SCENE, Start(simulator, q))
+
+
+SCENE_FINDINGS.fill(scene_findings)
+TIME_FINDINGS.fill(lambda trajectory: findings(OF_TIME, trajectory))

@@ -1,0 +1,171 @@
+"""The account of a run: every number of it equals one computed from the npz, in plain loops."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pandas
+import pytest
+
+from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
+from quasistatic_ref.optional.doctor.telling import lines
+from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
+from tests.closeness import assert_relative
+from tests.tolerances import ROUNDING
+
+RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
+
+
+@pytest.fixture(scope="module", params=RUNS)
+def run(request, tmp_path_factory):
+    """A run from its file, which holds forces."""
+    scenario = load_scenario(request.param, steps=RUNS[request.param], fast=True, record="forces")
+    path = scenario.run(progress=False).save(tmp_path_factory.mktemp("run") / "run.npz")
+    return trajectory_read(path)
+
+
+def coefficients(run, own):
+    """mu_v twice and mu_omega, which contacts without torsion do not use."""
+    for j in own:
+        yield run["mu_v"][j], run["mu_v"][j], run["mu_omega"][j] * (run["rows"][j] == 6)
+
+
+def contact(run, k, j):
+    """Slip and turn of contact j in step k, and the least of the pyramid's rows, Eq. (4)."""
+    motion = run["motion"][k, j]
+    gap = run["phi"][k, j] + run["n"][k, j] @ motion[:3]
+    slips = [run[axis][k, j] @ motion[:3] for axis in ("d1", "d2")]
+    mu_v = run["mu_v"][j]
+    spin = abs(run["mu_omega"][j] * motion[3]) if run["rows"][j] == 6 else 0.0
+    least = gap - max(mu_v * abs(slips[0]), mu_v * abs(slips[1]), spin)
+    return np.hypot(*slips), abs(motion[3]) * (run["rows"][j] == 6), least
+
+
+def test_numbers_of_pairs_are_those_of_the_arrays(run):
+    said = run.account().numbers["pairs"]
+    h = run.header["h"]
+    slots = [slot.rpartition("/")[0] for slot in run.header["slots"]]
+    assert list(said) == list(dict.fromkeys(slots))
+    for name, numbers in said.items():
+        own = [j for j, slot in enumerate(slots) if slot == name]
+        means = []
+        touches = []
+        for k in range(run.steps):
+            on = [row for row in (contact(run, k, j) for j in own) if row[2] <= TOUCHES]
+            touches.append(bool(on))
+            means.append(np.mean(on, axis=0)[:2] if on else (0.0, 0.0))
+        slip, turn = np.array(means).T
+        expected = {
+            "least_distance_m": run["phi"][:, own].min(),
+            "touches_s": h * sum(touches),
+            "slides_s": h * (slip > SLIDES * h).sum(),
+            "slip_m": slip.sum(),
+            "spins_s": h * (turn > SPINS * h).sum(),
+            "turn_deg": np.degrees(turn.sum()),
+        }
+        if any(touches):
+            expected["first_touch_s"] = run["t"][touches.index(True)]
+            expected["last_touch_s"] = run["t"][::-1][touches[::-1].index(True)]
+        f = run["forces"][:, own]
+        tangential = [[np.hypot(*f[k, i, :2]) for i in range(len(own))] for k in range(run.steps)]
+        friction = [sum(each) for each in tangential]
+        normal = [f[k, :, 2].sum() for k in range(run.steps)]
+        assert run.header["cone"] == "pyramid"
+        needs = [
+            sum(
+                sum(abs(part) / mu for part, mu in zip(f[k, i, [0, 1, 3]], mus, strict=True) if mu)
+                for i, mus in enumerate(coefficients(run, own))
+            )
+            for k in range(run.steps)
+        ]
+        share = [need / most if most > 0 else 0 for need, most in zip(needs, normal, strict=True)]
+        torque = [np.abs(f[k, :, 3]).sum() for k in range(run.steps)]
+        expected |= {
+            "largest_normal_N": max(normal),
+            "largest_friction_N": max(friction),
+            "largest_torque_Nm": max(torque),
+            "largest_share": max(share),
+        }
+        assert numbers.keys() == expected.keys()
+        for word, value in expected.items():
+            np.testing.assert_allclose(numbers[word], value, rtol=1e-12, atol=1e-15)
+
+
+def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
+    said = run.account().numbers
+    names = run.header["positions"]
+    for name, numbers in said["bodies"].items():
+        if f"{name}.x [m]" in names:
+            first = names.index(f"{name}.x [m]")
+            q = run["q"][:, first : first + 7]
+            assert numbers["ends_from_start_m"] == np.linalg.norm(q[-1, :3] - q[0, :3])
+            assert numbers["largest_rise_mm"] == 1e3 * (q[:, 2] - q[0, 2]).max()
+            # The angle between two quaternions: 2 acos |a . b|, which is good to 1e-7 near 0.
+            cosine = np.abs(q[:, 3:] @ q[0, 3:]).clip(0, 1)
+            angle = np.degrees(2 * np.arccos(cosine)).max()
+            assert abs(numbers["largest_rotation_deg"] - angle) <= 1e-5
+        else:
+            value = run["q"][:, names.index(f"{name} [rad]")]
+            angle = np.degrees(np.abs(value - value[0]).max())
+            assert_relative(numbers["largest_rotation_deg"], angle, ROUNDING)
+    stiffness = run.header["scene"]["stiffness"]
+    for name, numbers in said["joints"].items():
+        if not name.endswith("/base"):
+            i = names.index(f"{name} [m]")
+            error = np.abs(run["q"][1:, i] - run["q_bar_a"][:, i])
+            assert numbers["ends_from_target_m"] == error[-1]
+            K_q = stiffness[run.header["coordinates"].index(name)]
+            assert_relative(numbers["largest_spring_N"], K_q * error.max(), ROUNDING)
+
+
+def test_a_full_record_gives_the_account_of_a_record_of_forces(run, request):
+    name = request.node.callspec.params["run"]
+    full = load_scenario(name, steps=RUNS[name], fast=True).run(progress=False)
+    pandas.testing.assert_frame_equal(full.account().to_pandas(), run.account().to_pandas())
+    bare = {name: array for name, array in full.arrays.items() if name != "forces"}
+    assert replace(full, arrays=bare).account(forces=False).pairs[0].loads is None
+
+
+def test_the_table_is_a_frame(run):
+    account = run.account()
+    frame = account.to_pandas()
+    for kind, names in account.numbers.items():
+        for name, numbers in names.items():
+            assert frame.loc[kind, name].dropna().to_dict() == numbers
+
+
+def test_a_light_record_says_what_is_missing():
+    light = load_scenario("block_push", steps=60, fast=True, record="light").run(progress=False)
+    account = light.account()
+    assert all(pair.loads is None and pair.slip is None for pair in account.pairs)
+    said = list(lines(account))
+    assert "missing: a light record holds no forces: run again with record = 'forces'" in said
+    assert any(line.startswith("missing: a light record has no slips") for line in said)
+
+
+def test_a_file_from_before_there_were_accounts_is_refused(run):
+    old = Trajectory({k: v for k, v in run.header.items() if k != "scene"}, run.arrays)
+    with pytest.raises(InputError, match=r"^scene: has no scene: .* run it again"):
+        old.account()
+    hostile = Trajectory({**run.header, "scene": {"pairs": 3}}, run.arrays)
+    with pytest.raises(InputError, match=r"scene\.stiffness"):
+        hostile.account()
+
+
+def test_the_commands_print_the_table_and_draw_it(tmp_path, cli):
+    short = cli("run", "block_push", "--fast", "--set", "steps=60", "--out", tmp_path).out
+    path = tmp_path / "block_push.npz"
+    png = tmp_path / "figure.png"
+    whole = cli("account", path, "--figure", png).out
+    run = trajectory_read(path)
+    x = run["q"][:, 1]  # of the block, which does not turn
+    for printed in (short, whole):
+        assert f"ends_from_start_m {x[-1] - x[0]:.4g}" in printed
+    assert png.read_bytes().startswith(b"\x89PNG")
+    numbers = json.loads(cli("account", path, "--json").out)
+    assert numbers == {**run.account().numbers, "missing": []}
+
+
+def test_a_shape_that_is_not_of_a_pair_is_answered_by_the_pairs(run):
+    with pytest.raises(InputError, match=r"^nothing: is no pair; known: .*\("):
+        run.pair_forces()["nothing"]
