@@ -24,8 +24,8 @@ from dataclasses import dataclass
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.form import PRECISION, ExactForm
-from quasistatic_ref.certify.minimiser import Minimiser, ball_solution
+from quasistatic_ref.certify.form import EXACT, PRECISION, ExactForm, fraction
+from quasistatic_ref.certify.minimiser import Minimiser
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +114,7 @@ def dual_active_set(
         if p is None:  # All slacks are >= 0, too: the optimum.
             positive = minimiser.positive() if walks else minimiser.working
             same = positive == minimiser.working
-            return Optimum(minimiser if same else minimiser.on(positive), walks)
+            return Optimum(minimiser if same else Minimiser(form, positive), walks)
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after
@@ -124,25 +124,28 @@ def dual_active_set(
 
 def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
     """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
-    try:
-        minimiser = Minimiser(form, tuple(warm), ball_solution(form, warm))
-    except ZeroDivisionError:
-        minimiser = Minimiser(form, independent_rows(form, warm))
+    working = tuple(warm)
     while True:
-        pairs = zip(minimiser.working, minimiser.balls.y, strict=True)
-        positive = tuple(i for i, ball in pairs if ball > 0)
-        if positive == minimiser.working:
+        minimiser = Minimiser(form, working)
+        try:
+            y = minimiser.balls.y
+        except ZeroDivisionError:
+            working = independent_rows(form, working)
+            continue
+        positive = tuple(i for i, ball in zip(working, y, strict=True) if ball > 0)
+        if positive == working:
             return minimiser
-        minimiser = minimiser.on(positive)
+        working = positive
 
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
     """Return the minimiser that the violated row p leads to, or a proof that there is none."""
+    form = minimiser.form
     while True:
         working = minimiser.working
-        c = combination(minimiser.form, working, p)
+        c = combination(form, working, p)
         if c is None:
-            after = minimiser.on((*working, p))
+            after = Minimiser(form, (*working, p))
             leaving = _first_to_vanish(minimiser, after)
             if leaving is None:
                 return after
@@ -152,7 +155,9 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = minimiser.on(rest)  # start of the next line; the walk is already inside of it
+        minimiser = Minimiser(
+            form, rest
+        )  # start of the next line; the walk is already inside of it
 
 
 def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
@@ -185,7 +190,8 @@ def _vanishes_before(minimiser: Minimiser, after: Minimiser, j: int, k: int) -> 
         return bool(difference < 0)
     l_exact = minimiser.fractions.y
     u_exact = after.fractions.y
-    return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
+    with ctx.workprec(EXACT):
+        return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
 
 def _first_to_vanish_on_combination(minimiser: Minimiser, c: Sequence[fmpq]) -> int | None:
@@ -207,4 +213,4 @@ def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool
     if not difference.contains(0):
         return bool(difference < 0)
     l_exact = minimiser.fractions.y
-    return bool(l_exact[j] * c[k] < l_exact[k] * c[j])
+    return bool(fraction(l_exact[j]) * c[k] < fraction(l_exact[k]) * c[j])

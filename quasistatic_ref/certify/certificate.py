@@ -16,13 +16,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from flint import arb, ctx, fmpz
+from flint import arb, ctx
 
-from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
-from quasistatic_ref.certify.dependence import tight_rows
+from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
-from quasistatic_ref.certify.minimiser import Solution, fraction_solution, rounded_quotients
+from quasistatic_ref.certify.minimiser import (
+    Solution,
+    fraction_solution,
+    implied_rows,
+    rounded_quotients,
+)
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
@@ -203,7 +207,7 @@ def verify(
             slack = form.slacks(range(form.m), exact.z)  # times the denominator
             times_h = exact.denominator * form.h
         delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)
-        lam_exact[group.rows[working_rows]] = rounded_quotients(exact.multipliers, times_h)
+        lam_exact[group.rows[working_rows]] = rounded_quotients(exact.y, times_h)
         reason = reason or _wrong_sign(step, group, working_rows, exact.y, slack)
         solved.append((form, working_rows, exact, slack))
     reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
@@ -215,7 +219,7 @@ def verify(
 
 
 def _wrong_sign(
-    step: StepData, group: Group, working: Sequence[int], y: Sequence[fmpz], slack: Sequence[arb]
+    step: StepData, group: Group, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
 ) -> str:
     for i, y_i in zip(working, y, strict=True):
         if y_i <= 0:
@@ -228,7 +232,7 @@ def _wrong_sign(
 
 
 def _wrong_claim(
-    solved: Sequence[tuple[ExactForm, Sequence[int], Solution[fmpz], Sequence[arb]]],
+    solved: Sequence[tuple[ExactForm, Sequence[int], Solution, Sequence[arb]]],
     claims: Certificate,
     lam_w: Array,
 ) -> str:
@@ -236,9 +240,12 @@ def _wrong_claim(
     unique = smooth = True
     slacks: list[float] = []
     for form, working, exact, slack in solved:
-        spanned, unspanned = tight_rows(form, working, slack)
-        smooth = smooth and differentiable(form, working, unspanned)
-        unique = unique and multipliers_unique(form, working, spanned, unspanned)
+        idle = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
+        of_W = implied_rows(form, working, idle)
+        others = [i for i in idle if i not in of_W]
+        is_unique, is_smooth = degeneracy(form, working, of_W, others)
+        unique = unique and is_unique
+        smooth = smooth and is_smooth
         inactive = [s for s in slack if not s.is_zero()]
         slacks += rounded_quotients(inactive, exact.denominator).tolist()
     right = {

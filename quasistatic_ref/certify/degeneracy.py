@@ -17,47 +17,45 @@ keep the dependence (all numbers of one contact), not along those that break it.
 
 from collections.abc import Sequence
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat, ctx, fmpz
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, Row
 
 
-def multipliers_unique(
-    form: ExactForm,
-    working: Sequence[int],
-    spanned: Sequence[int],
-    unspanned: Sequence[int],
-) -> bool:
-    """Whether lam is unique.
+def degeneracy(
+    form: ExactForm, working: Sequence[int], implied_rows: Sequence[int], tight_rows: Sequence[int]
+) -> tuple[bool, bool]:
+    """Whether lam is unique, and whether delta_q is differentiable in g.
 
     Parameters
     ----------
     form : ExactForm
     working : sequence of int
         W: independent rows without slack, all multipliers positive.
-    spanned, unspanned : sequence of int
-        E: the other rows without slack, divided into those that W spans and those that it does not.
+    implied_rows, tight_rows : sequence of int
+        E: the other rows without slack, divided into those that W implies and the others.
 
     Returns
     -------
-    bool
+    (bool, bool)
     """
-    if spanned or len(unspanned) <= 1:
-        return not spanned
-    return feasible(form, working, form.exact_rows(unspanned), [1] * len(unspanned))
-
-
-def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
-    """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
-    if len(unspanned) <= 1:
-        return not unspanned
-    rows = form.exact_rows(unspanned)
+    if len(tight_rows) <= 1:
+        return not implied_rows, not tight_rows
+    columns = zip(*form.integers(tight_rows), strict=True)
+    total = [sum(column, fmpz(0)) for column in columns]
+    if implied(form.integers(working), [total])[0]:
+        # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
+        return False, True
+    rows = form.exact_rows(tight_rows)
+    with ctx.workprec(EXACT):
+        exact_total = [sum(column, arb(0)) for column in zip(*rows, strict=True)]
     # A_E v >= 0 is not zero iff the sum of its entries is positive, and then v can be scaled so
     # that the sum is at least 1.
-    with ctx.workprec(EXACT):
-        total = [sum(column, arb(0)) for column in zip(*rows, strict=True)]
-    return not feasible(form, working, [*rows, total], [0] * len(unspanned) + [1])
+    smooth = not feasible(form, working, [*rows, exact_total], [0] * len(rows) + [1])
+    unique = not implied_rows and feasible(form, working, rows, [1] * len(rows))
+    return unique, smooth
 
 
 def feasible(

@@ -22,10 +22,9 @@ from quasistatic_ref.certify.active_set import (
     dual_active_set,
     most_violated,
 )
-from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
+from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
-from quasistatic_ref.certify.minimiser import small_combinations
 from quasistatic_ref.certify.norm import energy_norm, single_loads
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
@@ -110,23 +109,14 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     """The optimum that the method ended with: what is unique at it, and its numbers, rounded."""
     minimiser = end.minimiser
     working = minimiser.working
-    spanned = minimiser.spanned
-    unspanned = minimiser.unspanned
-    total = np.ones((1, len(unspanned)))
-    if len(unspanned) > 1 and small_combinations(form, working, unspanned, total)[0]:
-        # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
-        unique = False
-        smooth = True
-    else:
-        smooth = differentiable(form, working, unspanned)
-        unique = multipliers_unique(form, working, spanned, unspanned)
+    unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     lam = np.zeros(form.m)
-    lam_w = minimiser.rounded(lambda found: found.multipliers, form.h)
+    lam_w = minimiser.rounded(lambda found: found.y, form.h)
     lam[list(working)] = lam_w
     return ExactOptimum(
         delta_q=minimiser.rounded(lambda found: found.x),
         lam=lam,
-        net=minimiser.rounded(minimiser.pull, form.h),
+        net=minimiser.rounded(lambda found: found.net.entries(), form.h),
         slacks=minimiser.rounded_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=unique,

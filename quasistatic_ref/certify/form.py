@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
@@ -29,6 +28,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq, fmpz
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
+from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group, split
@@ -85,56 +85,33 @@ def columns(rows: Sequence[Row], of: slice) -> arb_mat:
     return arb_mat(len(rows), of.stop - of.start, [v for row in rows for v in row[of]])
 
 
-@dataclass(frozen=True, eq=False)
-class Block:
-    """A diagonal block of a program: H x = g + A'y.
-
-    Parameters
-    ----------
-    of : slice
-        Its coordinates, k of them.
-    H : arb_mat
-        Exact, positive definite, shape (k, k).
-    inverse : arb_mat
-        H^-1 in balls.
-    g : arb_mat
-        Exact, shape (k, 1).
-    """
-
-    of: slice
-    H: arb_mat
-    inverse: arb_mat
-    g: arb_mat
-
-
 class ExactForm(ABC):
-    """A program whose blocks and rows are exact.
+    """A program whose H, g and rows are exact.
 
     Attributes
     ----------
     n, m : int
         Numbers of coordinates and of rows.
-    blocks : list of Block
+    H : arb_mat
+        Positive definite, shape (n, n).
+    H_inverse : arb_mat
+        In balls.
+    g : arb_mat
+        Shape (n, 1).
     h : arb
         y = h lam: what the program's cost was multiplied by.
     """
 
     n: int
     m: int
-    blocks: list[Block]
+    H: arb_mat
+    H_inverse: arb_mat
+    g: arb_mat
     h: arb
 
     @abstractmethod
     def exact_row(self, i: int) -> Row:
         """One row [a, c]."""
-
-    @abstractmethod
-    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
-        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
-
-    @abstractmethod
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """The a of some rows in float64, shape (rows, n): a guess."""
 
     @abstractmethod
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
@@ -151,48 +128,30 @@ class ExactForm(ABC):
             At least `|x|` [m, rad].
         """
 
+    def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
+        """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
+        return []
+
+    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
+        """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
+        return (columns(self.exact_rows(some), slice(0, self.n + 1)) * z).entries()
+
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
         """Some rows [a, c]."""
         return [self.exact_row(i) for i in some]
 
-    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
-        """The a of some rows as integers, times a power of two that these rows have in common."""
+    def integers(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Some rows [a, c] times a power of two that they have in common."""
         rows = self.exact_rows(some)
-        numbers = whole_numbers([v for row in rows for v in row[:-1]])
-        return [numbers[k * self.n : (k + 1) * self.n] for k in range(len(rows))]
-
-    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
-        """Rows [a, c], each times a power of two of its own."""
-        return [whole_numbers(self.exact_row(i)) for i in some]
+        numbers = whole_numbers([v for row in rows for v in row])
+        size = self.n + 1
+        return [numbers[k : k + size] for k in range(0, len(numbers), size)]
 
     @cached_property
-    def free(self) -> list[arb_mat]:
-        """The minimiser without rows, block by block, in balls."""
+    def free(self) -> arb_mat:
+        """The minimiser without rows, in balls, shape (n, 1)."""
         with ctx.workprec(PRECISION):
-            return [block.inverse * block.g for block in self.blocks]
-
-    @cached_property
-    def H(self) -> arb_mat:
-        """All of H, shape (n, n)."""
-        return self._whole([block.H for block in self.blocks])
-
-    @cached_property
-    def H_inverse(self) -> arb_mat:
-        """All of H^-1 in balls, shape (n, n)."""
-        return self._whole([block.inverse for block in self.blocks])
-
-    def _whole(self, parts: Sequence[arb_mat]) -> arb_mat:
-        whole = arb_mat(self.n, self.n)
-        for block, part in zip(self.blocks, parts, strict=True):
-            for i, row in enumerate(part.tolist(), block.of.start):
-                for j, v in enumerate(row, block.of.start):
-                    whole[i, j] = v
-        return whole
-
-    @cached_property
-    def g(self) -> arb_mat:
-        """All of g, shape (n, 1)."""
-        return arb_mat(self.n, 1, [v for block in self.blocks for v in block.g.entries()])
+            return self.H_inverse * self.g
 
     @cached_property
     def A(self) -> arb_mat:
@@ -206,7 +165,7 @@ class ExactForm(ABC):
 
 
 class MatrixForm(ExactForm):
-    """A program of any exact matrices, as one block.
+    """A program of any exact matrices.
 
     Parameters
     ----------
@@ -221,32 +180,20 @@ class MatrixForm(ExactForm):
     def __init__(self, H: arb_mat, g: arb_mat, rows: arb_mat) -> None:
         self.n = H.nrows()
         self.m = rows.nrows()
+        self.H = H
+        self.H_inverse = inverse(H)
+        self.g = g
         self.h = arb(1)
-        self.blocks = [Block(slice(0, self.n), H, inverse(H), g)] if self.n else []
         self._rows = rows.tolist()
 
     def exact_row(self, i: int) -> Row:
         """One row [a, c]."""
         return self._rows[i]
 
-    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
-        """As of the base."""
-        rows = self.exact_rows(some)
-        return (columns(rows, slice(0, self.n + 1)) * z).entries()
-
-    @cached_property
-    def _floats(self) -> Array:
-        rows = [[float(v) for v in row] for row in self._rows]
-        return np.array(rows, dtype=np.float64).reshape(self.m, self.n + 1)
-
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """As of the base; shape (rows, n)."""
-        floats: Array = self._floats[some, :-1]
-        return floats
-
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [any unit]."""
-        return row_slacks(self._floats, x, most)
+        rows = [[float(v) for v in row] for row in self._rows]
+        return row_slacks(np.array(rows).reshape(self.m, self.n + 1), x, most)
 
 
 class StepForm(ExactForm):
@@ -280,23 +227,39 @@ class StepForm(ExactForm):
         self._phi = contacts.phi[at]
         self._mu = friction_cone.row_coefficients(contacts.mu)[at]
         self._mask = step.mask[at]
-        self._cone = friction_cone.matrix
+        self._cone_name = friction_cone.name
+        self._cone_matrix = friction_cone.matrix
+        self._exact_cone = exact_matrix(self._cone_matrix)
         self._frame = np.zeros((len(J), 4, 4))
         self._frame[:, :3, :3] = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)[at]
         self._frame[:, 3, 3] = 1.0
         self._own = own
-        self._contact, self._kind = np.nonzero(self._mask)
-        self._places = list(zip(self._contact.tolist(), self._kind.tolist(), strict=True))
-        self._motions: dict[int, arb_mat] = {}
+        contact, kind = np.nonzero(self._mask)
+        self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
+        self._places += [(len(J), k) for k in range(len(own))]
+        self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.n = len(a) + len(u)
-        self.m = len(self._contact) + len(own)
+        self.m = len(self._places)
         self.h = arb(step.h)
-        self.blocks = _blocks(step, a, u)
+        target = np.concatenate([step.delta_q_bar_a[a], np.zeros(len(u))])
+        tau = np.concatenate([step.tau_a[a], step.tau_u[u]])
+        K_q = np.ascontiguousarray(step.K_q[np.ix_(a, a)])
+        M_u = np.ascontiguousarray(step.inertia(u))
+        self.H, self.H_inverse = _hessian(K_q.tobytes(), M_u.tobytes(), len(a), len(u), step.h)
+        with ctx.workprec(EXACT):
+            self.g = self.H * exact_matrix(target[:, None])  # h^2 tau_k, Eq. (1)
+            self.g += exact_matrix(tau[:, None]) * (self.h * self.h)
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
-        if c not in self._motions:
+        turn, J = self.motion_factors(c)
+        with ctx.workprec(EXACT):
+            return turn * J
+
+    def motion_factors(self, c: int) -> tuple[arb_mat, arb_mat]:
+        """The frame of a contact with friction, and its J and phi: shapes (4, 5) and (5, n + 1)."""
+        if c not in self._factors:
             n, d1, d2, _ = self._frame[c, :, :3].tolist()
             mu_1, mu_2, mu_w = map(arb, self._mu[c].tolist())
             J = np.zeros((5, self.n + 1))
@@ -305,45 +268,43 @@ class StepForm(ExactForm):
             with ctx.workprec(EXACT):
                 d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
                 turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
-                self._motions[c] = arb_mat(4, 5, turn) * exact_matrix(J)
-        return self._motions[c]
+                self._factors[c] = arb_mat(4, 5, turn), exact_matrix(J)
+        return self._factors[c]
 
     def exact_row(self, i: int) -> Row:
         """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
-        if i >= len(self._places):
-            return [arb(v) for v in self._own[i - len(self._places)].tolist()]
         c, kind = self._places[i]
+        if c == len(self._J):
+            return [arb(v) for v in self._own[kind].tolist()]
         if c not in self._rows:
             with ctx.workprec(EXACT):
-                self._rows[c] = (exact_matrix(self._cone) * self.motion(c)).tolist()
+                self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
         return self._rows[c][kind]
 
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
-        """As of the base."""
-        matrix = exact_matrix(self._cone)
+        """As of the base, from the motion of each contact."""
         of_contact: dict[int, list[arb]] = {}
         slacks = []
         for i in some:
-            if i >= len(self._places):
-                slacks += (arb_mat([self.exact_row(i)]) * z).entries()
-                continue
             c, kind = self._places[i]
+            if c == len(self._J):
+                slacks += super().slacks([i], z)
+                continue
             if c not in of_contact:
-                of_contact[c] = (matrix * (self.motion(c) * z)).entries()
+                turn, J = self.motion_factors(c)
+                of_contact[c] = (self._exact_cone * (turn * (J * z))).entries()
             slacks.append(of_contact[c][kind])
         return slacks
 
-    def float_rows(self, some: Sequence[int]) -> Array:
-        """As of the base; shape (rows, n)."""
-        rows = np.array(some, dtype=np.int64)
-        own = rows >= len(self._contact)
-        c = self._contact[rows[~own]]
-        weights = self._cone[self._kind[rows[~own]]]
-        weights[:, 1:] *= self._mu[c]
-        floats = np.empty((len(rows), self.n))
-        floats[~own] = (weights[:, None] @ self._frame[c] @ self._J[c])[:, 0]
-        floats[own] = self._own[rows[own] - len(self._contact), :-1]
-        return floats
+    def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
+        """As of the base: the six rows of a contact have rank four."""
+        held: dict[int, tuple[int, ...]] = {}
+        for c, kind in sorted(self._places[i] for i in working):
+            held[c] = (*held.get(c, ()), kind)
+        held.pop(len(self._J), None)
+        kinds = {c: _implied_kinds(self._cone_name, of_c) for c, of_c in held.items()}
+        places = ((i, *self._places[i]) for i in some)
+        return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [m, rad].
@@ -370,7 +331,7 @@ class StepForm(ExactForm):
         R = (np.abs(self._J) @ most).max(axis=1, initial=0.0) + TINY
         F = np.abs(frame).sum(axis=(1, 2)) + TINY
         size = np.abs(self._phi) + F * R
-        slack = (motion @ self._cone.T)[self._mask]
+        slack = (motion @ self._cone_matrix.T)[self._mask]
         error = (2 * self.n + 64) * UNIT * np.repeat(size, self._mask.sum(axis=1)) + TINY
         if not len(self._own):
             return slack, error
@@ -396,29 +357,30 @@ def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
     return rows @ [*x, 1.0], (2 * len(x) + 64) * UNIT * size + TINY
 
 
-def _blocks(step: StepData, a: Indices, u: Indices) -> list[Block]:
-    """The blocks of some actuated and un-actuated coordinates, each counted from its first."""
-    blocks = []
-    with ctx.workprec(EXACT):
-        h2 = arb(step.h) * step.h
-        if len(a):
-            H = _hessian(np.ascontiguousarray(step.K_q[np.ix_(a, a)]).tobytes(), len(a), step.h)
-            target = exact_matrix(step.delta_q_bar_a[a, None])
-            g = H[0] * target + exact_matrix(step.tau_a[a, None]) * h2  # Eq. (1)
-            blocks.append(Block(slice(0, len(a)), *H, g))
-        if len(u):
-            H = _hessian(np.ascontiguousarray(step.inertia(u)).tobytes(), len(u), 1.0)
-            g = exact_matrix(step.tau_u[u, None]) * h2
-            blocks.append(Block(slice(len(a), len(a) + len(u)), *H, g))
-    return blocks
-
-
 @lru_cache(maxsize=32)
-def _hessian(entries: bytes, n: int, h: float) -> tuple[arb_mat, arb_mat]:
-    """A positive definite matrix of float64 numbers, (n, n), times h^2, and the inverse of that."""
+def _hessian(K_q: bytes, M_u: bytes, n_a: int, n_u: int, h: float) -> tuple[arb_mat, arb_mat]:
+    """h^2 K_q and M_u as the blocks of one exact matrix, and its inverse in balls."""
     with ctx.workprec(EXACT):
-        H = exact_matrix(np.frombuffer(entries).reshape(n, n)) * (arb(h) * h)
-    return H, inverse(H)
+        K = exact_matrix(np.frombuffer(K_q).reshape(n_a, n_a)) * (arb(h) * h)
+        M = exact_matrix(np.frombuffer(M_u).reshape(n_u, n_u))
+        return _diagonal(K, M), _diagonal(inverse(K), inverse(M))
+
+
+def _diagonal(K: arb_mat, M: arb_mat) -> arb_mat:
+    """Two square matrices as the blocks of one."""
+    zero = arb(0)
+    upper = [v for row in K.tolist() for v in (*row, *[zero] * M.nrows())]
+    lower = [v for row in M.tolist() for v in (*[zero] * K.nrows(), *row)]
+    n = K.nrows() + M.nrows()
+    return arb_mat(n, n, upper + lower)
+
+
+@lru_cache(maxsize=1024)
+def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
+    """Which rows of a contact follow from some of them, which are independent, whatever it is."""
+    rows = exact_matrix(cone(cone_name).matrix).tolist()
+    numbers = [whole_numbers(row) for row in rows]
+    return implied([numbers[kind] for kind in held], numbers)
 
 
 def inverse(H: arb_mat) -> arb_mat:

@@ -1,14 +1,12 @@
 """The proof of a right guess: the minimiser on a working set W, and every sign at it.
 
-A sign is taken from the cheapest source that shows it, in this order:
+The sign of a slack is taken from the first of these sources that shows it:
 
-1. float64 with a bound of its error shows most slacks to be positive (``open_rows`` are the rest);
-2. a slack is zero if its row is a combination of rows of W with small coefficients: they are
-   guessed in float64, and the combination is formed without rounding (``guessed``);
-3. balls show the slacks that are clearly not zero (``ball_slacks``);
-4. what they leave open is zero if the row follows from those of W, modulo a prime, then in
-   integers (``spanned``);
-5. the rest is decided by the solution in fractions (``slack_signs``).
+1. float64 with a bound of its error shows most to be positive (``open_rows`` are the others);
+2. a slack is zero if W implies its row (``implied_rows``): by the geometry of its contact's cone,
+   whatever the numbers are, or by elimination in whole numbers;
+3. balls show the others that are clearly not zero, and fractions decide the rest
+   (``slack_signs``).
 """
 
 from __future__ import annotations
@@ -16,12 +14,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, TypeVar, cast
+from typing import TypeAlias, cast
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz_mat
 
-from quasistatic_ref.certify.dependence import follow
+from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import (
     EXACT,
     PRECISION,
@@ -29,40 +27,32 @@ from quasistatic_ref.certify.form import (
     UNIT,
     ExactForm,
     columns,
-    exact_matrix,
     fraction,
     whole_numbers,
 )
 from quasistatic_ref.certify.rounding import nearest, nearest_in
 from quasistatic_ref.step.data import Array, Indices
 
-Number = TypeVar("Number", arb, fmpz)
-Numbers = Callable[["Solution[arb] | Solution[fmpz]"], "list[arb]"]
-"""Some numbers of a solution, times its denominator."""
-
-GRID = 2520.0
-"""Coefficients of combinations are guessed as fractions of it, which all numbers up to 10 divide:
-in a contact they are -1, -1/2 .. 1, and where symmetric contacts share a load thirds and fifths."""
-LARGEST = 64.0 * GRID
-"""A guess is below it."""
-
 
 @dataclass(frozen=True, eq=False)
-class Solution(Generic[Number]):
+class Solution:
     """The solution of H x = g + A_W'y, A_W x + c_W = 0, as numerators and a denominator.
 
     Parameters
     ----------
     z : arb_mat
-        [x; 1] times the denominator, shape (n + 1, 1).
-    y : list of arb, or of fmpz
-        Times the denominator, in the order of W: balls, or integers.
+        [x; 1] times the denominator, shape (n + 1, 1): balls, or whole numbers.
+    y : list of arb
+        Times the denominator, in the order of W.
+    net : arb_mat
+        A_W'y times the denominator, shape (n, 1).
     denominator : arb
         Exact and positive: 1 in balls.
     """
 
     z: arb_mat
-    y: list[Number]
+    y: list[arb]
+    net: arb_mat
     denominator: arb
 
     @property
@@ -80,13 +70,12 @@ class Solution(Generic[Number]):
         """X of a solution in fractions."""
         return self.in_fractions(self.x)
 
-    @property
-    def multipliers(self) -> list[arb]:
-        """Numerators of y."""
-        return [arb(v) for v in self.y]
+
+Numbers: TypeAlias = Callable[[Solution], "list[arb]"]
+"""Some numbers of a solution, times its denominator."""
 
 
-def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution[arb]:
+def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     """The solution in balls.
 
     Raises
@@ -95,52 +84,42 @@ def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution[arb]:
         If these do not show that the rows are independent.
     """
     rows = form.exact_rows(working)
+    A = columns(rows, slice(0, form.n))
+    c = columns(rows, slice(form.n, form.n + 1))
     with ctx.workprec(PRECISION):
-        S = arb_mat(len(rows), len(rows))
-        left = -columns(rows, slice(form.n, form.n + 1))
-        pulls = []
-        for block, x in zip(form.blocks, form.free, strict=True):
-            A = columns(rows, block.of)
-            pull = block.inverse * A.transpose()
-            S += A * pull
-            left -= A * x
-            pulls.append(pull)
-        y = S.solve(left) if rows else left
-        parts = [x + pull * y for x, pull in zip(form.free, pulls, strict=True)]
-        z = [v for part in parts for v in part.entries()] + [arb(1)]
-    return Solution(arb_mat(form.n + 1, 1, z), y.entries(), arb(1))
+        pull = form.H_inverse * A.transpose()
+        y = (A * pull).solve(-(A * form.free + c))
+        x = form.free + pull * y
+        z = arb_mat(form.n + 1, 1, [*x.entries(), 1])
+        return Solution(z, y.entries(), A.transpose() * y, arb(1))
 
 
-def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution[fmpz]:
+def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     """The solution without rounding; ZeroDivisionError if the rows are not independent."""
     n = form.n
     k = len(working)
     rows = form.exact_rows(working)
-    equations = []
-    for block in form.blocks:
-        before = [arb(0)] * block.of.start
-        after = [arb(0)] * (n - block.of.stop)
-        table = zip(block.H.tolist(), range(n)[block.of], block.g.entries(), strict=True)
-        for row, v, right in table:
-            pull = [a[v] for a in rows]  # times -y: negation would round
-            equations.append(whole_numbers([*before, *row, *after, *pull, right]))
-    for a in rows:
-        *a_x, c = whole_numbers(a)
-        equations.append([*a_x, *[fmpz(0)] * k, -c])
-    K = fmpz_mat(n + k, n + k, [v for row in equations for v in row[:-1]])
-    right_side = fmpz_mat(n + k, 1, [row[-1] for row in equations])
+    H_g = zip(form.H.tolist(), form.g.entries(), strict=True)
+    with ctx.workprec(EXACT):
+        balance = [[*H_v, *(-a[v] for a in rows), g_v] for v, (H_v, g_v) in enumerate(H_g)]
+        closed = [[*a[:n], *[arb(0)] * k, -a[n]] for a in rows]
+    equations = [whole_numbers(equation) for equation in [*balance, *closed]]
+    K = fmpz_mat(n + k, n + k, [v for equation in equations for v in equation[:-1]])
+    right_side = fmpz_mat(n + k, 1, [equation[-1] for equation in equations])
     numerators, denominator = cast("fmpq_mat", K.solve(right_side)).numer_denom()  # positive
-    entries = numerators.entries()
+    entries = [arb(v) for v in numerators.entries()]
+    x = arb_mat(n, 1, entries[:n])
     z = arb_mat(n + 1, 1, [*entries[:n], denominator])
-    return Solution(z, [-v for v in entries[n:]], arb(denominator))
+    with ctx.workprec(EXACT):
+        net = form.H * x - form.g * arb(denominator)
+    return Solution(z, entries[n:], net, arb(denominator))
 
 
-def in_balls(exact: Solution[fmpz]) -> Solution[arb]:
+def in_balls(exact: Solution) -> Solution:
     """A solution in fractions as balls."""
     with ctx.workprec(PRECISION):
-        z = exact.z / exact.denominator
-        y = [arb(v) / exact.denominator for v in exact.y]
-    return Solution(z, y, arb(1))
+        share = 1 / exact.denominator
+        return Solution(exact.z * share, [v * share for v in exact.y], exact.net * share, arb(1))
 
 
 class Minimiser:
@@ -151,37 +130,31 @@ class Minimiser:
     form : ExactForm
     working : tuple of int
         W: independent rows.
-    balls : Solution, optional
-        That on W in balls, where it is known.
     """
 
-    def __init__(
-        self, form: ExactForm, working: tuple[int, ...], balls: Solution[arb] | None = None
-    ) -> None:
+    def __init__(self, form: ExactForm, working: tuple[int, ...]) -> None:
         self.form = form
         self.working = working
-        self._balls = balls
-
-    def on(self, working: tuple[int, ...]) -> Minimiser:
-        """Return the minimiser of the same form on another working set."""
-        return Minimiser(self.form, working)
 
     @cached_property
-    def balls(self) -> Solution[arb]:
+    def balls(self) -> Solution:
         """The solution in balls: by the system of multipliers, or from the fractions.
 
-        The inverses of blocks have a radius, so that a finer system would not help where theirs is
-        too wide to show that the rows are independent.
+        H^-1 has a radius, so that a finer system would not help where that is too wide to show that
+        the rows are independent.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If the rows are not independent.
         """
-        if self._balls is not None:
-            return self._balls
         try:
             return ball_solution(self.form, self.working)
         except ZeroDivisionError:
             return in_balls(self.fractions)
 
     @cached_property
-    def fractions(self) -> Solution[fmpz]:
+    def fractions(self) -> Solution:
         """The solution in fractions: milliseconds, so only where it is needed."""
         return fraction_solution(self.form, self.working)
 
@@ -222,36 +195,18 @@ class Minimiser:
         return [int(i) for i in rows[slack[rows] - error[rows] <= least]]
 
     @cached_property
-    def guessed(self) -> list[int]:
-        """The open rows that are small combinations of rows of W: their slacks are zero."""
-        weights = np.eye(len(self.open_rows))
-        shown = small_combinations(self.form, self.working, self.open_rows, weights)
-        return [i for i, is_zero in zip(self.open_rows, shown, strict=True) if is_zero]
-
-    @cached_property
-    def ball_slacks(self) -> dict[int, arb]:
-        """The slacks of the other open rows in balls."""
-        rows = sorted({*self.open_rows} - {*self.guessed})
-        with ctx.workprec(PRECISION):
-            return dict(zip(rows, self.form.slacks(rows, self.balls.z), strict=True))
-
-    @cached_property
-    def spanned(self) -> list[int]:
+    def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
-        dark = [i for i, ball in self.ball_slacks.items() if not (ball > 0 or ball < 0)]
-        if not dark:
-            return self.guessed
-        implied = follow(self.form.equations(self.working), self.form.equations(dark))
-        return sorted([*self.guessed, *(i for i, so in zip(dark, implied, strict=True) if so)])
+        return implied_rows(self.form, self.working, self.open_rows)
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:
         """The exact signs of the slacks of all open rows that W does not imply."""
-        implied = {*self.spanned}
+        rows = sorted({*self.open_rows} - {*self.implied_rows})
+        with ctx.workprec(PRECISION):
+            balls = zip(rows, self.form.slacks(rows, self.balls.z), strict=True)
         return {
-            i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i))
-            for i, ball in self.ball_slacks.items()
-            if i not in implied
+            i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i)) for i, ball in balls
         }
 
     def _exact_slack(self, i: int) -> arb:
@@ -264,15 +219,16 @@ class Minimiser:
         with ctx.workprec(PRECISION):
             one, other = self.form.slacks([i, j], self.balls.z)
             difference = one - other
-        if not (difference > 0 or difference < 0 or difference.is_zero()):
-            if small_combinations(self.form, self.working, [i, j], np.array([[1.0, -1.0]]))[0]:
+        if not (difference > 0 or difference < 0):
+            *W, row_i, row_j = self.form.integers([*self.working, i, j])
+            if implied(W, [[v - w for v, w in zip(row_i, row_j, strict=True)]])[0]:
                 return False
             with ctx.workprec(EXACT):
                 difference = self._exact_slack(i) - self._exact_slack(j)
         return bool(difference < 0)
 
     @cached_property
-    def unspanned(self) -> list[int]:
+    def tight_rows(self) -> list[int]:
         """The other rows outside of W whose slacks are zero, in increasing order."""
         return [i for i, sign in self.slack_signs.items() if sign == 0]
 
@@ -280,14 +236,8 @@ class Minimiser:
     def inactive(self) -> Indices:
         """The rows whose slacks are not zero."""
         is_active = np.zeros(self.form.m, dtype=bool)
-        is_active[[*self.working, *self.spanned, *self.unspanned]] = True
+        is_active[[*self.working, *self.implied_rows, *self.tight_rows]] = True
         return np.flatnonzero(~is_active)
-
-    def pull(self, found: Solution[arb] | Solution[fmpz]) -> list[arb]:
-        """Numerators of A_W'y."""
-        rows = self.form.exact_rows(self.working)
-        A = columns(rows, slice(0, self.form.n))
-        return (A.transpose() * arb_mat(len(rows), 1, found.y)).entries()
 
     def rounded(self, numbers: Numbers, unit: arb | None = None) -> Array:
         """Numbers of the solution over a unit, each rounded correctly, shape (k,).
@@ -327,47 +277,21 @@ class Minimiser:
         return self.rounded(lambda found: self.form.slacks(rows.tolist(), found.z))
 
 
+def implied_rows(form: ExactForm, working: Sequence[int], some: Sequence[int]) -> list[int]:
+    """Those of some rows, in increasing order, that are combinations [a, c] of the rows of W."""
+    by_cone = form.implied_by_cone(working, some)
+    others = sorted({*some} - {*by_cone})
+    if not others:
+        return by_cone
+    are_implied = implied(form.integers(working), form.integers(others))
+    return sorted([*by_cone, *(i for i, so in zip(others, are_implied, strict=True) if so)])
+
+
 def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:
     """Exact numbers over one that is positive, each rounded correctly, shape (k,)."""
     pairs = (whole_numbers([p, denominator]) for p in numerators)
     return np.array([nearest(int(p), int(q)) for p, q in pairs], dtype=np.float64)
 
 
-def small_combinations(
-    form: ExactForm, working: Sequence[int], some: Sequence[int], weights: Array
-) -> list[bool]:
-    """Which sums of rows [a, c] are seen to be combinations of those of W.
-
-    Coefficients are guessed among fractions of GRID by least squares. A guess counts if what is
-    left of the sum, times GRID, is zero without rounding.
-
-    Parameters
-    ----------
-    form : ExactForm
-    working : sequence of int
-        W.
-    some : sequence of int
-        Rows.
-    weights : ndarray, shape (k, rows)
-        Whole numbers [-]: those of each sum.
-    """
-    k = len(working)
-    shown = np.zeros(len(weights), dtype=bool)
-    if not (k and some):
-        return shown.tolist()
-    rows = form.float_rows([*working, *some])
-    if not np.isfinite(rows).all():
-        return shown.tolist()
-    sums = weights @ rows[k:]
-    guess = np.rint(GRID * np.linalg.lstsq(rows[:k].T, sums.T)[0].T)
-    good = np.flatnonzero((np.abs(guess) < LARGEST).all(axis=1))
-    if good.size:
-        with ctx.workprec(EXACT):
-            exact = arb_mat(form.exact_rows([*working, *some]))
-            left = (exact_matrix(np.hstack([guess[good], -GRID * weights[good]])) * exact).tolist()
-        shown[good] = [all(v.is_zero() for v in row) for row in left]
-    return shown.tolist()
-
-
-def _sign(number: arb | fmpz) -> int:
+def _sign(number: arb) -> int:
     return int(number > 0) - int(number < 0)

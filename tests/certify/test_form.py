@@ -55,16 +55,14 @@ def test_grasp_step_has_the_size_of_the_paper():
     assert (form.m, form.n) == (80, 13)
 
 
-def test_rows_in_integers_have_one_factor_in_common_and_equations_have_their_own():
+def test_rows_in_integers_have_one_factor_in_common():
     form = StepForm(grasp_step(np.random.default_rng(1)))
-    A = np.array([[exact(v) for v in row] for row in form.A.tolist()])
     some = [3, 0, 17, 79]
-    rows = np.array(form.rows(some))
-    assert len({v / w for v, w in zip(rows.ravel(), A[some].ravel(), strict=True) if w}) == 1
-    assert not any(v for v, w in zip(rows.ravel(), A[some].ravel(), strict=True) if not w)
-    for i, equation in zip(some, form.equations(some), strict=True):
-        row = [*A[i], exact(form.c[i, 0])]
-        assert len({v / w for v, w in zip(equation, row, strict=True) if w}) == 1
+    rows = np.array([[exact(v) for v in row] for row in form.exact_rows(some)])
+    assert rows[:, :-1].tolist() == [[exact(form.A[i, v]) for v in range(form.n)] for i in some]
+    integers = np.array(form.integers(some))
+    assert len({v / w for v, w in zip(integers.ravel(), rows.ravel(), strict=True) if w}) == 1
+    assert not any(v for v, w in zip(integers.ravel(), rows.ravel(), strict=True) if not w)
 
 
 def test_a_ball_with_a_radius_is_no_exact_number():

@@ -8,10 +8,11 @@ from flint import arb_mat, ctx
 
 from quasistatic_ref import Extra, StepInfeasible
 from quasistatic_ref.certify.active_set import dual_active_set
+from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
-from quasistatic_ref.certify.minimiser import Minimiser, small_combinations
+from quasistatic_ref.certify.minimiser import Minimiser, implied_rows
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -125,16 +126,31 @@ def pressed(mass_ratio=1.0):
     return free_step(np.diag([1.0, 1.0, mass_ratio, 1.0]), [0.1, 0.2, -3.0, 0.0], at, 0.5)
 
 
-def test_small_combinations_are_proved_and_others_are_not_claimed():
+@pytest.mark.parametrize("cone", ["pyramid", "product", "facets-6", "frictionless"])
+def test_rows_that_a_cone_implies_are_those_that_elimination_finds(cone):
+    """Of one contact, whose four lengths are independent: no rows imply more than its cone."""
+    step = pressed().replace(cone=cone)
+    form = StepForm(step)
+    of_contact = range(int(step.counts[0]))
+    for size in range(5):
+        for working in itertools.combinations(of_contact, size):
+            if independent_rows(form, working) != working:
+                continue
+            shown = implied(form.integers(working), form.integers(of_contact))
+            right = [i for i, is_implied in zip(of_contact, shown, strict=True) if is_implied]
+            assert form.implied_by_cone(working, of_contact) == right
+            assert implied_rows(form, working, of_contact) == right
+
+
+def test_rows_are_implied_across_contacts_by_elimination_alone():
+    """The three contacts are equal: a row of one of them is the same row of another."""
     form = StepForm(pressed())
-    # +d1 and -d1 of a contact sum to those of +d2 and -d2; +d1 alone does not follow from them.
-    assert small_combinations(form, [0, 2, 1], [3], np.eye(1)) == [True]
-    assert small_combinations(form, [1, 3], [0], np.eye(1)) == [False]
-    assert small_combinations(form, [1, 3], [0, 2], np.ones((1, 2))) == [True]
-    assert small_combinations(form, [], [0], np.eye(1)) == [False]
+    assert form.implied_by_cone([0], [6, 12]) == []
+    assert implied_rows(form, [0], [6, 7, 12]) == [6, 12]
+    assert implied_rows(form, [], [6]) == []
 
 
-def test_row_that_differs_in_the_last_bit_is_no_combination():
+def test_row_that_differs_in_the_last_bit_is_not_implied():
     step = pressed()
     J = step.contacts.J.copy()
     J[1, 2, 0] = 2.0**-60
@@ -142,8 +158,7 @@ def test_row_that_differs_in_the_last_bit_is_no_combination():
         step.contacts.name, step.contacts.phi, step.contacts.n, step.contacts.d1,
         step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
     )))  # fmt: skip
-    assert small_combinations(form, [0], [6], np.eye(1)) == [False]
-    assert small_combinations(form, [0], [12], np.eye(1)) == [True]
+    assert implied_rows(form, [0], [6, 12]) == [12]
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))

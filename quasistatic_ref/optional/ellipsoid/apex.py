@@ -17,7 +17,7 @@ from flint import ctx, fmpq, fmpq_mat
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
 from quasistatic_ref.certify.gap import fractions, rational
-from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.step.data import Array, StepData
 
@@ -67,13 +67,12 @@ def apex_refutation(
     str or None
     """
     try:
-        minimiser = Minimiser(form, tuple(working))
-        solution = minimiser.fractions
+        solution = fraction_solution(form, working)
     except ZeroDivisionError:
         return "the rows of the working set are not independent"
     with ctx.workprec(EXACT):
         slack = solution.in_fractions(form.slacks(range(form.m), solution.z))
-        pull = solution.in_fractions(minimiser.pull(solution))
+    pull = solution.in_fractions(solution.net.entries())
     impulse = _balanced(form, working, fractions(lam), [v / fraction(form.h) for v in pull])
     if impulse is None:
         return "no multipliers on the working set balance the step"

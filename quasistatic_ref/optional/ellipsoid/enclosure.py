@@ -19,7 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
 from quasistatic_ref.certify.gap import duality_gap, fractions, inner, square_root
-from quasistatic_ref.certify.minimiser import Minimiser, rounded_quotients
+from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
@@ -151,14 +151,13 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
     working = apex_rows(step, form, lam)
     if apex_refutation(step, form, working, lam):
         return None
-    minimiser = Minimiser(form, working)
-    exact = minimiser.fractions
+    exact = fraction_solution(form, working)
     gap = duality_gap(form, exact.point, fractions(lam))
     if not negligible(form, exact.point, gap):
         return None
     delta_q = rounded_quotients(exact.x, exact.denominator)
     with ctx.workprec(EXACT):
-        net = rounded_quotients(minimiser.pull(exact), exact.denominator * form.h)
+        net = rounded_quotients(exact.net.entries(), exact.denominator * form.h)
     return Enclosure(delta_q, lam, net, working, 0.0, rounded_up(gap))
 
 

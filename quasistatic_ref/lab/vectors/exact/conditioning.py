@@ -91,7 +91,7 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     g, b = g[:, 0], -c[:, 0]
     solution = fraction_solution(form, working)
     rows = list(working)
-    numbers = (solution.x, solution.multipliers)
+    numbers = (solution.x, solution.y)
     x, lam = (np.abs(rationals(solution.in_fractions(v))) for v in numbers)
     K = np.block([[H, -A[rows].T], [A[rows], np.zeros((len(rows),) * 2, dtype=int)]])
     share = fmpq(ROUNDINGS * size, UNIT.denominator)

@@ -9,13 +9,13 @@ balls.
 from collections.abc import Sequence
 
 import numpy as np
-from flint import ctx, fmpq
+from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
-from quasistatic_ref.certify.form import EXACT, MatrixForm
-from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.certify.form import MatrixForm
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
@@ -149,11 +149,8 @@ def _checked_optimum(
     case_input: Json, form: MatrixForm, working: Sequence[int]
 ) -> dict[str, list[fmpq]]:
     """delta_q and A'lam of a working set, after the plain program looked at their conditions."""
-    found = Minimiser(form, tuple(working))
-    exact = found.fractions
-    with ctx.workprec(EXACT):
-        numbers = (exact.x, found.pull(exact), exact.multipliers)
-    x, net, lam = map(exact.in_fractions, numbers)
+    exact = fraction_solution(form, working)
+    x, net, lam = map(exact.in_fractions, (exact.x, exact.net.entries(), exact.y))
     every = [fmpq(0)] * form.m
     for row, value in zip(working, lam, strict=True):
         every[row] = value
