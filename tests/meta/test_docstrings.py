@@ -8,7 +8,7 @@ import quasistatic_ref
 from tests.meta.docstrings import complaints, units_of_symbols
 
 PACKAGE = Path(quasistatic_ref.__file__).parent
-NOTATION = Path(__file__).parents[2] / "docs" / "theory" / "notation.md"
+NOTATION = Path(__file__).parents[2] / "docs" / "conventions.md"
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
