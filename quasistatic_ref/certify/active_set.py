@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.form import EXACT, PRECISION, ExactForm, fraction
+from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
 from quasistatic_ref.certify.minimiser import Minimiser
 
 
@@ -150,67 +150,43 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
             if leaving is None:
                 return after
         else:
-            leaving = _first_to_vanish_on_combination(minimiser, c)
+            leaving = _first_to_vanish(minimiser, [-c_j for c_j in c])
             if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = Minimiser(
-            form, rest
-        )  # start of the next line; the walk is already inside of it
+        # The start of the next line; the walk is already inside of it.
+        minimiser = Minimiser(form, rest)
 
 
-def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
-    """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
+def _first_to_vanish(minimiser: Minimiser, u: Minimiser | list[fmpq]) -> int | None:
+    """Ratio test: index in W of the multiplier that vanishes first on a line, or None.
 
-    l are the multipliers on W, u those on W and p. The index is that of the least l_j / (l_j - u_j)
-    over u_j < 0; of a tie the first of W.
+    l are the multipliers on W. The line goes towards u, those on W and p, or along u = -c. The
+    index is that of the least l_j / -u_j over u_j < 0; of a tie the first of W. (On the line
+    towards u the fraction l_j / (l_j - u_j) has the same order.)
 
-    After a row has left, the method is at a point inside this line, not at its start, where the
-    multiplier of p is zero. The ratios of the whole line are valid all the same: a multiplier that
-    is >= 0 at that point and ends at u_j < 0 decreases along the line, so that it vanishes at that
-    point or after it.
+    After a row has left, the method is at a point inside the line towards u, not at its start,
+    where the multiplier of p is zero. The ratios of the whole line are valid all the same: a
+    multiplier that is >= 0 at that point and ends at u_j < 0 decreases along the line, so that it
+    vanishes at that point or after it.
     """
     first = None
     for j in range(len(minimiser.working)):
-        if after.multiplier_sign(j) >= 0:
-            continue
-        if first is None or _vanishes_before(minimiser, after, j, first):
+        falls = u.multiplier_sign(j) < 0 if isinstance(u, Minimiser) else u[j] < 0
+        if falls and (first is None or _vanishes_before(minimiser, u, j, first)):
             first = j
     return first
 
 
-def _vanishes_before(minimiser: Minimiser, after: Minimiser, j: int, k: int) -> bool:
-    """Return whether l_j / (l_j - u_j) < l_k / (l_k - u_k), both u being negative."""
+def _vanishes_before(minimiser: Minimiser, u: Minimiser | list[fmpq], j: int, k: int) -> bool:
+    """Return whether l_j / -u_j < l_k / -u_k, both u being negative."""
     l_ball = minimiser.balls.y
-    u_ball = after.balls.y
+    u_ball = u.balls.y if isinstance(u, Minimiser) else u
     with ctx.workprec(PRECISION):
         difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
     if not difference.contains(0):
         return bool(difference < 0)
-    l_exact = minimiser.fractions.y
-    u_exact = after.fractions.y
-    with ctx.workprec(EXACT):
-        return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
-
-
-def _first_to_vanish_on_combination(minimiser: Minimiser, c: Sequence[fmpq]) -> int | None:
-    """Ratio test: index in W of the l_j - t c_j that vanishes first as t grows, or None.
-
-    That is the least l_j / c_j over c_j > 0; of a tie the first of W.
-    """
-    first = None
-    for j, c_j in enumerate(c):
-        if c_j > 0 and (first is None or _ratio_less(minimiser, c, j, first)):
-            first = j
-    return first
-
-
-def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool:
-    """Return whether l_j / c_j < l_k / c_k, both c being positive."""
-    with ctx.workprec(PRECISION):
-        difference = minimiser.balls.y[j] * c[k] - minimiser.balls.y[k] * c[j]
-    if not difference.contains(0):
-        return bool(difference < 0)
-    l_exact = minimiser.fractions.y
-    return bool(fraction(l_exact[j]) * c[k] < fraction(l_exact[k]) * c[j])
+    l_j, l_k = (fraction(minimiser.fractions.y[i]) for i in (j, k))
+    u_j, u_k = (fraction(u.fractions.y[i]) if isinstance(u, Minimiser) else u[i] for i in (j, k))
+    return bool(l_k * u_j < l_j * u_k)

@@ -33,6 +33,24 @@ def rational(M: arb_mat) -> fmpq_mat:
     return fmpq_mat(M.nrows(), M.ncols(), [fraction(v) for v in M.entries()])
 
 
+def lagrangian_minimiser(form: ExactForm, lam: Sequence[fmpq]) -> fmpq_mat:
+    """The x of H x = g + A'lam [m, rad], shape (n, 1); lam in [N s], of length m."""
+    push = rational(form.A).transpose() * fmpq_mat(form.m, 1, list(lam))
+    return rational(form.H).solve(rational(form.g) + fraction(form.h) * push)
+
+
+def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
+    """1/2 ||x||_H^2 [N m s], x in [m, rad]."""
+    column = fmpq_mat(form.n, 1, list(x))
+    product = column.transpose() * rational(form.H) * column
+    return sum(product.entries(), fmpq(0)) / (2 * fraction(form.h))
+
+
+def free_energy(form: ExactForm) -> fmpq:
+    """1/2 ||H^-1 g||_H^2 [N m s]."""
+    return energy(form, lagrangian_minimiser(form, [fmpq(0)] * form.m).entries())
+
+
 def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq:
     """f(x) - d(lam) of an x that satisfies all constraints and a lam in the dual cone.
 
@@ -49,13 +67,11 @@ def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq
     fmpq
         [N m s].
     """
-    h = fraction(form.h)
     column = fmpq_mat(form.n, 1, list(x))
-    push = fmpq_mat(form.m, 1, list(lam))
-    A = rational(form.A)
-    off = rational(form.H) * column - rational(form.g) - h * A.transpose() * push  # times h
-    work = push.transpose() * (A * column + rational(form.c))
-    return _squared(form, off) / (2 * h) + sum(work.entries(), fmpq(0))
+    off = column - lagrangian_minimiser(form, lam)
+    slack = rational(form.A) * column + rational(form.c)
+    work = sum((v * s for v, s in zip(lam, slack.entries(), strict=True)), fmpq(0))
+    return energy(form, off.entries()) + work
 
 
 def inner(u: arb_mat, v: arb_mat) -> arb:
@@ -66,21 +82,3 @@ def inner(u: arb_mat, v: arb_mat) -> arb:
 def square_root(square: arb) -> arb:
     """The square root of what is not negative, whatever a ball about it holds."""
     return square.nonnegative_part().sqrt()
-
-
-def free_energy(form: ExactForm) -> fmpq:
-    """1/2 ||H^-1 g||_H^2 [N m s]."""
-    return _squared(form, rational(form.g)) / (2 * fraction(form.h))
-
-
-def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
-    """1/2 ||x||_H^2 [N m s], x in [m, rad]."""
-    column = fmpq_mat(form.n, 1, list(x))
-    product = column.transpose() * rational(form.H) * column
-    return sum(product.entries(), fmpq(0)) / (2 * fraction(form.h))
-
-
-def _squared(form: ExactForm, impulse: fmpq_mat) -> fmpq:
-    """Return p'H^-1 p of the form's H."""
-    moved = rational(form.H).solve(impulse)
-    return sum((impulse.transpose() * moved).entries(), fmpq(0))

@@ -13,9 +13,9 @@ measured as the displacements that they stand for, so that the three can be comp
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Protocol
 
 import numpy as np
 
@@ -68,16 +68,6 @@ class EnergyNorm:
     def moved(self, P: Array) -> Array:
         """H^-1 p of each row p of P, shape (rows, n_v), in axes in which ||.||_H is the length."""
         return np.asarray(np.linalg.solve(self.L, (P * self.unit).T).T, dtype=np.float64)
-
-
-class Norm(Protocol):
-    """Lengths of displacements and of impulses."""
-
-    def of_displacement(self, v: Array) -> float:
-        """||v||_H of a displacement v, shape (n_v,) [m, rad]."""
-
-    def of_impulse(self, p: Array) -> float:
-        """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
 
 
 def energy_norm(H: Array) -> EnergyNorm:
@@ -138,12 +128,7 @@ def single_loads(step: StepData, scale: float = 1.0) -> Array:
     return loads
 
 
-def load_length(norm: Norm, loads: Array) -> float:
-    """The largest ||H^-1 p||_H of the impulses p [N s, N m s] in `loads`, shape (k, n_v)."""
-    return max((norm.of_impulse(load) for load in loads if load.any()), default=0.0)
-
-
-def error_length(norm: Norm, diagonal: Array, g: Array, optimum: Array, loads: float) -> float:
+def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()) -> float:
     """The length ell that errors are divided by, in the norm of H [(N m s)^0.5].
 
     It is the largest of
@@ -158,22 +143,17 @@ def error_length(norm: Norm, diagonal: Array, g: Array, optimum: Array, loads: f
 
     Parameters
     ----------
-    norm : Norm
-    diagonal : ndarray, shape (n_v,)
-        Of H [N m s/m^2].
+    H : ndarray, shape (n_v, n_v)
+        [N m s/m^2].
     g : ndarray, shape (n_v,)
     optimum : ndarray, shape (n_v,)
         x* [m, rad].
-    loads : float
-        The :func:`load_length` of the step's :func:`single_loads` [(N m s)^0.5]; 0 where they are
-        not known.
+    loads : iterable of ndarray, shape (n_v,)
+        The step's :func:`single_loads` [N s, N m s], where they are known.
     """
-    return max(
-        norm.of_impulse(g),
-        norm.of_displacement(optimum),
-        loads,
-        UNMOVED * math.sqrt(diagonal.min()),
-    )
+    norm = energy_norm(H)
+    free = max(norm.of_impulse(p) for p in (g, *loads))
+    return max(free, norm.of_displacement(optimum), UNMOVED * math.sqrt(H.diagonal().min()))
 
 
 def relative_digits(off: float, length: float) -> float:

@@ -2,13 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import (
-    energy_norm,
-    error_length,
-    load_length,
-    relative_digits,
-    single_loads,
-)
+from quasistatic_ref.certify.norm import energy_norm, error_length, relative_digits, single_loads
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -27,6 +21,5 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
     norm = energy_norm(form.H)
     with np.errstate(over="ignore", invalid="ignore"):
         off = norm.of_displacement(delta_q - exact_delta_q)
-    loads = load_length(norm, single_loads(step))
-    length = error_length(norm, np.diag(form.H), form.g, exact_delta_q, loads)
+    length = error_length(form.H, form.g, exact_delta_q, single_loads(step))
     return relative_digits(off, length)

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
-from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.solve.backends import ERROR_BOUND, RESIDUAL
 from quasistatic_ref.solve.units import StepInBothUnits
@@ -32,10 +31,6 @@ class Prover:
             form = both.natural_form
             warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
         return step_optimum(both.si_step, warm)
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step, in which errors and lengths are measured."""
-        return energy_norm(both.si_step.H)
 
     def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.

@@ -19,7 +19,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
@@ -80,11 +80,6 @@ class HessianInBothUnits:
     squared: Array
     natural_H: Array
     usable: bool
-
-    @cached_property
-    def norm(self) -> EnergyNorm:
-        """The norm ||.||_H; StepDataError as of ``energy_norm``."""
-        return energy_norm(self.H)
 
 
 def hessian_in_both_units(H: Array) -> HessianInBothUnits:

@@ -69,7 +69,8 @@ def test_the_row_of_smallest_ratio_leaves_in_a_tie_the_longest_held(order, c, fi
     form = program([[1, 0], [0, 1], c], [1, 3, 99])
     combination = active_set.combination(form, order, 2)
     assert [float(str(c_j)) for c_j in combination] == [c[i] for i in order]
-    leaving = active_set._first_to_vanish_on_combination(point_on(form, order, balls), combination)
+    fall = [-c_j for c_j in combination]
+    leaving = active_set._first_to_vanish(point_on(form, order, balls), fall)
     assert order[leaving] == (order[0] if first is None else first)
 
 
@@ -78,10 +79,8 @@ def test_multipliers_that_do_not_fall_never_vanish(order, balls):
     """Of lam = (1, 3), lam_0 stays as t grows, and lam_1 + t grows with it."""
     form = program([[1, 0], [0, 1], [0, -1]], [1, 3, 99])
     combination = active_set.combination(form, order, 2)
-    assert (
-        active_set._first_to_vanish_on_combination(point_on(form, order, balls), combination)
-        is None
-    )
+    fall = [-c_j for c_j in combination]
+    assert active_set._first_to_vanish(point_on(form, order, balls), fall) is None
 
 
 def test_combination_without_positive_part_proves_infeasibility():

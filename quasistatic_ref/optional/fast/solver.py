@@ -1,6 +1,5 @@
 """DAQP called by its own interface, group by group, and kept between steps."""
 
-from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.between import FLOAT_BOUND, FloatBound
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.solve.backends import RESIDUAL, check_backend
@@ -39,7 +38,7 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
 
 
 class FastProver(Prover):
-    """The exact method, with what H gives of norms and bounds kept while H stays.
+    """The exact method, with what H gives of bounds kept while H stays.
 
     Attributes
     ----------
@@ -49,11 +48,6 @@ class FastProver(Prover):
 
     def __init__(self) -> None:
         self.bound: FloatBound | None = None
-
-    def norm(self, both: StepInBothUnits) -> Norm:
-        """The norm ||.||_H of a step."""
-        assert isinstance(both, DenseStepInBothUnits)
-        return both.hessian.norm
 
     def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""

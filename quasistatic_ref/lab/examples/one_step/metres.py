@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm, error_length, load_length, single_loads
+from quasistatic_ref.certify.norm import energy_norm, error_length, single_loads
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, MARKS
@@ -42,10 +42,8 @@ def error(step: StepData, delta_q: Array) -> float:
     """||x - x*||_H over the length of the step [-], of an answer of shape (n_v,)."""
     exact = solve_step(step).delta_q
     form = standard_form(step)
-    norm = energy_norm(form.H)
-    loads = load_length(norm, single_loads(step))
-    length = error_length(norm, form.H.diagonal(), form.g, exact, loads)
-    return norm.of_displacement(delta_q - exact) / length
+    length = error_length(form.H, form.g, exact, single_loads(step))
+    return energy_norm(form.H).of_displacement(delta_q - exact) / length
 
 
 @cache

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.certify.norm import energy_norm, error_length, load_length, single_loads
+from quasistatic_ref.certify.norm import error_length, single_loads
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
@@ -93,7 +93,6 @@ def problem_of(
     form = standard_form(step)
     H, g, A, b = form
     answer = exact_answer(form, warm)
-    norm = energy_norm(H)
     x = np.zeros(len(g)) if answer.farkas else answer.x
     facts: dict[str, Any] = {
         "id": name,
@@ -107,7 +106,7 @@ def problem_of(
         "mass_ratio": mass_ratio(step),
         "dial": dial,
         "sequence": None,
-        "length": error_length(norm, H.diagonal(), g, x, load_length(norm, single_loads(step))),
+        "length": error_length(H, g, x, single_loads(step)),
         "status": answer.status,
         "answer": {
             "kind": answer.kind,

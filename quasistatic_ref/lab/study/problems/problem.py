@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
-from quasistatic_ref.certify.norm import energy_norm, error_length
+from quasistatic_ref.certify.norm import error_length
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -106,7 +106,7 @@ class Problem:
         if "length" in self.facts:
             return float(self.facts["length"])
         x = self.answer.x if self.feasible else np.zeros(len(self.g))
-        return error_length(energy_norm(self.H.toarray()), self.H.diagonal(), self.g, x, 0.0)
+        return error_length(self.H.toarray(), self.g, x)
 
     @property
     def sparse(self) -> bool:
