@@ -376,8 +376,6 @@ class RunFailed(QuasistaticError):
         The steps that were completed, marked with the reason.
     step : StepData, optional
         The step that failed.
-    file : Path, optional
-        Where the trajectory was written.
 
     Examples
     --------
@@ -396,12 +394,10 @@ class RunFailed(QuasistaticError):
         reason: str,
         trajectory: Trajectory,
         step: StepData | None = None,
-        file: Path | None = None,
     ) -> None:
         self.reason = reason
         self.trajectory = trajectory
         self.step = step
-        self.file = file
         super().__init__(reason)
 
 

@@ -22,7 +22,7 @@ class Slot(Generic[T]):
     Parameters
     ----------
     module : str
-        The module that fills it, such as ``"runs.resume"``: imported when it is asked for.
+        The module that fills it, such as ``"doctor.observer"``: imported when it is asked for.
     """
 
     def __init__(self, module: str) -> None:

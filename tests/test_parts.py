@@ -79,7 +79,7 @@ def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
         getattr(quasistatic_ref, name)
 
 
-def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path, cli):
+def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
     scenario = load_scenario("sphere_spin", steps=2)
     whole = scenario.run(progress=False)
     without("doctor")
@@ -88,12 +88,8 @@ def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path
     header = {name: value for name, value in whole.header.items() if name != "scene"}
     assert run.header == {**header, **dict.fromkeys(unknown), "findings": []}
     assert run.arrays.keys() == whole.arrays.keys()
-    without("runs")
-    with pytest.raises(InputError, match=r"^save needs quasistatic_ref/optional/runs$"):
-        scenario.run(progress=False, save=tmp_path / "run.npz")
     cli("run", "sphere_spin", "--set", "steps=2", "--out", tmp_path, "--quiet")
     assert trajectory_read(tmp_path / "sphere_spin.npz").steps == 2
-    cli("run", "sphere_spin", "--out", tmp_path, "--resume", status=2)
 
 
 def test_without_pages_data_show_their_fields(without):

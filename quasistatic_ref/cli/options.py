@@ -63,21 +63,6 @@ def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
         parser.add_argument(name, **settings)
 
 
-def add_resume(parser: argparse.ArgumentParser) -> None:
-    """``--resume`` and ``--save-every SECONDS``."""
-    from quasistatic_ref.simulate.rollout import SAVE_EVERY
-
-    parser.add_argument(
-        "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
-    )
-    parser.add_argument(
-        "--save-every",
-        type=float,
-        metavar="SECONDS",
-        help=f"time between two saves of the steps so far ({SAVE_EVERY:g} by default)",
-    )
-
-
 def check_at_least_one(options: argparse.Namespace, name: str) -> None:
     """Refuse an option that counts something, and is given as less than 1.
 
@@ -149,16 +134,15 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 
 def failed_run(failure: RunFailed, path: Path) -> int:
-    """Say where the steps of a failed run are; write its failing step; its status."""
-    from quasistatic_ref.simulate.rollout import SAVED_STEPS
+    """Write the steps of a failed run, and its failing step; say where they are; its status.
 
-    saved_steps = SAVED_STEPS.found()
+    A trajectory that is there stays.
+    """
     trajectory: Trajectory = failure.trajectory
-    kept = f"the first {trajectory.steps} steps are in {failure.file or path}"
+    file = path.with_name(f"{path.stem}_failed.npz") if path.exists() else path
+    kept = f"the first {trajectory.steps} steps are in {trajectory.save(file)}"
     if failure.step is not None:
         step = step_written(path.with_name(f"{path.stem}_failed_step.json"), failure.step)
         kept += f", the failing step in {step}"
-    if saved_steps is not None and saved_steps(path):
-        kept += "; --resume goes on from there"
     print(f"quasistatic-ref: {failure.reason}; {kept}", file=sys.stderr)
     return 130 if isinstance(failure.__cause__, KeyboardInterrupt) else 3

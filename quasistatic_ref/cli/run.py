@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Mapping
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +12,21 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.formats.npz import header_of, npz_arrays
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.parts import needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.observer import DOCTOR
-from quasistatic_ref.simulate.rollout import FIRST_STEP
-from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory, certified
+from quasistatic_ref.simulate.trajectory import (
+    ACCOUNT,
+    FORMAT,
+    VERSION,
+    WHAT,
+    Trajectory,
+    certified,
+)
 from quasistatic_ref.step.cones import cone
 
 
@@ -30,7 +39,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.add(parser, "--out", default="results")
     shared.add(parser, *shared.SOLVER, "--law", "--set", "--root", "--json")
-    shared.add_resume(parser)
     parser.add_argument(
         "--targets",
         metavar="FILE.csv|KEY,KEY,...",
@@ -81,8 +89,7 @@ def run(options: argparse.Namespace) -> int:
     """
     scenario = scenario_given(options)
     path = options.out / f"{scenario.path.stem}.npz"
-    first_step = FIRST_STEP.needed("--resume") if options.resume else FIRST_STEP.found()
-    first = 0 if first_step is None else first_step(path, scenario.steps, options.resume)
+    check_replaceable(path, scenario.steps)
     writable_folder(options.out)  # known before the work, not after it
     if options.view:
         with needing("--view"):
@@ -96,27 +103,18 @@ def run(options: argparse.Namespace) -> int:
         check_table_path(file, option)
     if options.strict:
         DOCTOR.needed("--strict")
-    if options.resume:
-        start = "nothing is saved; begins from the start"
-        if first:
-            start = f"goes on from step {first}"
-        shared.progress_line(options, start)
-    saving = {"save": path, "save_every": options.save_every, "resume": options.resume}
-    if first_step is None:
-        saving = {}
     failure: RunFailed | None = None
     try:
-        trajectory: Trajectory = scenario.run(progress=not options.quiet, **saving)
+        trajectory: Trajectory = scenario.run(progress=not options.quiet)
     except RunFailed as error:
         failure = error
         trajectory = error.trajectory
-    if not saving:
-        trajectory.save(path)
     if options.quiet:  # of progress; a finding is said all the same
         for finding in trajectory.findings:
             print(f"quasistatic-ref: {finding}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
+    trajectory.save(path)
     view = None
     if options.view:
         view = view_written(scenario, path.with_suffix(".html"), trajectory)
@@ -180,6 +178,29 @@ def run(options: argparse.Namespace) -> int:
     written = [str(file) for file in (path, *tables.values(), view) if file is not None]
     print(f"wrote {' and '.join(written)}")
     return status
+
+
+def check_replaceable(path: Path, steps: int) -> None:
+    """Refuse to replace a file that is there by a run, unless it is a run that is no longer.
+
+    Raises
+    ------
+    InputError
+    """
+    if not isfile(path) or not path.stat().st_size:  # false of a name that is too long
+        return
+    remedy = "choose another folder, or remove it"
+    try:
+        header = npz_arrays(path, WHAT, only="header").get("header")
+        top = TableReader(header_of(path, WHAT, header))
+        top.check_format(FORMAT, VERSION)
+        there = top.integer("steps", least=0)
+    except InputError as error:
+        problem = f"{error.problem}; it is not replaced by one; {remedy}"
+        raise InputError(problem, file=path) from None
+    if there > steps:
+        problem = f"holds a run of {there} steps, which one of {steps} does not replace; {remedy}"
+        raise InputError(problem, file=path)
 
 
 def scenario_given(options: argparse.Namespace) -> Scenario:

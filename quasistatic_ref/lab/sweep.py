@@ -22,9 +22,10 @@ from quasistatic_ref.formats.files import (
     writable_folder,
 )
 from quasistatic_ref.formats.resources import scenario_path
+from quasistatic_ref.lab.lock import Lock
 from quasistatic_ref.lab.parallel import InThisProcess, results, workers
+from quasistatic_ref.lab.run_settings import fingerprint, run_settings
 from quasistatic_ref.optional.doctor.telling import measures
-from quasistatic_ref.optional.runs.saved_files import Lock, fingerprint, run_settings
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.progress import progress_bar

@@ -12,10 +12,8 @@ if TYPE_CHECKING:
     from quasistatic_ref.contact.shape_in_world import ShapeInWorld
     from quasistatic_ref.solve.units import DenseStepInBothUnits
     from quasistatic_ref.step.data import Array, Mask, StepData
-    from quasistatic_ref.step.extension import Extension, Rises
+    from quasistatic_ref.step.extension import Rises
 
-POSED: Slot[Callable[[StepData, Extension], tuple[StepData, bool]]] = Slot("extensions.extended")
-"""A step with what of an extension is data, and whether that is all of it."""
 WITH_RISES: Slot[Callable[[StepData, Rises], StepData]] = Slot("extensions.rises")
 STRAY: Slot[Callable[[Array], Mask]] = Slot("scans.cloud")
 """Which points (N, 3) [m] no gap of a few spacings joins to the others."""

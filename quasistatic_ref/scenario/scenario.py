@@ -13,7 +13,6 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
@@ -42,6 +41,7 @@ from quasistatic_ref.scenario.scene_words import HERE, scene_tables
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
@@ -52,7 +52,6 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
 from quasistatic_ref.step.ordered import total
 
-SAVING = ("save", "save_every", "resume", "observers")
 """What `run` hands on to a rollout."""
 MOST_BODIES = 1000
 EXTENDED_BODIES: Slot[
@@ -134,33 +133,26 @@ class Scenario(Settings, Plain, Shown):
         """
         return self.simulator().findings()
 
-    def run(self, progress: bool = True, **saving: Any) -> Trajectory:
+    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
         """Simulate the whole scenario.
 
         Parameters
         ----------
         progress : bool
-        saving : object
-            `save`, `save_every`, `resume` and `observers` of
-            :func:`~quasistatic_ref.simulate.rollout.rollout`, which takes `progress` as well.
+        observers : sequence of Observer
+            As :func:`~quasistatic_ref.simulate.rollout.rollout` takes them, which takes `progress`
+            as well.
 
         Raises
         ------
         RunFailed
             If a step fails.
         InputError
-            If anything else is given, such as a field of the scenario.
+            If `progress` is no boolean, or as of :func:`~quasistatic_ref.simulate.rollout.rollout`.
         """
         if not isinstance(progress, bool):
             problem = "must be true or false; steps are set when the scenario is loaded"
             raise InputError(problem, field="progress", value=progress)
-        for name in saving:
-            if name not in SAVING:
-                problem = (
-                    f"is not an argument of run ({known_names(SAVING)}); set fields when the "
-                    "scenario is loaded, as in load_scenario(path, record='light')"
-                )
-                raise InputError(problem, field=name)
         return rollout(
             self.simulator(),
             self.system.q_start,
@@ -169,7 +161,7 @@ class Scenario(Settings, Plain, Shown):
             force=self.force,
             record=self.record,
             progress=progress,
-            **saving,
+            observers=observers,
         )
 
 

@@ -201,21 +201,6 @@ class Recorder:
             more = (*more, "lam_extra")
         return arrays | {name: _of_all([r.solution for r in results], name) for name in more}
 
-    def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
-        """Add steps that were taken before, as :meth:`packed` gave them.
-
-        Parameters
-        ----------
-        part : dict of str to ndarray
-            Of the notation's shape and unit, behind a first axis, the step [-].
-        extra : tuple of str
-            Names of an extension's rows.
-        """
-        self.parts.append(part)
-        self.extra = extra
-        self.q = part["q"][-1]
-        self.steps += len(part["q"])
-
     @property
     def notes(self) -> tuple[str, ...]:
         """Names of what the observers keep of each step."""

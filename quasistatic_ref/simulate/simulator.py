@@ -404,7 +404,7 @@ class Simulator(Settings, Shown):
                 spare = self.spares.get(name)
                 if spare is None or not spare.fits(step):
                     spare = solver_for(step, name)
-                    if name != NONE:  # it would begin where a resumed run does not
+                    if name != NONE:  # it starts cold
                         self.spares[name] = spare
                 solution = solve_step(step, spare, accuracy=self.accuracy, certify=certify)
             except BackendError:  # not for this cone

@@ -8,9 +8,9 @@ import pytest
 
 from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab import run_settings
+from quasistatic_ref.lab.lock import Lock
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
-from quasistatic_ref.optional.runs import saved_files
-from quasistatic_ref.optional.runs.saved_files import Lock
 from tests.optional.doctor.mistake_scenes import scenes_written
 from tests.scenes import BALL, PUSH, written_scenario
 
@@ -55,7 +55,7 @@ def content(folder):
 
 
 def version_changed(path, monkeypatch):
-    monkeypatch.setattr(saved_files, "__version__", "0.0")
+    monkeypatch.setattr(run_settings, "__version__", "0.0")
 
 
 CLOUD = "x,y,z\n0,0,-0.05\n-0.05,0,0\n"
@@ -113,7 +113,7 @@ def test_a_table_of_something_else_is_refused(tmp_path):
 
 
 def test_a_folder_that_another_sweep_writes_into_is_refused(tmp_path):
-    with Lock(tmp_path), pytest.raises(InputError, match="is being written by another run"):
+    with Lock(tmp_path), pytest.raises(InputError, match="is being written by another sweep"):
         swept("block_incline", tmp_path)
 
 

@@ -35,8 +35,8 @@ OPTIONAL = (
     "optional/large",
     "optional/qpsolvers",
     "optional/readers",
-    "optional/runs",
     "optional/scans",
+    "optional/scene_files",
     "optional/show",
 )
 
@@ -51,6 +51,8 @@ LAB = (
     "lab/digits",
     "lab/folders",
     "lab/log",
+    "lab/lock",
+    "lab/run_settings",
     "lab/parallel",
     "lab/machine",
     "lab/cluster",

@@ -32,7 +32,7 @@ PLANTED = {
     "a lazy import": ("step/a.py", "import_module('quasistatic_ref.cli')", "later folder"),
     "the face": ("__init__.py", "from .step import data", "later folder"),
     "an optional part in another": (
-        "optional/runs/a.py",
+        "optional/fast/a.py",
         "from quasistatic_ref.optional.show import words",
         "another part",
     ),

@@ -13,7 +13,6 @@ from quasistatic_ref.cli.main import _actions as leaves
 from quasistatic_ref.cli.main import command_parser
 from quasistatic_ref.lab.study import fields
 from quasistatic_ref.lab.vectors import versions
-from quasistatic_ref.optional.runs import saved_files
 from quasistatic_ref.scenario import scenario_table
 from quasistatic_ref.simulate import trajectory
 from quasistatic_ref.step import files
@@ -23,7 +22,6 @@ FORMATS = {
     solution_files.SOLUTION_FORMAT: solution_files.VERSION,
     scenario_table.FORMAT: scenario_table.VERSION,
     trajectory.FORMAT: trajectory.VERSION,
-    saved_files.FORMAT: saved_files.VERSION,
     fields.FORMAT: fields.VERSION,
     versions.FORMAT: versions.FORMAT_VERSION,
 }

@@ -124,16 +124,3 @@ def test_a_target_may_ask_for_the_result_of_the_step_before(run):
         np.testing.assert_array_equal(q, done["q"][k + 1])
         np.testing.assert_array_equal(last.q, q)
         assert last.forces.shape == (len(done["mu_v"]), 4)
-
-
-def test_a_run_whose_target_asks_for_results_is_not_resumed(run, tmp_path):
-    def ended(t, q, last):
-        if t > 0.025:
-            raise SystemExit  # as if the process had ended here
-        return goal(t)
-
-    path = tmp_path / "run.npz"
-    with pytest.raises(SystemExit):
-        run(ended, save=path, save_every=0)
-    with pytest.raises(InputError, match="target: cannot be asked again"):
-        run(ended, save=path, resume=True)

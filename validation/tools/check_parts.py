@@ -32,8 +32,8 @@ PARTS = {
     "large": (["--certify", "residual"], 'certify = "residual"'),
     "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
     "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
-    "runs": (["--resume"], "resume"),
     "scans": ([], ""),
+    "scene_files": ([], ""),
     "show": (["--view"], "view"),
 }
 """The parts, and of each the options of ``run`` that need it, and the word in the refusal."""

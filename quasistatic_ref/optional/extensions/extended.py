@@ -19,7 +19,6 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.optional.between import POSED
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.optional.extensions.terms import checked_terms
@@ -305,4 +304,3 @@ def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Arr
 
 EXTENDED_STEP.fill(extended_step)
 EXTENDED.fill(simulated_solution)
-POSED.fill(posed)

@@ -92,10 +92,9 @@ class MujocoScenario(Scenario):
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
         return lambda t, q: self.of_mujoco.motors(q, self.controls(t)[0])
 
-    def run(self, progress: bool = True, **saving: Any) -> Trajectory:
+    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
         """Simulate the whole scene; as :meth:`.Scenario.run`."""
-        watching = [*saving.pop("observers", ()), Crossing(progress)]
-        return super().run(progress, observers=watching, **saving)
+        return super().run(progress, [*observers, Crossing(progress)])
 
 
 class Crossing(Observer):

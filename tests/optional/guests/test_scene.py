@@ -7,11 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, ModelError, QuasistaticError, RunFailed
+from quasistatic_ref.errors import InputError, ModelError, QuasistaticError
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
 from quasistatic_ref.optional.guests.system import MujocoSystem
-from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FILLED
 from tests.closeness import assert_close
@@ -141,30 +140,6 @@ def test_gaps_change_as_their_jacobians_say(lifted):
     for i, e in enumerate(1e-6 * np.eye(system.n_v)):
         rate = (phi(e) - phi(-e))[near] / 2e-6
         np.testing.assert_allclose(rate, rows[near, i], atol=2e-8)
-
-
-class Stop(Observer):
-    """Ctrl-C before a step."""
-
-    def before(self, recorder):
-        """After five steps."""
-        if recorder.steps == 5:
-            raise KeyboardInterrupt
-
-
-def test_a_run_that_is_interrupted_is_resumed_to_the_same_bits(lifted, tmp_path):
-    """All arrays of the whole run."""
-    run = lifted[1]
-    short = mujoco_scenario(model(), targets=grasp, steps=8)
-    path = tmp_path / "run.npz"
-    with pytest.raises(RunFailed, match="interrupted"):
-        short.run(progress=False, save=path, save_every=0, observers=[Stop()])
-    other = mujoco_scenario(model(SCENE.replace(".8 .01", ".7 .01")), targets=grasp, steps=8)
-    with pytest.raises(InputError):
-        other.run(progress=False, save=path, resume=True)
-    short.run(progress=False, save=path, save_every=0, resume=True)
-    for name, array in trajectory_read(path).arrays.items():
-        np.testing.assert_array_equal(array, run[name][: len(array)])
 
 
 def test_a_body_that_crosses_the_margin_in_one_step_is_found():

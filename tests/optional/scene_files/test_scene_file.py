@@ -10,7 +10,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.scenes.systems import RAIL
 from quasistatic_ref.model.joints.axis_joint import Prismatic
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.optional.runs.scene_file import scenario_written
+from quasistatic_ref.optional.scene_files.scene_file import scenario_written
 from tests.contact.still import placed_shape
 from tests.extras import SCENARIOS
 

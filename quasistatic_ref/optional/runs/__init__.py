@@ -1,1 +1,0 @@
-"""Runs that are saved and resumed."""

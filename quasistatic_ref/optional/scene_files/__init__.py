@@ -1,0 +1,1 @@
+"""Scenes made in Python, written as files."""
