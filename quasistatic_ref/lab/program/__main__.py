@@ -54,4 +54,6 @@ def main(vectors, out, *layers):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) == 2:
+        sys.exit("name two folders, of the vectors and for the answers; or none, for a challenge")
     main(*sys.argv[1:]) if sys.argv[1:] else answer_challenge()
