@@ -103,6 +103,7 @@ class Recorder:
         self.q = self.start
         self.steps = 0
         self.tracks: Sequence[JointTrack] = ()
+        self.idle_columns: Sequence[str] = ()
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.unanswered: list[int] = []

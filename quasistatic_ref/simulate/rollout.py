@@ -94,6 +94,7 @@ def rollout(
     watching = checked_items(observers, Observer, "observers")
     recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *watching])
     recorder.tracks = getattr(target, "tracks", ())
+    recorder.idle_columns = getattr(target, "idle", ())
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
     force_at = force_function(simulator.system, force)
     simulator.start_cold()

@@ -85,6 +85,7 @@ OF_SCENE = (
 )
 OF_RUN = (
     Check(units.far_targets),
+    Check(targets.idle_columns),
     Check(targets.beyond_limits),
     *(Check(finds, is_cut_short) for finds in task.OF_TASK),
     Check(guides.locked, is_beyond, "locked guides"),

@@ -34,6 +34,19 @@ def beyond_limits(run: Run) -> Iterator[Finding]:
             )
 
 
+def idle_columns(run: Run) -> Iterator[Finding]:
+    """Columns of a table of targets whose numbers change, and no force does."""
+    for name in run.recorder.idle_columns:
+        yield Finding(
+            "target without effect",
+            True,
+            f"drive another actuator than {name}, or look at its gain, ranges and group",
+            f"the column {name} of the targets changes, and the forces of the scene at its start "
+            "do not",
+            {},
+        )
+
+
 def joints_beyond(run: Run) -> Iterator[Finding]:
     """Joints that are pushed beyond a limit that the URDF names, of each the farthest."""
     for joint, unit in _limited(run):

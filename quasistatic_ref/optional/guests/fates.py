@@ -145,6 +145,11 @@ def check_run(state: Still) -> None:
     for i in np.flatnonzero(loose & (model.tendon_stiffness > 0)).tolist():
         problem = "has a range in which the spring is slack, and K_q is that of a whole run"
         raise ModelError(problem, field=f"{state.words('tendon', i)}.springlength")
+    for i in range(model.nu):
+        if kind_of(state, "actuator_dyntype", i) == "MUSCLE":
+            problem = "makes the activation follow its control at a rate of its own, which no run "
+            problem += "has; use a filter, or no dyntype"
+            raise ModelError(problem, field=f"{state.words('actuator', i)}.dyntype", value="muscle")
     sticky = "pulls at every gap within the margin of a run; leave it out"
     for i in range(model.nu):
         if kind_of(state, "actuator_trntype", i) == "BODY":

@@ -151,8 +151,6 @@ def step_with(
     """
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
-    if not model.nv:
-        raise ModelError("has no joint that can move", field="model")
     as_is = depth == "as is"
     state = still(model, data)
     check(state)

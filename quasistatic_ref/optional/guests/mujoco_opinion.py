@@ -81,7 +81,7 @@ def second_opinion(
     drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
     said = Said(
         touches=tuple(_touch(state, now, name, touch) for name, touch in touches.found(state)),
-        movers=tuple(_mover(state, b) for b in np.unique(model.body_weldid).tolist() if b),
+        movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
         M=state.M,
         gravity=model.opt.gravity,
         v=now.qvel,

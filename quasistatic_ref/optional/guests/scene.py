@@ -21,7 +21,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.guests.moves import Placed
 from quasistatic_ref.optional.guests.settled import numbered
-from quasistatic_ref.optional.guests.system import MujocoSystem
+from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
@@ -49,6 +49,8 @@ FIELDS = ("h", "steps", "cone", "record", "solver", "limits", "margin", "stiffne
 
 Drive = Callable[[float], Mapping[str, float]]
 """Controls of actuators and positions of joints by name, at a time [s]."""
+Controls = Callable[[float], tuple[Array, dict[str, float]]]
+"""Controls of all actuators, shape (nu,), and positions of joints by name, at a time [s]."""
 Driven = Drive | str | Path | Sequence[str] | None
 
 
@@ -68,11 +70,11 @@ class MujocoScenario(Scenario):
 
     Parameters
     ----------
-    controls : callable
-        Controls of all actuators, shape (nu,), and positions of joints by name, at a time [s].
+    actuation : callable
+        What drives it at a time [s].
     """
 
-    controls: Callable[[float], tuple[Array, dict[str, float]]]
+    actuation: Callable[[float], Actuation]
 
     @property
     def of_mujoco(self) -> MujocoSystem:
@@ -90,7 +92,7 @@ class MujocoScenario(Scenario):
     @property
     def force(self) -> Callable[[float, Array], Array]:
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
-        return lambda t, q: self.of_mujoco.motors(q, self.controls(t)[0])
+        return lambda t, q: self.of_mujoco.motors(q, self.actuation(t))
 
     def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
         """Simulate the whole scene; as :meth:`.Scenario.run`."""
@@ -214,7 +216,9 @@ def mujoco_scenario(
         problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
         raise ModelError(problem, field=of_equalities[0].partition(" (")[0])
     certify = value(solver, SOLVER, "certify")
-    controls = controls_of(mujoco, model, data, steps * h, targets, system)
+    controls, columns = controls_of(mujoco, model, data, steps * h, targets, system)
+    actuation = _driven(system, controls, data.act.copy(), h)
+    idle = [name for name, rows in columns.items() if _is_idle(system, rows, data.act, h)]
     free = system.q_start[: system.n_q_a]
     gravity = (
         np.zeros(3)
@@ -230,14 +234,14 @@ def mujoco_scenario(
         pairs=system.places.pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
-        targets=Drawn(free, (), lambda t, q: system.target(q, *controls(t))),
+        targets=Drawn(free, (), lambda t, q: system.target(q, actuation(t)), tuple(idle)),
         backend=usable_backend(value(solver, SOLVER, "backend"), cone, certify),
         accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
         record=value(top, TOP, "record"),
         cone=cone,
         limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),
-        controls=controls,
+        actuation=actuation,
     )
 
 
@@ -248,13 +252,47 @@ class Drawn(Targets):
     Parameters
     ----------
     at : callable
+    idle : tuple of str
+        Columns of the table whose numbers change, and no force does.
     """
 
     at: Callable[[float, Array], Array]
+    idle: tuple[str, ...] = ()
 
     def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
         """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
         return self.at(t, q)
+
+
+def _driven(
+    system: MujocoSystem, controls: Controls, act: Array, h: float
+) -> Callable[[float], Actuation]:
+    """What drives a scene at a time, from its controls and the activations, (na,), at the start.
+
+    Those at a time are those of a step before and of the control since, so they are kept.
+    """
+    acts = [act]
+
+    def at(t: float) -> Actuation:
+        k = round(t / h)
+        while len(acts) <= k:
+            acts.append(system.activation_after(acts[-1], controls(h * len(acts))[0]))
+        control, positions = controls(t)
+        return Actuation(control, acts[k], positions)
+
+    return at
+
+
+def _is_idle(
+    system: MujocoSystem, rows: Sequence[tuple[Array, dict[str, float]]], act: Array, h: float
+) -> bool:
+    """Whether controls differ, and yet have the same forces where the run starts."""
+    q = system.q_start
+    forces = set()
+    for control, positions in rows:
+        one = Actuation(control, system.activation_after(act, control), positions)
+        forces.add((system.target(q, one).tobytes(), system.motors(q, one).tobytes()))
+    return len(rows) > 1 and len(forces) == 1
 
 
 def controls_of(
@@ -264,8 +302,10 @@ def controls_of(
     T: float,
     targets: Driven,
     system: MujocoSystem,
-) -> Callable[[float], tuple[Array, dict[str, float]]]:  # fmt: skip
+) -> tuple[Controls, dict[str, list[tuple[Array, dict[str, float]]]]]:
     """Controls, shape (nu,), and positions at a time, from targets over T [s] in any form.
+
+    And of each column of a table, the least and largest of its numbers alone, if they differ.
 
     Raises
     ------
@@ -284,13 +324,6 @@ def controls_of(
             if not np.isfinite(number):
                 raise InputError("must be a finite number", field=f"targets.{name}", value=number)
             if name in actuators:
-                kind = model.actuator_dyntype[actuators[name]]
-                if kind == mujoco.mjtDyn.mjDYN_INTEGRATOR and number:
-                    problem = (
-                        "is the control of an actuator that integrates it, and a run keeps its "
-                        "activation; leave it at 0, or drive a position actuator"
-                    )
-                    raise InputError(problem, field=f"targets.{name}", value=number)
                 control[actuators[name]] = number
             elif name in joints:
                 positions[name] = float(number)
@@ -301,18 +334,26 @@ def controls_of(
         return control, positions
 
     if targets is None:
-        return lambda t: (start, {})
+        return lambda t: (start, {}), {}
     if callable(targets):
         drive = targets
         checked(drive(0.0))
-        return lambda t: checked(drive(t))
+        return lambda t: checked(drive(t)), {}
     if isinstance(targets, str | Path):
         names, times, values = table_read(Path(targets))
         for row in values.tolist():
             checked(dict(zip(names, row, strict=True)))
-        return lambda t: checked(
-            dict(zip(names, piecewise_linear(times, values, t).tolist(), strict=True))
-        )
+        ends = {
+            name: [checked({name: float(end)}) for end in (column.min(), column.max())]
+            for name, column in zip(names, values.T, strict=True)
+            if np.ptp(column)
+        }
+
+        def at(t: float) -> tuple[Array, dict[str, float]]:
+            row = piecewise_linear(times, values, t).tolist()
+            return checked(dict(zip(names, row, strict=True)))
+
+        return at, ends
     keys = [numbered(mujoco, model, "KEY", name) for name in targets]
     for name, key in zip(targets, keys, strict=True):
         poses = (model.key_mpos[[key, keys[0]]], model.key_mquat[[key, keys[0]]])
@@ -323,7 +364,7 @@ def controls_of(
             )
             raise InputError(problem, field=f"keyframe {name}")
     times = np.linspace(0.0, T, len(keys)) if len(keys) > 1 else np.zeros(1)
-    return lambda t: (piecewise_linear(times, model.key_ctrl[keys], t), {})
+    return lambda t: (piecewise_linear(times, model.key_ctrl[keys], t), {}), {}
 
 
 def words(scene: MujocoScenario) -> str:

@@ -164,8 +164,16 @@ def check_finite(data: MjData) -> None:
 
 
 def still(model: MjModel, data: MjData) -> Still:
-    """Copies of a model and of its state at zero velocity, before ``run``."""
+    """Copies of a model and of its state at zero velocity, before ``run``.
+
+    Raises
+    ------
+    ModelError
+        If nothing in the model can move, or the state is not of finite numbers.
+    """
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
+    if not model.nv:
+        raise ModelError("has no joint that can move", field="model")
     check_finite(data)
     own = awake(model)
     own.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE

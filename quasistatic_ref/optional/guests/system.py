@@ -7,7 +7,7 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import replace
 from threading import RLock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,6 +66,24 @@ ELSEWHERE = 0.1
 """How far from the start springs are looked at once more [m, rad]."""
 
 
+class Actuation(NamedTuple):
+    """What drives a MuJoCo model at a time.
+
+    Parameters
+    ----------
+    control : ndarray, shape (nu,)
+        [the actuators' units].
+    act : ndarray, shape (na,)
+        Activations [the same].
+    positions : mapping of str to float
+        Targets of joints that have springs of their own [m, rad].
+    """
+
+    control: Array
+    act: Array
+    positions: Mapping[str, float]
+
+
 class MujocoSystem(System):
     """A MuJoCo model behind the names that a step asks a system for.
 
@@ -83,8 +101,7 @@ class MujocoSystem(System):
     ----------
     model : mujoco.MjModel
     data : mujoco.MjData
-        Where a run starts; neither is changed. Controls, activations, bodies with ``mocap`` and
-        applied forces stay.
+        Where a run starts; neither is changed. Bodies with ``mocap`` and applied forces stay.
     h : float
         Time step, for natural units [s].
     springs : mapping of str to float
@@ -342,17 +359,17 @@ class MujocoSystem(System):
         force: Array = self.T.T @ (data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring)
         return force + 0.0
 
-    def motors(self, q: Array, control: Array) -> Array:
-        """The force of all actuators but servos at a `control`, (nu,), shape (n_v,) [N, N m]."""
-        return np.asarray(self.T.T @ self._driven(q, control)[1]) + 0.0
+    def motors(self, q: Array, actuation: Actuation) -> Array:
+        """The force of all actuators but servos, shape (n_v,) [N, N m]."""
+        return np.asarray(self.T.T @ self._driven(q, actuation)[1]) + 0.0
 
-    def _driven(self, q: Array, control: Array) -> tuple[Array, Array]:
+    def _driven(self, q: Array, actuation: Actuation) -> tuple[Array, Array]:
         """Forces of servos, within their ranges, and of other actuators at q, (nv,) each."""
         state = self.state(q)
         data = state.data
         before = data.ctrl.copy(), data.act.copy()
-        data.ctrl[:] = control
-        data.act[:] = self._activations(data.act, control)
+        data.ctrl[:] = actuation.control
+        data.act[:] = actuation.act
         state.mujoco.mj_fwdActuation(state.own, data)
         servos = self._servos()
         moments = state.moments
@@ -365,36 +382,46 @@ class MujocoSystem(System):
         state.mujoco.mj_fwdActuation(state.own, data)
         return force, others
 
-    def _activations(self, act: Array, control: Array) -> Array:
-        """Activations at rest, (na,): of a filter its control, others as they are in `act`."""
-        model = self.model
-        rest = act.copy()
-        for i in range(model.nu):
-            if kind_of(self._state, "actuator_dyntype", i) in ("FILTER", "FILTEREXACT"):
-                asked = control[i]
-                if model.actuator_ctrllimited[i]:
-                    asked = np.clip(asked, *model.actuator_ctrlrange[i])
-                if model.actuator_actlimited[i]:
-                    asked = np.clip(asked, *model.actuator_actrange[i])
-                rest[model.actuator_actadr[i] + model.actuator_actnum[i] - 1] = asked
-        return rest
+    def activation_after(self, act: Array, control: Array) -> Array:
+        """Activations a time step later, (na,) [the actuators' units].
 
-    def target(self, q: Array, control: Array, positions: Mapping[str, float]) -> Array:
+        A filter is at rest, where its activation is its control; an integrator's advances by h
+        times its control.
+
+        Parameters
+        ----------
+        act : ndarray, shape (na,)
+            Those before [the same].
+        control : ndarray, shape (nu,)
+            [the actuators' units].
+        """
+        model = self.model
+        h = self._given[2]
+        after = act.copy()
+        for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
+            place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
+            u = control[i]
+            if model.actuator_ctrllimited[i]:
+                u = np.clip(u, *model.actuator_ctrlrange[i])
+            integrates = kind_of(self._state, "actuator_dyntype", i) == "INTEGRATOR"
+            after[place] = act[place] + h * u if integrates else u
+            if model.actuator_actlimited[i]:
+                after[place] = np.clip(after[place], *model.actuator_actrange[i])
+        return after
+
+    def target(self, q: Array, actuation: Actuation) -> Array:
         """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,).
 
         Parameters
         ----------
         q : ndarray, shape (n_q,)
-        control : ndarray, shape (nu,)
-            [the actuators' units].
-        positions : mapping of str to float
-            Targets of joints that have springs of their own [m, rad].
+        actuation : Actuation
         """
-        force = self._driven(q, control)[0] + self.state(q).data.qfrc_spring
+        force = self._driven(q, actuation)[0] + self.state(q).data.qfrc_spring
         qpos = self.qpos(q)
         for name, spring in self.own.items():
             entry = self.model.joint(name).qposadr[0]
-            position = positions.get(name, self._qpos[entry])
+            position = actuation.positions.get(name, self._qpos[entry])
             force += spring.k * (position - qpos[entry]) * spring.m
         ahead = np.linalg.solve(self.K_q, (self.T.T @ force)[: self.n_a])
         return self.integrate(q, np.concatenate([ahead, np.zeros(self.n_u)]))[: self.n_q_a]

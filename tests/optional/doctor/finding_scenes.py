@@ -4,8 +4,11 @@ Scenes without a finding are in healthy_scenes.py, which is built with the words
 """
 
 from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
+from mujoco import MjModel
 from quasistatic_ref import (
     FastSimulator,
     Body,
@@ -20,6 +23,7 @@ from quasistatic_ref import (
     Simulator,
     Sphere,
     System,
+    mujoco_scenario,
     rollout,
 )
 
@@ -33,6 +37,17 @@ def joint(kind, axis, size=(0.1, 0.1, 0.1), mass=2.0, inertia=0.02):
         f'<joint name="joint" type="{kind}"><parent link="base"/><child link="part"/><axis xyz="{axis}"/>'
         '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
     )
+
+
+def of_mujoco(option, actuator):
+    """What is found of a slide in MuJoCo whose actuator has targets of 0 to 1."""
+    slide = '<body><joint name="j" type="slide" axis="1 0 0"/><geom size="0.1"/></body>'
+    text = f"<mujoco>{option}<worldbody>{slide}</worldbody><actuator>{actuator}</actuator></mujoco>"
+    with TemporaryDirectory() as folder:
+        table = Path(folder) / "targets.csv"
+        table.write_text("t,0\n0,0\n0.02,1\n")
+        scene = mujoco_scenario(MjModel.from_xml_string(text), targets=table, steps=3)
+        return scene.run(progress=False).findings
 
 
 def box(size=(0.1, 0.1, 0.1), mass=1.0, name="box", **where):
@@ -292,6 +307,12 @@ found = findings([box()], mu_omega=3.0)
 
 # %% unit of a target: 50 was meant as 50 mm
 found = findings([motor("finger")], [], target=[50.0])
+
+# %% target without effect: the group of the actuator is switched off
+found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>')
+
+# %% target without effect: a gain of zero, which a motor has by mistake
+found = of_mujoco("", '<general joint="j" gainprm="0"/>')
 
 # %% target beyond a limit: the URDF ends at 1 m
 found = findings([motor("finger")], [], target=[1.5])

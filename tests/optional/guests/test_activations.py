@@ -1,11 +1,11 @@
-"""Servos whose force follows an activation: at rest that of a filter is its control."""
+"""Servos whose force follows an activation, and the targets that move one."""
 
 import mujoco
 import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import ModelError
 
 SLIDER = """<mujoco><worldbody><body name="b"><joint name="j" type="slide" axis="1 0 0"/>
 <geom size="0.05" mass="1"/></body></worldbody><actuator>{}</actuator></mujoco>"""
@@ -15,6 +15,9 @@ GENERAL = (
     'biasprm="0 -100 0"{}/>'
 )
 RANGE = ' actlimited="true" actrange="-0.1 0.1"'
+INTEGRATED = '<intvelocity name="a" joint="j" kp="100" actrange="{}"{}/>'
+BEYOND = ' ctrlrange="0.5 0.6"'
+"""No target of the table is within."""
 SERVOS = {
     "timeconst": (POSITION.format(""), 0.2),
     "filter": (GENERAL.format("filter", ""), 0.2),
@@ -22,6 +25,11 @@ SERVOS = {
     "range of the activation": (GENERAL.format("filter", RANGE), 0.1),
     "range of the control": (POSITION.format(' ctrlrange="0 0.15"'), 0.15),
     "no filter": ('<position name="a" joint="j" kp="100"/>', 0.2),
+    # h times a control of 0.02, 0.04, ... 0.2, and of 0.2 in each of the 50 steps after them
+    "integrator": (INTEGRATED.format("-1 1", ""), 0.01 * (1.1 + 50 * 0.2)),
+    "general integrator": (GENERAL.format("integrator", ""), 0.01 * (1.1 + 50 * 0.2)),
+    "range of an integrator": (INTEGRATED.format("-1 0.03", ""), 0.03),
+    "range of an integrator's control": (INTEGRATED.format("-1 1", BEYOND), 0.01 * 60 * 0.5),
 }
 
 
@@ -33,20 +41,43 @@ def run(folder, actuator):
 
 
 @pytest.mark.parametrize(("actuator", "end"), SERVOS.values(), ids=SERVOS)
-def test_a_servo_behind_a_filter_reaches_its_control(tmp_path, actuator, end):
+def test_a_servo_with_an_activation_reaches_its_control(tmp_path, actuator, end):
     assert run(tmp_path, actuator)["q"][-1, 0] == pytest.approx(end, abs=1e-9)
 
 
-def test_targets_of_an_integrator_are_refused_by_name(tmp_path):
-    velocity = '<intvelocity name="a" joint="j" kp="100" actrange="-1 1"/>'
-    with pytest.raises(InputError, match=r"targets\.a: is the control of an actuator that integr"):
-        run(tmp_path, velocity)
-
-
-def test_mujoco_itself_ends_where_the_run_does():
-    model = mujoco.MjModel.from_xml_string(SLIDER.format(POSITION.format(' kv="20"')))
+def test_an_integrator_starts_from_the_activation_of_a_state_and_runs_twice_alike():
+    model = mujoco.MjModel.from_xml_string(SLIDER.format(INTEGRATED.format("-1 1", "")))
     data = mujoco.MjData(model)
-    data.ctrl[0] = 0.2
-    for _ in range(5000):
+    data.act[0] = 0.5
+    scene = qr.mujoco_scenario(model, data, targets=lambda t: {"a": -0.1}, steps=20)
+    first, second = (scene.run(progress=False)["q"] for _ in range(2))
+    assert first[-1, 0] == pytest.approx(0.5 - 0.01 * 20 * 0.1, abs=1e-9)
+    assert np.array_equal(first, second)
+
+
+def test_a_muscle_is_refused_by_name():
+    muscle = '<muscle name="m" joint="j" lengthrange="-1 1"/>'
+    model = mujoco.MjModel.from_xml_string(SLIDER.format(muscle))
+    with pytest.raises(ModelError, match=r"actuator\[m\]\.dyntype: makes the activation follow"):
+        qr.mujoco_scenario(model)
+
+
+def test_a_column_that_changes_no_force_is_a_finding(tmp_path):
+    found = run(tmp_path, INTEGRATED.format("-1 1", BEYOND)).findings
+    assert [one.name for one in found] == ["target without effect"]
+    assert "drive another actuator than a" in found[0].remedy
+    assert not run(tmp_path, INTEGRATED.format("-1 1", "")).findings
+
+
+@pytest.mark.parametrize("actuator", ["timeconst", "integrator"])
+def test_mujoco_itself_ends_where_the_run_does(actuator, tmp_path):
+    text, _ = SERVOS[actuator]
+    model = mujoco.MjModel.from_xml_string(SLIDER.format(text.replace("/>", ' kv="20"/>')))
+    data = mujoco.MjData(model)
+    model.opt.timestep = 0.01
+    for step in range(5000):
+        data.ctrl[0] = np.interp(0.01 * (step + 1), [0, 0.1], [0, 0.2])
+        if actuator == "integrator" and step >= 60:
+            data.ctrl[0] = 0.0
         mujoco.mj_step(model, data)
-    assert np.allclose(data.qpos, 0.2, atol=1e-6)
+    assert run(tmp_path, text)["q"][-1, 0] == pytest.approx(data.qpos[0], abs=1e-6)
