@@ -62,7 +62,7 @@ def exact_matrix(array: Array) -> arb_mat:
 
 
 def whole_numbers(numbers: Sequence[arb]) -> list[fmpz]:
-    """Exact numbers times one power of two: the one that leaves the shortest integers.
+    """Exact numbers times one power of two that makes them integers.
 
     Raises
     ------
@@ -70,8 +70,9 @@ def whole_numbers(numbers: Sequence[arb]) -> list[fmpz]:
         If a number is a ball with a radius.
     """
     parts = [number.man_exp() for number in numbers]
-    least = min((int(e) for m, e in parts if m), default=0)
-    return [m << int(e) - least if m else m for m, e in parts]
+    exponents = [int(e) for _, e in parts]
+    least = min(exponents, default=0)
+    return [m << e - least for (m, _), e in zip(parts, exponents, strict=True)]
 
 
 def fraction(number: float | arb) -> fmpq:
@@ -214,39 +215,42 @@ class StepForm(ExactForm):
     def __init__(self, step: StepData, group: Group | None = None) -> None:
         check_arithmetic()
         contacts = step.contacts
-        at = slice(None) if group is None else group.contacts
-        J = contacts.J if group is None else contacts.columns(group.contacts, group.coordinates)
         own = np.column_stack([step.extra.A, -step.extra.b])
-        a: Indices = np.arange(step.n_a)
-        u: Indices = np.arange(step.n_u)
+        at: slice | Indices = slice(None)
+        a: slice | Indices = slice(None)
+        u: slice | Indices = slice(None)
+        self._J = contacts.J
         if group is not None:
+            at = group.contacts
             a, u = split(step, group)
+            self._J = contacts.columns(group.contacts, group.coordinates)
             own = own[np.ix_(group.extra_rows, np.append(group.coordinates, step.n_v))]
         friction_cone = cone(step.cone)
-        self._J = J
         self._phi = contacts.phi[at]
         self._mu = friction_cone.row_coefficients(contacts.mu)[at]
         self._mask = step.mask[at]
-        self._cone_name = friction_cone.name
+        self._cone_name = step.cone
         self._cone_matrix = friction_cone.matrix
         self._exact_cone = exact_matrix(self._cone_matrix)
-        self._frame = np.zeros((len(J), 4, 4))
+        self._frame = np.zeros((len(self._phi), 4, 4))
         self._frame[:, :3, :3] = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)[at]
         self._frame[:, 3, 3] = 1.0
         self._own = own
         contact, kind = np.nonzero(self._mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(len(J), k) for k in range(len(own))]
+        self._places += [(len(self._phi), k) for k in range(len(own))]
         self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
-        self.n = len(a) + len(u)
         self.m = len(self._places)
         self.h = arb(step.h)
-        target = np.concatenate([step.delta_q_bar_a[a], np.zeros(len(u))])
+        target = step.delta_q_bar_a[a]
         tau = np.concatenate([step.tau_a[a], step.tau_u[u]])
-        K_q = np.ascontiguousarray(step.K_q[np.ix_(a, a)])
-        M_u = np.ascontiguousarray(step.inertia(u))
-        self.H, self.H_inverse = _hessian(K_q.tobytes(), M_u.tobytes(), len(a), len(u), step.h)
+        n_a = len(target)
+        self.n = len(tau)
+        self.H, self.H_inverse = _hessian(
+            step.K_q[a][:, a].tobytes(), step.M_u[u][:, u].tobytes(), n_a, self.n - n_a, step.h
+        )
+        target = np.append(target, np.zeros(self.n - n_a))
         with ctx.workprec(EXACT):
             self.g = self.H * exact_matrix(target[:, None])  # h^2 tau_k, Eq. (1)
             self.g += exact_matrix(tau[:, None]) * (self.h * self.h)

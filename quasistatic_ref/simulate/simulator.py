@@ -34,7 +34,7 @@ from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
-from quasistatic_ref.solve.solve import EXTENDED_STEP, check_accuracy, solve_step
+from quasistatic_ref.solve.solve import EXTENDED_STEP, check_accuracy, solve_step, solved_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
@@ -376,7 +376,7 @@ class Simulator(Settings, Shown):
         if self.law == COULOMB:
             return COULOMB_STEP.needed(COULOMB_LAW)(step, solver, self.accuracy)
         try:
-            return solve_step(step, solver, accuracy=self.accuracy, certify=self.certify)
+            return solved_step(step, solver, self.accuracy, self.certify)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure)
 

@@ -121,6 +121,11 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver, fast)
+    return solved_step(step, solver, accuracy, certify)
+
+
+def solved_step(step: StepData, solver: Solver, accuracy: float, certify: str) -> StepSolution:
+    """The same for a solver that fits the step, from arguments that are checked."""
     both = without_warnings(solver.in_both_units, step)
     return without_warnings(solved, both, solver, accuracy, certify)
 

@@ -207,9 +207,7 @@ class StepData(Plain, HasPage):
 
     def coupled(self) -> tuple[Indices, Indices]:
         """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
-        of_a, of_u = (np.argwhere(np.tril(M, -1)) for M in (self.K_q, self.M_u))
-        one, other = np.concatenate([of_a, of_u + self.n_a]).T
-        return one, other
+        return _coupled((self.K_q != 0).tobytes(), (self.M_u != 0).tobytes(), self.n_a, self.n_u)
 
     @property
     def n_a(self) -> int:
@@ -267,6 +265,15 @@ class StepData(Plain, HasPage):
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
+
+
+@lru_cache(maxsize=64)
+def _coupled(K_q: bytes, M_u: bytes, n_a: int, n_u: int) -> tuple[Indices, Indices]:
+    """The same, from which entries of K_q and M_u are not zero."""
+    of_a = np.argwhere(np.tril(np.frombuffer(K_q, np.bool_).reshape(n_a, n_a), -1))
+    of_u = np.argwhere(np.tril(np.frombuffer(M_u, np.bool_).reshape(n_u, n_u), -1))
+    one, other = np.concatenate([of_a, of_u + n_a]).T
+    return read_only(one), read_only(other)
 
 
 KIND: dict[str, Callable[[StepData], ArrayLike]] = {
