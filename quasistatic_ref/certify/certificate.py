@@ -27,7 +27,7 @@ from quasistatic_ref.certify.minimiser import (
     implied_rows,
     rounded_quotients,
 )
-from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.certify.rows import contact_rows, flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import HasPage
@@ -261,7 +261,5 @@ def _wrong_claim(
 
 
 def _row_name(step: StepData, i: int) -> str:
-    ((contact, row),) = contact_rows(step, [i])
-    if contact == step.contacts.n_c:
-        return f"the extra row {step.extra.names[row]}"
-    return f"row {cone(step.cone).row_names[row]} of contact {step.contacts.name[contact]}"
+    ((owner, (name,)),) = row_owners(step, [i]).items()
+    return f"row {name} of {owner}"

@@ -17,11 +17,12 @@ keep the dependence (all numbers of one contact), not along those that break it.
 
 from collections.abc import Sequence
 
+import numpy as np
 from flint import arb, arb_mat, ctx, fmpz
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, Row
+from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, Row, exact_matrix
 
 
 def degeneracy(
@@ -79,7 +80,7 @@ def feasible(
         opposite = [[-a for a in row] for row in held]
     sides = zip([*held, *opposite, *bounded], [*[0] * (2 * len(held)), *least], strict=True)
     feasibility = MatrixForm(
-        H=arb_mat([[int(i == j) for j in range(n)] for i in range(n)]),
+        H=exact_matrix(np.eye(n)),
         g=arb_mat(n, 1),
         rows=arb_mat([[*row[:n], arb(-b)] for row, b in sides]),
     )

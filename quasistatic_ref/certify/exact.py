@@ -152,41 +152,28 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    found = groups(step)
-    optima = [group_optimum(step, group, group.within(warm)) for group in found]
-    optimum = joined_optimum(step, found, optima)
-    check_length(step, optimum.delta_q, found)
+    optimum = optimum_by_groups(step, warm)
+    check_length(step, optimum.delta_q, groups(step))
     return optimum
 
 
-def group_optimum(step: StepData, group: Group, warm: Sequence[int]) -> ExactOptimum:
-    """The exact optimum of a group of a step, from `warm` rows of the group.
-
-    Raises
-    ------
-    StepInfeasible
-        If no displacement satisfies the rows of the group, with the proof in the step's rows.
-    """
-    whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
-    form = StepForm(step, None if whole else group)
-    optimum = form_optimum(form, warm)
-    if isinstance(optimum, Farkas):
-        raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
-    return optimum
-
-
-def joined_optimum(
-    step: StepData, found: Sequence[Group], optima: Sequence[ExactOptimum]
-) -> ExactOptimum:
-    """The optimum of a step from the `optima` of all of its groups, which were `found`."""
-    if len(found) == 1 and len(found[0].rows) == step.m:
-        return optima[0]
-    pairs = list(zip(found, optima, strict=True))
+def optimum_by_groups(step: StepData, warm: Sequence[int]) -> ExactOptimum:
+    """The same, however long it is; StepInfeasible as above."""
+    optima: list[tuple[Group, ExactOptimum]] = []
+    for group in groups(step):
+        whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
+        form = StepForm(step, None if whole else group)
+        optimum = form_optimum(form, group.within(warm))
+        if isinstance(optimum, Farkas):
+            raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
+        if whole:
+            return optimum
+        optima.append((group, optimum))
     delta_q = np.zeros(step.n_v)
     net = np.zeros(step.n_v)
     lam = np.zeros(step.m)
     working: list[int] = []
-    for group, optimum in pairs:
+    for group, optimum in optima:
         delta_q[group.coordinates] = optimum.delta_q
         net[group.coordinates] = optimum.net
         lam[group.rows] = optimum.lam
@@ -194,24 +181,25 @@ def joined_optimum(
 
     def joined_slacks() -> Array:
         slack = np.zeros(step.m)
-        for group, optimum in pairs:
+        for group, optimum in optima:
             slack[group.rows] = optimum.slack
         return slack
 
-    # A row is strictly active, or spanned by others, within its group.
-    slacks = [optimum.smallest_inactive_slack for optimum in optima]
-    multipliers = [optimum.smallest_active_multiplier for optimum in optima]
+    # A row is strictly active, or implied by others, within its group.
+    parts = [optimum for _, optimum in optima]
+    slacks = [part.smallest_inactive_slack for part in parts]
+    multipliers = [part.smallest_active_multiplier for part in parts]
     return ExactOptimum(
         delta_q=delta_q,
         lam=lam,
         net=net,
         slacks=joined_slacks,
         working_set=tuple(sorted(working)),
-        multipliers_unique=all(optimum.multipliers_unique for optimum in optima),
-        differentiable=all(optimum.differentiable for optimum in optima),
+        multipliers_unique=all(part.multipliers_unique for part in parts),
+        differentiable=all(part.differentiable for part in parts),
         smallest_inactive_slack=min((s for s in slacks if s is not None), default=None),
         smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
-        walks=sum(optimum.walks for optimum in optima),
+        walks=sum(part.walks for part in parts),
     )
 
 

@@ -129,7 +129,7 @@ def single_loads(step: StepData, scale: float = 1.0) -> Array:
 
 
 def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()) -> float:
-    """The length ell that errors are divided by, in the norm of H [(N m s)^0.5].
+    """The length ell that errors are divided by, in the norm of H [(N m s)^0.5]; or NaN.
 
     It is the largest of
 
@@ -152,13 +152,6 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
         The step's :func:`single_loads` [N s, N m s], where they are known.
     """
     norm = energy_norm(H)
-    free = max(norm.of_impulse(p) for p in (g, *loads))
-    return max(free, norm.of_displacement(optimum), UNMOVED * math.sqrt(H.diagonal().min()))
-
-
-def relative_digits(off: float, length: float) -> float:
-    """Correct digits, 0 to 16 [-], of an answer at the distance `off` from the optimum.
-
-    Both are in the norm of H; `length` is the :func:`error_length`.
-    """
-    return digits_of_error(off / length) if 0 < length < math.inf else 0.0
+    lengths = [*(norm.of_impulse(p) for p in (g, *loads)), norm.of_displacement(optimum)]
+    length = max(*lengths, UNMOVED * math.sqrt(H.diagonal().min()))
+    return length if length < math.inf else math.nan

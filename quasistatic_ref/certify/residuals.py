@@ -42,8 +42,7 @@ class Residuals:
 
 def largest(x: Array) -> float:
     """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
-    most = float(x[x.argmax()]) if x.size else 0.0
-    return 0.0 if most <= 0 else most
+    return float(x.max(initial=0.0)) + 0.0
 
 
 def optimality_residuals(

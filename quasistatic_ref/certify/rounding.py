@@ -1,7 +1,5 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
-import math
-
 from flint import arb, fmpq
 
 
@@ -37,11 +35,3 @@ def nearest_in(ball: arb) -> float | None:
     """
     low = float(ball.lower()) + 0.0  # never -0.0
     return low if low == float(ball.upper()) else None
-
-
-def nearest_above(ball: arb) -> float:
-    """A float64 that no number in a ball exceeds [of the unit of the ball]."""
-    top = ball.upper()
-    if not top.is_finite():
-        return float("inf")
-    return math.nextafter(float(top), math.inf) if top != 0 else 0.0

@@ -6,10 +6,8 @@ The rows of A are contact-major; the user's own rows come last, as if of one con
 from collections.abc import Iterable
 from functools import lru_cache
 
-import numpy as np
-
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Indices, StepData, row_layout
+from quasistatic_ref.step.data import StepData, row_layout
 
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
@@ -23,16 +21,6 @@ def _every_row(cone_name: str, rows: bytes, extra: int) -> list[tuple[int, int]]
     """(contact, row) of every row of A, from what decides its layout."""
     counts = [*row_layout(cone_name, rows).counts.tolist(), extra]
     return [(contact, row) for contact, count in enumerate(counts) for row in range(count)]
-
-
-def places(step: StepData, rows: Iterable[int]) -> Indices:
-    """Contacts, and rows of those contacts, as :func:`contact_rows` has them.
-
-    Returns
-    -------
-    ndarray of int, shape (2, rows)
-    """
-    return np.array(contact_rows(step, rows), dtype=np.int64).reshape(-1, 2).T
 
 
 def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:

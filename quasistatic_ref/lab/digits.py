@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import energy_norm, error_length, relative_digits, single_loads
+from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -22,4 +22,4 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
     with np.errstate(over="ignore", invalid="ignore"):
         off = norm.of_displacement(delta_q - exact_delta_q)
     length = error_length(form.H, form.g, exact_delta_q, single_loads(step))
-    return relative_digits(off, length)
+    return digits_of_error(off / length)

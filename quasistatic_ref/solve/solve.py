@@ -12,7 +12,7 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.exact import ExactOptimum, check_length
-from quasistatic_ref.certify.norm import energy_norm, error_length, relative_digits, single_loads
+from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind
@@ -200,7 +200,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         own, _ = in_si(to_measure.natural_delta_q, to_measure.natural_lam, units)
         form = both.si_form
         length = error_length(form.H, form.g, delta_q, single_loads(step))
-        digits = relative_digits(energy_norm(form.H).of_displacement(own - delta_q), length)
+        digits = digits_of_error(energy_norm(form.H).of_displacement(own - delta_q) / length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

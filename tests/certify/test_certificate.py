@@ -10,7 +10,7 @@ import pytest
 from quasistatic_ref import Extra, solve_step, verify
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.rows import contact_rows, flat_rows, places
+from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from tests.certify.test_exact import resting_point
@@ -38,8 +38,6 @@ def test_rows_have_a_contact_and_a_number_in_it(step):
     assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each
     assert pairs[-3:] == ((14, 3), (15, 0), (15, 1))
     assert flat_rows(step, pairs) == tuple(rows)
-    assert np.array_equal(places(step, rows).T, pairs)
-    assert places(step, []).shape == (2, 0)
     for none in ((0, 6), (10, 4), (15, 2), (16, 0), (-1, 0), (0, -1)):
         with pytest.raises(IndexError, match=f"no row {none[1]} of contact {none[0]}"):
             flat_rows(step, [none])

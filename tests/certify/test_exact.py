@@ -12,12 +12,12 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.gap import rational
 from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.optional.gap import rational
 from tests.oracles.strictly_active import strictly_active
 
 ULP = 2.0**-52

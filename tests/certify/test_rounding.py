@@ -10,7 +10,6 @@ from flint import arb, ctx, fmpq
 
 from quasistatic_ref.certify.rounding import (
     nearest,
-    nearest_above,
     nearest_fraction,
     nearest_in,
 )
@@ -80,13 +79,6 @@ def test_ball_that_underflows_is_written_without_sign():
         rounded = nearest_in(-(arb(2) ** -1100) / 3)
     assert rounded == 0.0
     assert math.copysign(1.0, rounded) == 1.0
-
-
-def test_nearest_above_is_above():
-    with ctx.workprec(200):
-        assert F(nearest_above(arb(1) / 3)) > F(1, 3)
-        assert nearest_above(arb(0)) == 0.0
-        assert nearest_above(arb.pos_inf()) == math.inf
 
 
 def test_decimal_strings_are_those_of_the_decimal_module():

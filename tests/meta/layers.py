@@ -18,8 +18,8 @@ CORE = (
     ("scenario",),
 )
 
-# What parts ask of each other, which all of them import.
-BETWEEN = "optional/between"
+# What parts ask of each other, and what they bound errors with, which all of them import.
+BETWEEN = ("optional/between", "optional/gap")
 
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
@@ -109,6 +109,7 @@ WALLS = {
         "optional/ellipsoid",
         "optional/extensions",
         "optional/forces",
+        "optional/gap.py",
         "optional/large",
         "lab/vectors",
     ),
@@ -179,7 +180,7 @@ def rank(folder):
     for place, together in enumerate(CORE):
         if folder in together:
             return place
-    if folder == BETWEEN:
+    if folder in BETWEEN:
         return len(CORE)
     if folder in OPTIONAL:
         return len(CORE) + 1

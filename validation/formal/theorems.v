@@ -37,7 +37,7 @@ Definition feasible A b x := nonnegative (A *m x - b).
 (* Eqs. (9)-(12). *)
 Definition kkt H g A b x lam :=
   [/\ H *m x - g = A^T *m lam, feasible A b x, nonnegative lam & dot lam (A *m x - b) = 0].
-(* What certify/gap.py returns, with H z = g + A'lam: ||Hx - g - A'lam|| in the norm of H^-1 is ||x - z||_H. *)
+(* What optional/gap.py returns, with H z = g + A'lam: ||Hx - g - A'lam|| in the norm of H^-1 is ||x - z||_H. *)
 Definition gap H A b x lam z := square H (x - z) / 2%:R + dot lam (A *m x - b).
 Lemma dotD k (u v w : 'cV[F]_k) : dot u (v + w) = dot u v + dot u w. Proof. by rewrite /dot mulmxDr mxE. Qed.
 Lemma dotN k (u w : 'cV[F]_k) : dot u (- w) = - dot u w. Proof. by rewrite /dot mulmxN mxE. Qed.

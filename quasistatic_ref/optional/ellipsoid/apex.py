@@ -16,9 +16,9 @@ from flint import ctx, fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
-from quasistatic_ref.certify.gap import fractions, rational
 from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
+from quasistatic_ref.optional.gap import fractions, rational
 from quasistatic_ref.step.data import Array, StepData
 
 

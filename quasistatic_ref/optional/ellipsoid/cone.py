@@ -13,7 +13,6 @@ from flint import ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
-from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.rows import contact_rows
@@ -30,6 +29,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
+from quasistatic_ref.optional.gap import duality_gap, fractions
 from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import CURVED_CONE, ELLIPSOID, CurvedCone, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData

@@ -18,9 +18,8 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
-from quasistatic_ref.certify.gap import duality_gap, fractions, inner, square_root
 from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
-from quasistatic_ref.certify.rounding import nearest_above, nearest_in
+from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
@@ -28,6 +27,7 @@ from quasistatic_ref.optional.ellipsoid.impulses import raised
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
+from quasistatic_ref.optional.gap import duality_gap, fractions, inner, nearest_above, square_root
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import ENCLOSED
 

@@ -17,7 +17,6 @@ import numpy as np
 from flint import arb, ctx
 
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.gap import square_root
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -27,6 +26,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     rounded_displacement,
 )
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
+from quasistatic_ref.optional.gap import square_root
 from quasistatic_ref.step.data import Array, StepData
 
 P_OF_WRENCH: Final = [2, 0, 1, 3]

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from quasistatic_ref.certify.form import ExactForm, fraction
-from quasistatic_ref.certify.gap import energy, free_energy
 from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.optional.gap import energy, free_energy
 from quasistatic_ref.tolerances import IMPULSES
 
 

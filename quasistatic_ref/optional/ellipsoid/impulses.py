@@ -4,8 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from flint import arb, fmpq
 
-from quasistatic_ref.certify.gap import fractions
-from quasistatic_ref.certify.rounding import nearest_above
+from quasistatic_ref.optional.gap import fractions, nearest_above
 from quasistatic_ref.step.data import Array, StepData
 
 ONE = fmpq(1)

@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.gap import inner
+from quasistatic_ref.optional.gap import inner
 
 ITERATIONS: Final = 150
 """Grasps take 30 to 40; what takes more has no interior, or no solution."""

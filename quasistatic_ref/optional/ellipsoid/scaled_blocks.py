@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from flint import arb
 
 from quasistatic_ref.certify.form import ExactForm
-from quasistatic_ref.certify.gap import inner, square_root
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal
+from quasistatic_ref.optional.gap import inner, square_root
 from quasistatic_ref.step.data import Array, StepData
 
 

@@ -21,8 +21,7 @@ from flint import arb, arb_mat, ctx
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.form import PRECISION, StepForm, exact_matrix
-from quasistatic_ref.certify.gap import inner, square_root
-from quasistatic_ref.certify.rounding import nearest_above
+from quasistatic_ref.optional.gap import inner, nearest_above, square_root
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.solve.backends import ERROR_BOUND
 from quasistatic_ref.step.cones import cone

@@ -17,9 +17,9 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.certificate import BOUND_VERDICT
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.form import StepForm, fraction
-from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.optional.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import WORTHLESS

@@ -5,10 +5,10 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref import Extra
-from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.impulses import inside, outside_of_cones, raised
+from quasistatic_ref.optional.gap import fractions
 
 ONE = fmpq(1)
 

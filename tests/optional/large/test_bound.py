@@ -6,9 +6,9 @@ from flint import fmpq
 from quasistatic_ref import Extra, StepNotSolved, standard_form
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.optional.gap import duality_gap, energy, fractions, free_energy
 from quasistatic_ref.optional.large.bound import error_bound, opening_direction
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.certify.test_farkas import EAST, point_between_walls

@@ -4,11 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import group_optimum, joined_optimum
+from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
-from quasistatic_ref.step.groups import groups
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -28,12 +27,10 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
         one of 150 takes 12 s.
     """
     step = program_step(*form)
-    parts = groups(step)
     try:
-        optima = [group_optimum(step, group, group.within(warm)) for group in parts]
+        optimum = optimum_by_groups(step, warm)
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
-    optimum = joined_optimum(step, parts, optima)
     return Answer(EXACT, 0.0, optimum.delta_q, optimum.net, optimum.slack, optimum.lam, {},
                   optimum.walks, optimum.multipliers_unique, optimum.differentiable)  # fmt: skip

@@ -9,6 +9,7 @@ with equality at x = x*. The first term is what lam leaves unbalanced (Eq. :eq:`
 is complementarity (Eq. :eq:`eq-12`): a force where nothing touches cannot hide in it.
 """
 
+import math
 from collections.abc import Sequence
 
 from flint import arb, arb_mat, fmpq, fmpq_mat
@@ -82,3 +83,11 @@ def inner(u: arb_mat, v: arb_mat) -> arb:
 def square_root(square: arb) -> arb:
     """The square root of what is not negative, whatever a ball about it holds."""
     return square.nonnegative_part().sqrt()
+
+
+def nearest_above(ball: arb) -> float:
+    """A float64 that no number in a ball exceeds [of the unit of the ball]."""
+    top = ball.upper()
+    if not top.is_finite():
+        return float("inf")
+    return math.nextafter(float(top), math.inf) if top != 0 else 0.0

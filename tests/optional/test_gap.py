@@ -6,18 +6,19 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import fmpq
+from flint import arb, ctx, fmpq
 
 from quasistatic_ref import solve_step
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.gap import (
+from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
+from quasistatic_ref.optional.gap import (
     duality_gap,
     energy,
     fractions,
     free_energy,
+    nearest_above,
 )
-from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_form import fraction
 from tests.oracles.random_steps import any_step, mixed_step
@@ -130,3 +131,10 @@ def test_a_gap_rounded_up_is_never_below_what_it_is(value):
     assert rounded_up(exact) == value
     assert rounded_up(exact + fmpq(1, 10**400)) == math.nextafter(value, math.inf)
     assert rounded_up(exact - fmpq(1, 10**400)) == value
+
+
+def test_nearest_above_is_above():
+    with ctx.workprec(200):
+        assert Fraction(nearest_above(arb(1) / 3)) > Fraction(1, 3)
+        assert nearest_above(arb(0)) == 0.0
+        assert nearest_above(arb.pos_inf()) == math.inf
