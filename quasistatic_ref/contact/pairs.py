@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.given import check_kind, made_by_arguments
+from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
@@ -18,7 +18,6 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.tolerances import RANKED
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class ContactPair(Plain):
     """Two shapes that may touch.

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_field
-from quasistatic_ref.formats.given import arguments_checked, made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.joints import BASES
@@ -22,7 +21,6 @@ FIXED = "fixed"
 BASE_WORDS = (FIXED, *BASES)
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class Body(Plain):
     """One URDF in the world.
@@ -102,7 +100,6 @@ class Body(Plain):
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
 
     @classmethod
-    @arguments_checked
     def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:
         """A homogeneous solid: one link, ``NAME/solid``, with one collision shape.
 

@@ -10,14 +10,12 @@ import numpy as np
 from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import AXES, lengths
 from quasistatic_ref.step.arrays import Array, read_only
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, init=False)
 class Box(Rounded):
     """A cuboid along the axes of its frame: |x_i| <= half_extents_i = size_i / 2, shape (3,) [m].

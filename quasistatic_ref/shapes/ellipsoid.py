@@ -10,7 +10,6 @@ import numpy as np
 from coal import CollisionGeometry
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array
@@ -20,7 +19,6 @@ STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, init=False)
 class Ellipsoid(Shape):
     """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m].

@@ -10,14 +10,12 @@ import numpy as np
 from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import finite, freeze_array
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, length
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class HalfSpace(Shape):
     """The solid {x : normal . x <= offset}; the normal points out of it.

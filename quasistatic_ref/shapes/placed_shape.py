@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.box import Box as Box
 from quasistatic_ref.shapes.capsule import Capsule as Capsule
@@ -27,7 +26,6 @@ IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 """The rotation by nothing [-]."""
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class PlacedShape(Plain):
     """A shape placed in the frame of a link.

@@ -8,14 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, read_only
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class PointCloud(Shape):
     """A rigid set of points in its own frame, shape (N, 3) with N >= 1 [m]; no coal object.

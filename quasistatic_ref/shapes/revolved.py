@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import freeze_size, halved
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
@@ -17,7 +16,6 @@ QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 """(cos, sin) of the four points of a rim, from the one nearest to the other body."""
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, init=False)
 class Revolved(Shape):
     """A solid of revolution about its local z axis; radius and half_length in [m].

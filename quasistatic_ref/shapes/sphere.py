@@ -7,13 +7,11 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.shapes.frozen import freeze_size
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.arrays import Array
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False)
 class Sphere(Rounded):
     """A ball of the given radius [m] about the origin of its frame.

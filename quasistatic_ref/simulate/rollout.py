@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.formats.given import arguments_checked, checked_items
+from quasistatic_ref.formats.given import checked_items
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
 
-@arguments_checked
 def rollout(
     simulator: Simulator,
     q: Array,

@@ -16,7 +16,7 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.formats.given import arguments_checked, check_kind, checked_items
+from quasistatic_ref.formats.given import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import Slot
@@ -172,7 +172,6 @@ class Simulator(Settings, Shown):
 
     fast: ClassVar[bool] = False
 
-    @arguments_checked
     def __init__(
         self,
         system: System,
@@ -245,7 +244,6 @@ class Simulator(Settings, Shown):
         given = {"backend": self.named_backend, "extension": self.extension}
         return _remade, (type(self), self.settings() | given)
 
-    @arguments_checked
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import (
@@ -30,7 +29,6 @@ AXES = np.eye(3)
 ROWS = {4, 6}
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Contacts(Plain, Shown):
     """The contact points of one step.

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.formats.given import made_by_arguments
 from quasistatic_ref.formats.plain import Plain, field_values
 from quasistatic_ref.formats.shown import HasPage, Shown
 from quasistatic_ref.step.arrays import (
@@ -36,7 +35,6 @@ from quasistatic_ref.step.pivots import positive_definite
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, repr=False)
 class Extra(Plain, Shown):
     """Linear inequalities of the user's own, A delta_q >= b.
@@ -103,7 +101,6 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     return RowLayout(*map(read_only, (counts, mask, offsets, numbers)))
 
 
-@made_by_arguments
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class StepData(Plain, HasPage):
     """Everything that Eq. :eq:`eq-13` needs.

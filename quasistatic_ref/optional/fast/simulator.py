@@ -11,7 +11,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError, StepNotSolved
-from quasistatic_ref.formats.given import arguments_checked, check_kind
+from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.library import ffi, library, missing
@@ -161,7 +161,6 @@ class FastSimulator(Simulator):
     def __reduce__(self) -> tuple[object, ...]:
         return FastSimulator, (self.simulator,)
 
-    @arguments_checked
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step, as of a Simulator."""
