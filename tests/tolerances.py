@@ -50,11 +50,6 @@ SIGNED_DISTANCE = 1e-12
 some ten operations, each of 1e-16."""
 
 
-BRUTE_FORCE = 2e-3
-"""A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
-above it by at most the spacing."""
-
-
 CLOSED_FORM = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
 

@@ -44,7 +44,6 @@ from tests.oracles.random_steps import mixed_step
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")
-CHECKS = ("backends", "fast", "cold", "permuted", "definition", "independent", "noise")
 LOADS = ("load", "imbalance", "equal", "noise", "bits", "units")
 NOISE = 2.0**-56
 """A last bit of lengths of 0.1 m [m]."""

@@ -53,16 +53,6 @@ def show_page(text: str, out: Path | None) -> None:
         text_written(out, text if text.endswith("\n") else f"{text}\n")
 
 
-def rows_before(out: Path | None) -> dict[str, list[str]]:
-    """The rows of counts of a page of before: the first cell -> the others; none without a page."""
-    found = {}
-    for line in out.read_text().splitlines() if out and out.exists() else ():
-        name, *cells = (cell.strip() for cell in line.strip("|").split("|"))
-        if line.startswith("| ") and cells[0].isdigit():
-            found[name] = cells
-    return found
-
-
 def record_written(path: Path, record: Any) -> None:
     """Write a record of numbers and arrays as JSON, a field a line; infinite ones as Infinity."""
     text_written(path, json.dumps(plain(record), indent=1) + "\n")

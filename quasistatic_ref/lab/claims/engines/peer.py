@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
@@ -21,7 +20,6 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, E
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 
 TIGHT, AS_IT_COMES, DEFAULT = 1e-8, 1e-7, 1e-4
@@ -125,28 +123,6 @@ def gradients(answer: StepSolution) -> tuple[Array, Array]:
     none = np.zeros(x.shape[1], dtype=bool)
     x[:, np.any([none, *found.contradicts.values(), *found.opens], axis=0)] = np.nan
     return x[:, : step.n_a], np.eye(step.n_v) + x[:, step.n_a :]
-
-
-def in_plane(step: StepData) -> StepData:
-    """A step with two rows of each contact, gap + slip and gap - slip in the plane of y and z.
-
-    Each row is that of a contact without friction whose normal motion it is.
-    """
-    contacts = step.contacts
-    along = np.cross([1.0, 0.0, 0.0], contacts.n)
-    J = contacts.J[:, :3]
-    gaps = np.einsum("jc,jcv->jv", contacts.n, J)
-    slips = contacts.mu_v[:, None] * np.einsum("jc,jcv->jv", along, J)
-    rows = np.stack([gaps + slips, gaps - slips], axis=1).reshape(-1, step.n_v)
-    n = contacts.n.repeat(2, axis=0)
-    motion = np.pad(n[:, :, None] * rows[:, None], ((0, 0), (0, 1), (0, 0)))
-    d1, d2 = tangents(n)
-    facets = Contacts(
-        name=tuple(f"{name} {side}" for name in contacts.name for side in "+-"),
-        phi=contacts.phi.repeat(2), n=n, d1=d1, d2=d2, J=motion,
-        mu_v=np.zeros(len(n)), mu_omega=np.zeros(len(n)), rows=np.full(len(n), 4),
-    )  # fmt: skip
-    return step.replace(contacts=facets, cone="frictionless")
 
 
 def evidence() -> Evidence:

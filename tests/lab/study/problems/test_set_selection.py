@@ -8,19 +8,6 @@ from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.problems.selection import problems_along_dial, problems_taken
 from tests.closeness import assert_relative
 
-STUDY = """
-[problems]
-set = "contact-qp"
-families = {{ {families} }}
-
-[[runs]]
-solvers = ["qpsolvers:daqp"]
-"""
-
-
-def problems_of(study, families):
-    return study(STUDY.format(families=families)).problems
-
 
 def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
     """Angles from 0.1 rad down: those of at least `most`, both ends among them."""
