@@ -5,7 +5,6 @@ import json
 import cvxpy as cp
 import numpy as np
 import pytest
-from quasistatic_ref.optional.doctor.table import scene_findings
 
 from quasistatic_ref import (
     Body,
@@ -23,6 +22,7 @@ from quasistatic_ref import (
     trajectory_read,
     verify,
 )
+from quasistatic_ref.optional.doctor.checks import scene_findings
 from tests.closeness import assert_relative
 from tests.optional.extensions.test_rises import PUSHED, G, H, scene
 from tests.scenes import written_scenario
