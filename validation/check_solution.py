@@ -15,6 +15,7 @@ import hashlib
 import json
 import sys
 from fractions import Fraction
+from operator import add
 
 SQUARE = ((1, 0), (0, 1), (-1, 0), (0, -1))
 PI = 314159265358979323846264338327950288419716939937510582097494  # times 10^59
@@ -39,26 +40,34 @@ def array(record, name, *shape):
     return float(value) + 0.0
 
 
+def symmetric(record, name, n):
+    """The field `name`, n x n: the lower triangle counts."""
+    S = array(record, name, n, n)
+    return [[S[max(i, j)][min(i, j)] for j in range(n)] for i in range(n)]
+
+
 def step_read(record):
     """The step, with its fields in the order in which they are hashed."""
     kind = record["format"], record["version"]
     need(kind == ("quasistatic-ref/step", 1), "the step is not of version 1")
-    n_a, n_u = record["n_a"], record["n_u"]
-    shapes = {"K_q": (n_a, n_a), "M_u": (n_u, n_u)}
-    shapes |= {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)}
+    n_a, n_u, n_v = record["n_a"], record["n_u"], record["n_a"] + record["n_u"]
     step = {"format": "quasistatic-ref/step", "version": 1, "cone": record.get("cone", "pyramid")}
     step |= {"h": array(record, "h"), "n_a": n_a, "n_u": n_u}
-    step |= {name: array(record, name, *shape) for name, shape in shapes.items()}
-    for name in ("K_q", "M_u"):  # the lower triangle counts
-        n = range(len(S := step[name]))
-        step[name] = [[S[max(i, j)][min(i, j)] for j in n] for i in n]
+    for name, n in {"K_q": n_a, "M_u": n_u}.items():
+        step[name] = symmetric(record, name, n)
         need(definite(fractions(step[name])), f"{name} is not positive definite")
+    vectors = {"tau_a": n_a, "tau_u": n_u, "delta_q_bar_a": n_a}
+    step |= {name: array(record, name, n) for name, n in vectors.items()}
     need(step["h"] > 0, "h is not positive")
-    step["contacts"] = [contact_read(contact, n_a + n_u) for contact in record["contacts"]]
-    extra = record.get("extra", {"names": []})
-    if m := len(extra["names"]):
-        rows = {"A": array(extra, "A", m, n_a + n_u), "b": array(extra, "b", m)}
-        step["extra"] = {"names": extra["names"], **rows}
+    step["contacts"] = [contact_read(contact, n_v) for contact in record["contacts"]]
+    extra, cost = record.get("extra", {"names": []}), {}
+    m = len(extra["names"])
+    if "H" in extra or "g" in extra:  # of a cost 1/2 x'Hx - g'x; what is left out is zero
+        both = {"H": [[0.0] * n_v] * n_v, "g": [0.0] * n_v} | extra
+        cost = {"H": symmetric(both, "H", n_v), "g": array(both, "g", n_v)}
+    if m or cost:
+        rows = {"A": array(extra, "A", m, n_v), "b": array(extra, "b", m)}
+        step["extra"] = {"names": extra["names"], **rows, **cost}
     return step
 
 
@@ -165,6 +174,9 @@ def problem(step):
         A += [along(in_frame, row) for row in weights[-1]]  # Eq. (8)
         b += [-fractions(contact["phi"])] * len(rows)
     extra = step.get("extra", {"A": [], "b": []})
+    if "H" in extra:  # a user's cost 1/2 x'Hx - g'x
+        H = [list(map(add, *rows)) for rows in zip(H, fractions(extra["H"]), strict=True)]
+        g = list(map(add, g, fractions(extra["g"])))
     return H, g, A + fractions(extra["A"]), b + fractions(extra["b"]), weights
 
 
@@ -190,6 +202,7 @@ def verdicts(step, solution):
     same = solution["step_sha256"] == hashlib.sha256(text.encode()).hexdigest()
     yield "of this step", same and solution["cone"] == step["cone"]
     H, g, A, b, weights = problem(step)
+    need(definite(H), "H is not positive definite")
     if solution["status"] == "infeasible":
         yield "Eq. (10) has no solution", infeasible(A, b, solution["farkas"])
         return

@@ -254,11 +254,11 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
     what is absurd in a light one.
 
-    The length that delta_q is divided by is the largest of four in the H norm. Three are those of
-    the unconstrained steps that the targets, tau_a and tau_u would each cause alone (together they
-    may cancel, but for rounding). The fourth is max_i b_i / ||a_i||, in the norm of H^-1: the
-    shortest step that satisfies the row i alone (a body pushed out of penetration moves however
-    small g is). Without loads and penetration, zero is the optimum.
+    The length that delta_q is divided by is the largest of several in the H norm. Some are those of
+    the unconstrained steps that the targets, tau_a, tau_u and a user's cost would each cause alone
+    (together they may cancel, but for rounding). The last is max_i b_i / ||a_i||, in the norm of
+    H^-1: the shortest step that satisfies the row i alone (a body pushed out of penetration moves
+    however small g is). Without loads and penetration, zero is the optimum.
 
     Parameters
     ----------
@@ -272,7 +272,8 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     form = standard_form(step)
     norm = energy_norm(form.H)
     b = np.maximum(form.b, 0.0)
-    parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
+    of_cost = [] if step.extra.cost is None else [step.extra.cost[1]]
+    parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, *of_cost, b])
     # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.
     scale = 2.0 ** min(-math.frexp(np.abs(parameters).max(initial=0.0))[1], 1000)
     pushed = b > 0

@@ -7,8 +7,9 @@ split the ties between the rows of a sticking contact.
 
 .. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad a_i^T x + c_i \ge 0, \quad c = -b.
 
-H is block diagonal. Eq. :eq:`eq-13` is taken times h, because M_u / h is a quotient. So its
-multipliers are y = h lam, and on a working set W
+H is block diagonal, or one block where a user's cost is in it. Eq. :eq:`eq-13` is taken times h,
+because M_u / h is a quotient. So its multipliers are y = h lam, and on a working set W, without a
+cost,
 
 - of the springs, :math:`h^2 K_q x_a = h^2 (\tau_k + \tau_a) + A_a^T y`;
 - of what moves freely, :math:`M_u x_u = h^2 \tau_u + A_u^T y`.
@@ -254,6 +255,13 @@ class StepForm(ExactForm):
         with ctx.workprec(EXACT):
             self.g = self.H * exact_matrix(target[:, None])  # h^2 tau_k, Eq. (1)
             self.g += exact_matrix(tau[:, None]) * (self.h * self.h)
+        if step.extra.cost is not None:
+            H_cost, g_cost = step.extra.cost
+            c = np.arange(step.n_v) if group is None else group.coordinates
+            with ctx.workprec(EXACT):
+                self.H = self.H + exact_matrix(H_cost[np.ix_(c, c)]) * self.h
+                self.g += exact_matrix(g_cost[c, None]) * self.h
+            self.H_inverse = inverse(self.H)
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""

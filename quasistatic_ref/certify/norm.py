@@ -118,14 +118,16 @@ def digits_of_error(error: float) -> float:
 def single_loads(step: StepData, scale: float = 1.0) -> Array:
     """Impulses of the targets, of tau_a and of tau_u, each by itself, shape (3, n_v) [N s, N m s].
 
-    Their sum is g of Eq. :eq:`eq-13`. With a `scale` [-] the loads are multiplied by it first.
+    The g of a user's cost is a fourth. Their sum is g of the step. With a `scale` [-] the loads are
+    multiplied by it first.
     """
     n_a = step.n_a
     loads = np.zeros((3, step.n_v))
     loads[0, :n_a] = step.h * step.K_q @ (scale * step.delta_q_bar_a)
     loads[1, :n_a] = step.h * (scale * step.tau_a)
     loads[2, n_a:] = step.h * (scale * step.tau_u)
-    return loads
+    cost = step.extra.cost
+    return loads if cost is None else np.vstack([loads, scale * cost[1]])
 
 
 def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()) -> float:
@@ -135,8 +137,8 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
 
     - ||H^-1 g||_H, the unconstrained step;
     - ||x*||_H, the optimum: a body that is pushed out of penetration moves without a load;
-    - the unconstrained steps that the targets, tau_a and tau_u would each cause alone: at rest they
-      cancel but for rounding, and g and x* are noise;
+    - the unconstrained steps that the targets, tau_a, tau_u and a user's cost would each cause
+      alone: at rest they cancel but for rounding, and g and x* are noise;
     - 1e-6 m or rad in the softest coordinate: where nothing happens at all, all others are zero.
 
     No row's b enters, but through x*: with it, a limit that is far away would hide wrong answers.

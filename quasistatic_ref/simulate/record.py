@@ -28,6 +28,8 @@ FORCES = ("forces", "imbalance", "motion")
 """What a record of forces adds to a light one."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
+COST = ("extra_H", "extra_g")
+"""What a quadratic cost of an extension adds to a full record."""
 
 
 def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
@@ -72,7 +74,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
         needed = (*needed, *(FORCES if record == "forces" else ()), *iterated)
         _check_present(arrays, needed)
-    of_record = {"full": (*PROGRAM, "forces"), "forces": FORCES}.get(record, ())
+    of_record = {"full": (*PROGRAM, *COST, "forces"), "forces": FORCES}.get(record, ())
     known = ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
     for name in arrays:
         if name not in known:
@@ -84,6 +86,9 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if array.dtype.kind == "f" and not np.isfinite(numbers).all():
             raise InputError("must contain finite numbers only", field=name)
     needed = (*needed, *(["forces"] if full and "forces" in arrays else []))
+    if full and any(name in arrays for name in COST):
+        _check_present(arrays, COST)
+        needed = (*needed, *COST)
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"

@@ -14,7 +14,15 @@ from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
-from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
+from quasistatic_ref.simulate.record import (
+    CONSTANT,
+    COST,
+    EXTRA,
+    FORCES,
+    PER_STEP,
+    PROGRAM,
+    RECORDS,
+)
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.target import JointTrack
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
@@ -33,7 +41,7 @@ LARGEST = 1_000_000
 FORMED = ("g", "A", "b", "J")
 """What of a program is no field of its step."""
 POINTS = ("phi", "alpha", "beta", "n", "point")
-IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED)
+IN_ORDER = (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *COST, *ITERATED)
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
@@ -105,6 +113,7 @@ class Recorder:
         self.tracks: Sequence[JointTrack] = ()
         self.idle_columns: Sequence[str] = ()
         self.extra: tuple[str, ...] = ()
+        self.with_cost: bool | None = None
         self.alone = True
         self.unanswered: list[int] = []
         self.parts: list[StepArrays] = []
@@ -129,7 +138,7 @@ class Recorder:
         ------
         InputError
             If the record holds forces and they are not known, or an extension's rows are not those
-            of the step before.
+            of the step before, or one of the two alone has a quadratic cost.
         """
         self._check(result)
         if result.solution.statistics.unanswered:
@@ -150,10 +159,16 @@ class Recorder:
             was, now = next((was, now) for was, now in pairs if was != now)
             problem = f"has {now} in step {self.steps}, where the step before has {was}; "
             raise InputError(problem + "give the same rows in each step", field="extension")
+        with_cost = result.step.extra.cost is not None
+        if self.with_cost not in (None, with_cost):
+            has, had = ("a", "none") if with_cost else ("no", "one")
+            problem = f"has {has} quadratic cost in step {self.steps}, the step before has {had}; "
+            raise InputError(problem + "give one in each step, of weight 0", field="extension")
         if self.record == "forces" and not result.solution.alone:
             raise InputError(UNKNOWN, field="forces")
         self.alone &= result.solution.alone
         self.extra = rows
+        self.with_cost = with_cost
 
     def packed(self) -> list[StepArrays]:
         """All steps so far as arrays, in parts: those added since the call before are the last."""
@@ -334,6 +349,9 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
     if steps[0].extra.names:
         extra = [step.extra for step in steps]
         arrays |= {"extra_A": _of_all(extra, "A"), "extra_b": _of_all(extra, "b")}
+    if steps[0].extra.cost is not None:
+        extra = [step.extra for step in steps]
+        arrays |= {"extra_H": _of_all(extra, "H"), "extra_g": _of_all(extra, "g")}
     return arrays
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,7 @@ from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
-from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData, no_rows
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -70,7 +70,8 @@ class Trajectory(Plain, HasPage):
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
-        ``extra_b``. Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
+        ``extra_b``, its quadratic cost ``extra_H`` and ``extra_g``.
+        Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
         :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`; ``A`` and ``b`` are
         then of phi + s. A record of forces has ``forces``, (n_c, 4) a step, ``imbalance``, and
         ``motion``, (n_c, 4): J delta_q.
@@ -173,7 +174,11 @@ class Trajectory(Plain, HasPage):
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
         names = tuple(self.header["extra"])
-        extra = Extra(names, a["extra_A"][k], a["extra_b"][k]) if names else None
+        extra = no_rows(a["g"].shape[1])
+        if names:
+            extra = Extra(names, a["extra_A"][k], a["extra_b"][k])
+        if "extra_H" in a:
+            extra = replace(extra, H=a["extra_H"][k], g=a["extra_g"][k])
         return StepData(
             h=self.header["h"],
             **{key: a[key][k] for key in parts},

@@ -42,12 +42,18 @@ class CvxpyProblem(StepProblem):
         self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
         self.extra = [A_extra @ self.delta_q >= b_extra] if template.extra.names else []
         objective = self.problem.objective
+        if template.extra.cost is not None:
+            H_extra = cp.Parameter((template.n_v, template.n_v), "H_extra", PSD=True)
+            g_extra = cp.Parameter(template.n_v, "g_extra")
+            self.parameters |= {"H_extra": H_extra, "g_extra": g_extra}
+            quadratic = cp.quad_form(self.delta_q, H_extra) / 2
+            objective += cp.Minimize(quadratic - g_extra @ self.delta_q)
         for cost in costs(self):
             objective += cp.Minimize(cost)
         self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
 
     def check_kind(self) -> None:
-        """Accept every cone, and rows of a user's own: this problem states them all."""
+        """Accept every cone, rows and costs of a user's own: this problem states them all."""
 
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step.
@@ -60,6 +66,9 @@ class CvxpyProblem(StepProblem):
         super().fill(step)
         self.parameters["A_extra"].save_value(step.extra.A)
         self.parameters["b_extra"].save_value(step.extra.b)
+        if step.extra.cost is not None:
+            self.parameters["H_extra"].save_value(step.extra.cost[0])
+            self.parameters["g_extra"].save_value(step.extra.cost[1])
 
     def primal(self) -> Array:
         """delta_q of the last solve, shape (n_v,)."""

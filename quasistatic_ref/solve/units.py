@@ -248,6 +248,8 @@ def natural_step(step: StepData, units: Units) -> StepData:
     }
     of_contacts = {"phi": c.phi / (rho * ell), "J": c.J * (S / ell)}
     of_extra = {"A": extra.A * (S / ell), "b": extra.b / (rho * ell)}
+    if extra.cost is not None:
+        of_extra |= {"H": extra.cost[0] * np.outer(S, S), "g": extra.cost[1] * S / rho}
     for name, array in (of_step | of_contacts | of_extra).items():
         if not finite(read_only(array).ravel()):
             raise StepDataError("must contain finite numbers only", field=name)

@@ -30,20 +30,25 @@ from quasistatic_ref.step.arrays import (
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.pivots import positive_definite
+from quasistatic_ref.step.pivots import positive_definite, surely_definite_sum, symmetric
 
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Extra(Plain, Shown):
-    """Linear inequalities of the user's own, A delta_q >= b.
+    """Linear inequalities of the user's own, A delta_q >= b, and a quadratic cost.
 
     Parameters
     ----------
     names : tuple of str, length m
     A : ndarray, shape (m, n_v)
     b : ndarray, shape (m,)
+    H : ndarray, shape (n_v, n_v), optional
+        Of the cost 1/2 delta_q'H delta_q - g'delta_q, which is added to Eq. :eq:`eq-13`. Symmetric,
+        none of its diagonal entries negative. H and g are both None where there is no cost; where
+        one of them is left out, it is zero.
+    g : ndarray, shape (n_v,), optional
 
     Examples
     --------
@@ -56,12 +61,46 @@ class Extra(Plain, Shown):
     names: tuple[str, ...]
     A: Array
     b: Array
+    H: Array | None = None
+    g: Array | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", checked_names(self.names, "extra.names"))
         n_v = column_count(self.A, "extra.A", 2)
         m = len(self.names)
         check_and_freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
+        if self.H is None and self.g is None:
+            return
+        for key, shape in {"H": (n_v, n_v), "g": (n_v,)}.items():
+            if getattr(self, key) is None:
+                object.__setattr__(self, key, np.zeros(shape))
+            check_and_freeze(self, {key: shape}, "extra.")
+        assert self.H is not None
+        object.__setattr__(self, "H", read_only(symmetric("extra.H", self.H)))
+        if (np.diag(self.H) < 0).any():
+            problem = "must have no negative diagonal entry: a cost must be convex"
+            raise StepDataError(problem, field="extra.H", value=np.diag(self.H).tolist())
+
+    @property
+    def cost(self) -> tuple[Array, Array] | None:
+        """H, shape (n_v, n_v), and g, shape (n_v,), of the cost; None where there is none."""
+        return None if self.H is None or self.g is None else (self.H, self.g)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it holds neither rows nor a cost."""
+        return not self.names and self.cost is None
+
+    def of(self, rows: Indices, coordinates: Indices) -> Extra:
+        """Some rows, shape (k,), and the cost, of some coordinates alone, shape (n,)."""
+        cost = self.cost
+        return Extra(
+            tuple(self.names[i] for i in rows),
+            self.A[np.ix_(rows, coordinates)],
+            self.b[rows],
+            H=None if cost is None else cost[0][np.ix_(coordinates, coordinates)],
+            g=None if cost is None else cost[1][coordinates],
+        )
 
 
 @lru_cache(maxsize=8)
@@ -124,7 +163,7 @@ class StepData(Plain, HasPage):
     cone : str
         Friction cone; ``"pyramid"`` is the paper's. See :mod:`~quasistatic_ref.step.cones`.
     extra : Extra, optional
-        Further rows; none by default.
+        Further rows, and a quadratic cost; none by default.
 
     Raises
     ------
@@ -193,6 +232,9 @@ class StepData(Plain, HasPage):
         check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
+        if extra.cost is not None and not surely_definite_sum(self.H):
+            problem = "must leave the H of the step positive definite: a cost must be convex"
+            raise StepDataError(problem, field="extra.H", value=extra.cost[0].tolist())
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (..., n_u) [kg m, kg m^2], of delta_q, shape (..., n_v) [m, rad]."""
@@ -203,8 +245,14 @@ class StepData(Plain, HasPage):
         return self.M_u[np.ix_(u, u)]
 
     def coupled(self) -> tuple[Indices, Indices]:
-        """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
-        return _coupled((self.K_q != 0).tobytes(), (self.M_u != 0).tobytes(), self.n_a, self.n_u)
+        """Both coordinates of each entry below the diagonal of H that a term of it may have."""
+        first, second = _coupled(
+            (self.K_q != 0).tobytes(), (self.M_u != 0).tobytes(), self.n_a, self.n_u
+        )
+        if self.extra.cost is None:
+            return first, second
+        one, other = np.argwhere(np.tril(self.extra.cost[0], -1)).T
+        return np.append(first, one), np.append(second, other)
 
     @property
     def n_a(self) -> int:
@@ -256,8 +304,10 @@ class StepData(Plain, HasPage):
 
     @cached_property
     def H(self) -> Array:
-        """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
-        return hessian(self.h, self.K_q, self.M_u)
+        """H of Eq. :eq:`eq-13` and of a user's cost, shape (n_v, n_v)."""
+        H = hessian(self.h, self.K_q, self.M_u)
+        cost = self.extra.cost
+        return H if cost is None else read_only(H + cost[0])
 
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated again."""
@@ -282,6 +332,7 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
     "contacts.mu_v": lambda step: step.contacts.mu_v,
     "contacts.mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
     "extra": lambda step: len(step.extra.names),
+    "extra.cost": lambda step: step.extra.cost is not None,
 }
 """What the steps of one compiled problem may have in common."""
 

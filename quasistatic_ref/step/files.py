@@ -30,8 +30,8 @@ def step_record(step: StepData) -> dict[str, Any]:
     record["contacts"] = [
         {key: column[j] for key, column in columns.items()} for j in range(step.contacts.n_c)
     ]
-    if step.extra.names:
-        record["extra"] = asdict(step.extra)
+    if not step.extra.empty:
+        record["extra"] = {k: v for k, v in asdict(step.extra).items() if v is not None}
     return record
 
 
@@ -134,6 +134,8 @@ def _extra(top: TableReader, n_v: int) -> Extra:
         tuple(names),
         extra_table.array("A", (len(names), n_v)),
         extra_table.array("b", (len(names),)),
+        H=extra_table.array("H", (n_v, n_v)) if "H" in extra_table else None,
+        g=extra_table.array("g", (n_v,)) if "g" in extra_table else None,
     )
     extra_table.close()
     return extra

@@ -1,6 +1,7 @@
 """Groups of coordinates that nothing couples: each is a step of its own.
 
-Two coordinates belong together if an entry of H off its diagonal couples them, or a contact, or a
+Two coordinates belong together if an entry of H off its diagonal couples them (one of M_u, K_q or
+a user's cost), or a contact, or a
 row of the user's own, moves with both. H is then block diagonal and A has rows of one group each:
 the optimum of the step consists of those of its groups. A group is mostly a body, or some bodies
 that touch each other.
@@ -12,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.data import Extra, Indices, Mask, StepData
+from quasistatic_ref.step.data import Indices, Mask, StepData
 
 
 class Group(NamedTuple):
@@ -152,7 +153,7 @@ def _group_step(step: StepData, group: Group) -> StepData:
         delta_q_bar_a=step.delta_q_bar_a[a],
         contacts=step.contacts.some(group.contacts, group.coordinates),
         cone=step.cone,
-        extra=extra_rows(step, group),
+        extra=step.extra.of(group.extra_rows, group.coordinates),
     )
 
 
@@ -160,11 +161,3 @@ def split(step: StepData, group: Group) -> tuple[Indices, Indices]:
     """Actuated and un-actuated coordinates of a group, each counted from the first of its kind."""
     c = group.coordinates
     return c[c < step.n_a], c[c >= step.n_a] - step.n_a
-
-
-def extra_rows(step: StepData, group: Group) -> Extra:
-    """The user's own rows of a group."""
-    extra = step.extra
-    rows = group.extra_rows
-    names = tuple(extra.names[i] for i in rows)
-    return Extra(names, extra.A[np.ix_(rows, group.coordinates)], extra.b[rows])

@@ -38,17 +38,43 @@ def positive_definite(key: str, S: Array) -> Array:
     StepDataError
         About the field `key`, if S is not symmetric or not positive definite.
     """
-    if np.equal(S, S.mT).all():
-        S = np.add(S, 0.0, order="C")
-    else:
-        if np.abs(S - S.mT).max() > SYMMETRIC * np.abs(S).max():
-            raise StepDataError("must be symmetric", field=key, value=S.tolist())
-        S = np.tril(S) + np.tril(S, -1).mT
+    S = symmetric(key, S)
     if not _positive_pivots(S.tobytes(), S.shape):
         problem = "must be positive definite (no zero stiffness, no massless link)"
         raise StepDataError(problem, field=key, value=S.tolist())
     S.setflags(write=False)
     return S
+
+
+def symmetric(key: str, S: Array) -> Array:
+    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
+
+    Raises
+    ------
+    StepDataError
+        About the field `key`, if S is not symmetric.
+    """
+    if np.equal(S, S.mT).all():
+        return np.add(S, 0.0, order="C")
+    if np.abs(S - S.mT).max() > SYMMETRIC * np.abs(S).max():
+        raise StepDataError("must be symmetric", field=key, value=S.tolist())
+    return np.asarray(np.tril(S) + np.tril(S, -1).mT)
+
+
+def surely_definite_sum(S: Array) -> bool:
+    """Whether the exact sum that S was formed as is positive definite.
+
+    S is (n, n), with entries of which no diagonal term is negative, so that each is off by at most
+    8 u (S_ii S_jj)^1/2. The exact sum is then at least S - 8 n u D, D the diagonal of S.
+
+    Parameters
+    ----------
+    S : ndarray, shape (n, n)
+        Symmetric [any unit].
+    """
+    return bool(np.isfinite(S).all()) and positive_pivots(
+        S * (1 - 16 * len(S) * U * np.eye(len(S)))
+    )
 
 
 @lru_cache(maxsize=16)

@@ -51,7 +51,7 @@ class StepProblem:
     Raises
     ------
     StepDataError
-        If the step is in another cone, or has rows of a user's own.
+        If the step is in another cone, or has rows or a cost of a user's own.
 
     Examples
     --------
@@ -196,3 +196,5 @@ class StepProblem:
             raise StepDataError(f"is not the pyramid; {remedy}", field="cone", value=cone)
         if names:
             raise StepDataError(f"has a user's own rows; {remedy}", field="extra", value=names)
+        if self.template.extra.cost is not None:
+            raise StepDataError(f"has a user's own cost; {remedy}", field="extra.H")

@@ -21,7 +21,7 @@ class StandardForm(NamedTuple):
     Parameters
     ----------
     H : ndarray, shape (n_v, n_v)
-        Block diagonal, positive definite.
+        Positive definite; block diagonal, unless a user's cost couples the blocks.
     g : ndarray, shape (n_v,)
     A : ndarray, shape (m, n_v)
         Contact-major; the user's extra rows come last. A contact in the ellipsoid has four rows,
@@ -70,7 +70,8 @@ def inequalities(steps: Sequence[StepData]) -> tuple[Array, Array]:
 
 
 def linear_term(step: StepData) -> Array:
-    """The linear term g of Eq. :eq:`eq-13`, shape (n_v,) [N s of a length, N m s of an angle]."""
+    """The linear term g of Eq. :eq:`eq-13` and of a user's cost, (n_v,) [N s, N m s]."""
     tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
     g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
-    return g
+    cost = step.extra.cost
+    return g if cost is None else g + cost[1]

@@ -48,7 +48,8 @@ def test_it_is_short_and_imports_the_standard_library_alone():
     lines = CHECKER.read_text().splitlines()
     imported = {line for line in lines if line.startswith(("import ", "from "))}
     allowed = {"import hashlib", "import json", "import sys", "from fractions import Fraction"}
-    assert len(lines) <= 250
+    allowed |= {"from operator import add"}
+    assert len(lines) <= 260
     assert imported == allowed
 
 

@@ -6,8 +6,9 @@ has the conditions P x + c + A'z = 0, s in K, z in the dual cone, s'z = 0 (by bl
 of {0}, s >= 0, second-order cones, and exponential cones cl{(u, v, w) : v exp(u / v) <= w, v > 0}.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -64,6 +65,23 @@ class ConicProgram:
         work = [rows * multipliers]
         work += [np.array([u @ v]) for u, v in zip(parts, duals, strict=True)]
         return np.concatenate(short), np.concatenate(pull), np.concatenate(work)
+
+
+def conic_program(data: Mapping[str, Any]) -> ConicProgram:
+    """The program in the data that CVXPY makes for Clarabel or SCS."""
+    dims = data["dims"]
+    n = len(data["c"])
+    P = data["P"].toarray() if data.get("P") is not None else np.zeros((n, n))
+    return ConicProgram(
+        P=np.triu(P) + np.triu(P, 1).T,
+        c=data["c"],
+        A=data["A"].toarray(),
+        b=data["b"],
+        zero=int(dims.zero),
+        nonnegative=int(dims.nonneg),
+        second_order=[int(k) for k in dims.soc],
+        exponential=int(dims.exp),
+    )
 
 
 def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:

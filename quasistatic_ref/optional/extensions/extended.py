@@ -1,9 +1,10 @@
 """Steps with a user's own constraints and costs.
 
-An extension that is nothing but linear equations and inequalities is read once, as rows of the
-step: they are then certified like any others, and travel in the step's file. Anything else (costs,
-curved constraints, further variables) is solved as a conic program whose residuals are reported.
-Private rises are coordinates and rows of the step, too.
+An extension that is nothing but linear equations and inequalities and a quadratic cost is read
+once, as rows and a cost of the step: they are then certified like the step's own, and travel in its
+file. Anything else (other costs, curved constraints, further variables that no equation binds) is
+solved as a conic program whose residuals are reported. Private rises are coordinates and rows of
+the step, too.
 """
 
 import warnings
@@ -18,8 +19,9 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
+from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
+from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
+from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.simulate.law import CONVEX
@@ -36,10 +38,12 @@ from quasistatic_ref.step.extension import Extension, Symbols, none
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
-def extension_rows(step: StepData, extension: Extension) -> Extra | None:
-    """The rows A delta_q >= b of an extension that holds linear constraints only, else None.
+def extension_data(step: StepData, extension: Extension) -> Extra | None:
+    """The rows A delta_q >= b and the quadratic cost of an extension; None if it holds more.
 
-    An equation becomes two rows. The numbers are the float64 numbers that CVXPY makes of it.
+    An equation becomes two rows. The numbers are the float64 numbers that CVXPY makes of it. Costs,
+    and what binds further variables, are read by
+    :func:`~quasistatic_ref.optional.extensions.quadratic.quadratic_program`.
 
     Parameters
     ----------
@@ -50,7 +54,7 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Returns
     -------
     Extra or None
-        The extension's rows alone.
+        The extension's rows and cost alone.
     """
     if extension.without_stiffness:
         return None
@@ -58,8 +62,6 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
         return no_rows(step.n_v)
     problem = CvxpyProblem(step)
     constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
-    if costs(problem):
-        return None
     unknowns = (problem.delta_q_a, problem.delta_q_u)
     problem.fill(step)
     for x in unknowns:
@@ -67,13 +69,14 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     names: list[str] = []
     A = [np.zeros((0, step.n_v))]
     b = [np.zeros(0)]
+    others: list[cp.Constraint] = []
     for k, constraint in enumerate(constraints(problem)):
         equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
         plain = equation or isinstance(constraint, cp.constraints.Inequality)
-        if not plain or not constraint.expr.is_affine():
-            return None
-        if {v.id for v in constraint.expr.variables()} - {x.id for x in unknowns}:
-            return None
+        of_delta_q = not {v.id for v in constraint.variables()} - {x.id for x in unknowns}
+        if not (plain and of_delta_q and constraint.expr.is_affine()):
+            others.append(constraint)
+            continue
         value = np.atleast_1d(np.asarray(constraint.expr.value, dtype=np.float64)).ravel("F")
         row = -_coefficients(constraint.expr, unknowns)  # expr <= 0
         labels = [f"extension {k}[{i}]" for i in range(len(value))]
@@ -81,23 +84,40 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
             names += [label + end for label in labels]
             A.append(sign * row)
             b.append(sign * value)
-    return Extra(tuple(names), np.vstack(A), np.concatenate(b))
+    rows = Extra(tuple(names), np.vstack(A), np.concatenate(b))
+    if not (others or costs(problem)):
+        return rows
+    program = quadratic_program(costs(problem), others, unknowns)
+    return None if program is None else joined(rows, program)
 
 
 def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
     """A step with what of an extension is data, and whether that is all of it."""
     if extension.rows is not None:
-        step = with_rows(step, extension.rows)
+        step = step.replace(extra=joined(step.extra, extension.rows))
     step = with_rises(step, extension.rises)
-    own = extension_rows(step, extension)
-    return (step, False) if own is None else (with_rows(step, own), True)
+    terms = extension_data(step, extension)
+    if terms is None:
+        return step, False
+    try:
+        return step.replace(extra=joined(step.extra, terms)), True
+    except StepDataError:
+        if terms.cost is None:
+            raise
+        return step, False  # rounding leaves too little of H beside so large a cost
 
 
-def with_rows(step: StepData, own: Extra) -> StepData:
-    """A step with further rows after those that it has."""
-    A = np.vstack([step.extra.A, own.A])
-    b = np.concatenate([step.extra.b, own.b])
-    return step.replace(extra=Extra(step.extra.names + own.names, A, b))
+def joined(first: Extra, second: Extra) -> Extra:
+    """The rows of the one, then those of the other, and the sum of their costs."""
+    names = first.names + second.names
+    A = np.vstack([first.A, second.A])
+    b = np.concatenate([first.b, second.b])
+    costs = [one.cost for one in (first, second) if one.cost is not None]
+    if not costs:
+        return Extra(names, A, b)
+    H = np.sum([H for H, _ in costs], axis=0)
+    g = np.sum([g for _, g in costs], axis=0)
+    return Extra(names, A, b, H, g)
 
 
 def extended_step(
@@ -118,15 +138,15 @@ def extended_step(
     Raises
     ------
     BackendError
-        If the extension holds more than linear constraints, and the solver is made for rows.
+        If the extension is more than rows and a quadratic cost, and the solver takes no more.
     """
     step, whole = posed(step, extension)
     if whole:
         return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
     if isinstance(solver, Solver) or callable(solver):
         words = f"{solver.name}, {solver.interface}" if isinstance(solver, Solver) else "function"
-        problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
-        problem += "the name of a backend"
+        problem = "takes linear constraints and quadratic costs only; for other costs or a "
+        problem += "nonlinear constraint pass the name of a backend"
         raise BackendError(problem, field="solver", value=words)
     name = DEFAULT if solver is None else solver
     return extended_solution(step, extension, name, accuracy, certify)
@@ -138,15 +158,16 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
     Raises
     ------
     InputError
-        Under Coulomb's law, if the extension holds more than linear constraints.
+        Under Coulomb's law, if the extension is more than rows and a quadratic cost.
     """
     step, whole = posed(step, extension)
     if whole:
         return simulator.solution(step)
     if simulator.law != CONVEX:
         problem = (
-            f'holds costs or nonlinear constraints, which law = "{simulator.law}" does not take; '
-            "say them as linear constraints"
+            "holds nonlinear constraints or costs that are not quadratic, which "
+            f'law = "{simulator.law}" does not take; say them as linear constraints and quadratic '
+            "costs"
         )
         raise InputError(problem, field="extension")
     name = simulator.named_backend or DEFAULT
@@ -156,7 +177,7 @@ def simulated_solution(simulator: Simulator, step: StepData, extension: Extensio
 def extended_solution(
     step: StepData, extension: Extension, name: str, accuracy: float, certify: str
 ) -> StepSolution:
-    """The optimum of a step with an extension that holds nonlinear constraints or costs.
+    """The optimum of a step with an extension that is more than rows and a quadratic cost.
 
     Parameters
     ----------
@@ -267,19 +288,7 @@ def _solved(
     if status != cp.OPTIMAL:
         raise StepNotSolved(name, status, step, accuracy)
     x, z = (raw["x"], raw["y"]) if isinstance(raw, dict) else (raw.x, raw.z)
-    dims = data["dims"]
-    n = len(data["c"])
-    P = data["P"].toarray() if data.get("P") is not None else np.zeros((n, n))
-    program = ConicProgram(
-        P=np.triu(P) + np.triu(P, 1).T,
-        c=data["c"],
-        A=data["A"].toarray(),
-        b=data["b"],
-        zero=int(dims.zero),
-        nonnegative=int(dims.nonneg),
-        second_order=[int(k) for k in dims.soc],
-        exponential=int(dims.exp),
-    )
+    program = conic_program(data)
     check_arithmetic()
     residuals = conic_residuals(program, np.array(x), np.array(z))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too

@@ -41,6 +41,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     rows[:, np.arange(c), own[:c]] = 1.0
     rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
     extra = step.extra
+    H, g = extra.cost or (None, None)
     lies = rises.coordinates.tolist()
     names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in lies)
     A = np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows])
@@ -48,7 +49,13 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
         M_u=M_u,
         tau_u=np.concatenate([step.tau_u, -rises.loads]),
         contacts=Contacts(**(field_values(contacts) | {"J": J})),
-        extra=Extra(extra.names + names, A, np.concatenate([extra.b, np.zeros(2 * c)])),
+        extra=Extra(
+            extra.names + names,
+            A,
+            np.concatenate([extra.b, np.zeros(2 * c)]),
+            H=None if H is None else np.pad(H, (0, p)),
+            g=None if g is None else np.pad(g, (0, p)),
+        ),
     )
 
 

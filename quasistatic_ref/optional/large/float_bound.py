@@ -95,6 +95,9 @@ class FloatBound:
     def step_error(self, both: DenseStepInBothUnits, delta_q: Array, lam: Array) -> float:
         """The bound [-] of a step in dense matrices, from an answer in SI units.
 
+        It is infinite where a user's cost is in H: terms of H may cancel, so that its entries do
+        not bound their rounding.
+
         Parameters
         ----------
         both : DenseStepInBothUnits
@@ -105,6 +108,8 @@ class FloatBound:
             [N s]
         """
         step = both.si_step
+        if step.extra.cost is not None:
+            return math.inf
         A = row_sizes(step, step.contacts.J)
         if step.extra.names:
             A = np.concatenate([A, np.abs(step.extra.A)])

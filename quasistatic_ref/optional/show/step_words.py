@@ -35,6 +35,7 @@ def step_page(step: StepData) -> Page:
         f"cone {step.cone}"
     )
     facts = [f"{counted(len(step.extra.names), 'further row')}"] if step.extra.names else []
+    facts += ["a user's quadratic cost in H and g"] if step.extra.cost is not None else []
     contacts = step.contacts
     friction = zip(contacts.mu_v, contacts.mu_omega, contacts.rows, strict=True)
     rows = [

@@ -12,9 +12,9 @@ from quasistatic_ref.optional.extensions.extended import (
     _symbols,
     extended_solution,
     extended_step,
-    extension_rows,
+    extension_data,
+    joined,
     simulated_solution,
-    with_rows,
 )
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
@@ -30,7 +30,7 @@ from tests.tolerances import OPTIMUM, ROUNDING
 def test_further_rows_stand_after_those_that_a_step_has(rng):
     one, two = rng.normal(size=(2, 2, 7))
     step = random_step(rng).replace(extra=Extra(("a", "b"), one, [1.0, 2.0]))
-    found = with_rows(step, Extra(("c", "d"), two, [3.0, 4.0])).extra
+    found = joined(step.extra, Extra(("c", "d"), two, [3.0, 4.0]))
     assert found.names == ("a", "b", "c", "d")
     np.testing.assert_array_equal(found.A, [*one, *two])
     assert found.b.tolist() == [1.0, 2.0, 3.0, 4.0]
@@ -40,7 +40,7 @@ def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
     step = random_step(rng)
     C = rng.normal(size=(2, 7))
     d = np.array([0.25, -0.5])
-    own = extension_rows(step, Extension(lambda s: [C @ s.delta_q == d, s.delta_q_u[1] <= 2.0]))
+    own = extension_data(step, Extension(lambda s: [C @ s.delta_q == d, s.delta_q_u[1] <= 2.0]))
     numbers = ("0[0]", "0[1]", "0[0] reversed", "0[1] reversed", "1[0]")
     assert own.names == tuple(f"extension {number}" for number in numbers)
     np.testing.assert_array_equal(own.A, [*-C, *C, -np.eye(7)[4]])
@@ -126,7 +126,7 @@ def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
     assert simulated_solution(own, step, LOOSE).certificate.kind == "residual"
     own.law = "coulomb"
     with pytest.raises(
-        InputError, match=r'extension: holds costs or .* which law = "coulomb" does'
+        InputError, match=r'extension: holds nonlinear .* which law = "coulomb" does'
     ):
         simulated_solution(own, step, LOOSE)
 

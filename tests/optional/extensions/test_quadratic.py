@@ -1,0 +1,394 @@
+"""Quadratic costs of a user's own are part of H and g: the optimum is exact with every backend."""
+
+import json
+from fractions import Fraction
+from hashlib import sha256
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref import (
+    Extension,
+    Extra,
+    InputError,
+    RunFailed,
+    StepData,
+    StepDataError,
+    solve_step,
+)
+from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.optional.extensions.extended import extension_data, posed
+from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.backends import REQUIRED
+from quasistatic_ref.step.extension import Rises
+from quasistatic_ref.step.files import step_from_record, step_text
+from quasistatic_ref.step.groups import group_steps, groups
+from tests.closeness import assert_relative
+from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
+from tests.tolerances import OPTIMUM
+from validation import check_solution as checker
+
+M, H, W = 0.3, 0.01, 50.0
+FORCE = (0.7, -0.4, -0.3 * 9.81)
+TARGET = np.array([2e-3, -1e-3, 5e-3])
+CEILING = 1e-3
+
+
+def regularised(s):
+    """W |delta_q - TARGET|^2 below a ceiling, which the target is above."""
+    return [s.delta_q[2] <= CEILING, W * cp.sum_squares(s.delta_q - TARGET)]
+
+
+def by_hand():
+    """delta_q of a free point under FORCE with that cost, and the multiplier of the ceiling.
+
+    (m / h + 2 W) delta_q = h f + 2 W t, but delta_q_z = c: lam = h f_z + 2 W t_z - (m / h + 2 W) c.
+    """
+    h, w = Fraction(H), Fraction(W)
+    stiff = Fraction(M) / h + 2 * w
+    load = [
+        h * Fraction(f) + Fraction(float(2 * W * t)) for f, t in zip(FORCE, TARGET, strict=True)
+    ]
+    x = [v / stiff for v in load]
+    return [float(x[0]), float(x[1]), CEILING], float(load[2] - stiff * Fraction(CEILING))
+
+
+@pytest.mark.parametrize("backend", REQUIRED)
+def test_a_bound_regularised_step_is_that_by_hand_with_every_backend(backend):
+    step = point_on_floor(m=M, mu_v=0.0, phi=1.0, force=FORCE, h=H)
+    solution = solve_step(step, backend, extension=Extension(regularised))
+    delta_q, lam = by_hand()
+    assert solution.certificate.kind == "exact"
+    assert solution.delta_q.tolist() == delta_q
+    assert solution.lam_extra.tolist() == [lam]
+
+
+def quadratic_terms(step):
+    """Costs that CVXPY states in its ways, each with its H and g by hand."""
+    n = step.n_v
+    C = np.arange(2.0 * n).reshape(2, n) / 8 - 1
+    d = np.array([0.25, -0.5])
+    S = np.diag(np.arange(1.0, n + 1)) + 0.5
+    H_of_C, g_of_C = 2 * C.T @ C, 2 * C.T @ d
+
+    def with_variable(s):
+        z = cp.Variable(2)
+        return [z == C @ s.delta_q - d, cp.sum_squares(z)]
+
+    def with_signed_variable(s):
+        z = cp.Variable(2, nonpos=True)
+        return [z == C @ s.delta_q - d, cp.sum_squares(z)]
+
+    return {
+        "squares": (lambda s: [cp.sum_squares(C @ s.delta_q - d)], H_of_C, g_of_C),
+        "two squares": (lambda s: [cp.square(C[i] @ s.delta_q - d[i]) for i in (0, 1)],
+                        H_of_C, g_of_C),
+        "a form": (lambda s: [cp.quad_form(s.delta_q, S)], 2 * S, np.zeros(n)),
+        "a line": (lambda s: [C[0] @ s.delta_q], np.zeros((n, n)), -C[0]),
+        "a variable bound by equations": (with_variable, H_of_C, g_of_C),
+        "a variable with a sign": (with_signed_variable, H_of_C, g_of_C),
+    }  # fmt: skip
+
+
+NAMES = tuple(quadratic_terms(point_on_floor()))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_quadratic_cost_is_data_of_the_step(rng, name):
+    step = random_step(rng)
+    terms, H_cost, g_cost = quadratic_terms(step)[name]
+    full, whole = posed(step, Extension(terms))
+    assert whole
+    np.testing.assert_array_equal(full.extra.H, H_cost)
+    np.testing.assert_array_equal(full.extra.g, g_cost)
+    form, plain = qr.standard_form(full), qr.standard_form(step)
+    np.testing.assert_array_equal(form.H, plain.H + H_cost)
+    np.testing.assert_array_equal(form.g, plain.g + g_cost)
+
+
+def test_a_sign_of_a_bound_variable_is_a_row(rng):
+    step = random_step(rng)
+    terms, H_cost, _ = quadratic_terms(step)["a variable with a sign"]
+    extra = extension_data(step, Extension(terms))
+    assert len(extra.names) == 2  # C delta_q <= d
+    np.testing.assert_array_equal(extra.A.T @ extra.A, H_cost / 2)
+    np.testing.assert_array_equal(extra.b, [-0.25, 0.5])
+
+
+def test_equations_that_bind_no_variable_stay_equations(rng):
+    step = random_step(rng)
+
+    def twice(s):
+        z = cp.Variable()
+        return [z == s.delta_q[0] - 1e-3, z == 2 * s.delta_q[1], cp.square(z)]
+
+    extension = Extension(twice)
+    found = solve_step(step, extension=extension)
+    same = Extension(lambda s: [s.delta_q[0] - 1e-3 == 2 * s.delta_q[1],
+                                cp.square(s.delta_q[0] - 1e-3)])  # fmt: skip
+    assert found.certificate.kind == "exact"
+    assert_relative(found.delta_q, solve_step(step, extension=same).delta_q, OPTIMUM)
+
+
+def huber(s):
+    return [cp.huber(s.delta_q[0], 1e-3)]
+
+
+def unbound(s):
+    z = cp.Variable()
+    return [z >= s.delta_q[0], cp.square(z)]
+
+
+NOT_QUADRATIC = {
+    "abs": lambda s: [cp.abs(s.delta_q[0])],
+    "huber": huber,
+    "norm": lambda s: [cp.norm(s.delta_q)],
+    "log": lambda s: [-cp.log(1 + s.delta_q[0])],
+    "a variable that an inequality bounds": unbound,
+    "a square and a ball": lambda s: [cp.sum_squares(s.delta_q), cp.norm(s.delta_q) <= 1.0],
+}
+
+
+@pytest.mark.parametrize("terms", NOT_QUADRATIC.values(), ids=NOT_QUADRATIC)
+def test_other_costs_and_variables_are_solved_as_conic_programs(rng, terms):
+    step = random_step(rng)
+    assert extension_data(step, Extension(terms)) is None
+    assert posed(step, Extension(terms)) == (step, False)
+    assert solve_step(step, extension=Extension(terms)).certificate.kind == "residual"
+
+
+def two_points(coupling):
+    """Two free points, which nothing joins but a cost of `coupling` |x - y|^2."""
+    H_cost = 2 * coupling * np.kron([[1.0, -1.0], [-1.0, 1.0]], np.eye(3))
+    step = StepData(
+        h=H, K_q=np.zeros((0, 0)), M_u=M * np.eye(6), tau_a=[], tau_u=[*FORCE, 0.0, 0.0, 0.0],
+        delta_q_bar_a=[], contacts=no_contacts(6),
+    )  # fmt: skip
+    return step.replace(extra=Extra((), np.zeros((0, 6)), [], H=H_cost))
+
+
+def test_a_cost_couples_two_bodies():
+    """With stiff = m / h and k = 2 coupling: x + y = h f / stiff, x - y = h f / (stiff + 2 k)."""
+    step = two_points(W)
+    assert len(groups(step)) == 3  # one for each axis
+    h = Fraction(H)
+    stiff = Fraction(M) / h
+    both = [h * Fraction(f) / stiff for f in FORCE]
+    apart = [h * Fraction(f) / (stiff + 4 * Fraction(W)) for f in FORCE]
+    x = [float((s + d) / 2) for s, d in zip(both, apart, strict=True)]
+    y = [float((s - d) / 2) for s, d in zip(both, apart, strict=True)]
+    for backend in REQUIRED:
+        solution = solve_step(step, backend)
+        assert solution.certificate.kind == "exact"
+        assert solution.delta_q.tolist() == [*x, *y]
+    assert len(groups(two_points(0.0))) == 6
+
+
+def test_a_coupled_step_is_the_same_by_its_groups_and_whole(rng):
+    step = random_step(rng, n_a=2, n_u=4, rows=())
+    H_cost = np.zeros((6, 6))
+    H_cost[np.ix_([1, 4], [1, 4])] = 3.0
+    step = step.replace(M_u=np.diag(np.diag(step.M_u)), K_q=np.diag(np.diag(step.K_q)))
+    step = step.replace(extra=Extra((), np.zeros((0, 6)), [], H=H_cost, g=rng.normal(size=6)))
+    members = [group.coordinates.tolist() for group in groups(step)]
+    assert members == [[0], [1, 4], [2], [3], [5]]
+    whole = qr.standard_form(step)
+    for group, part in group_steps(step):
+        at = group.coordinates
+        np.testing.assert_array_equal(qr.standard_form(part).H, whole.H[np.ix_(at, at)])
+        np.testing.assert_array_equal(qr.standard_form(part).g, whole.g[at])
+        np.testing.assert_array_equal(solve_step(part).delta_q, solve_step(step).delta_q[at])
+
+
+def test_the_exact_form_is_h_times_the_fractions_of_the_file(rng):
+    step = random_step(rng)
+    cost = rng.normal(size=(7, 7))
+    step = step.replace(
+        extra=Extra((), np.zeros((0, 7)), [], H=cost.T @ cost, g=rng.normal(size=7))
+    )
+    H_file, g_file, *_ = checker.problem(checker.step_read(json.loads(step_text(step))))
+    form = StepForm(step)
+    h = Fraction(step.h)
+    for i in range(7):
+        assert float(h * g_file[i]) == float(form.g[i, 0])
+        assert [float(h * v) for v in H_file[i]] == [float(form.H[i, j]) for j in range(7)]
+
+
+def bounded_pinch():
+    step = pinch(grip=5.0, offset=0.2)
+    return posed(step, Extension(lambda s: [
+        s.delta_q_u[2] >= -1e-4, 50.0 * cp.sum_squares(s.delta_q_u[:3] - s.delta_q_u[3:])
+    ]))[0]  # fmt: skip
+
+
+def of_step(record, solution):
+    """A changed step and the solution, which says that it is of that step."""
+    text = step_text(step_from_record(record))
+    return text, json.dumps(
+        json.loads(solution) | {"step_sha256": sha256(text.encode()).hexdigest()}
+    )
+
+
+def changed_files(step, solution):
+    """A step and its solution, each with one fault in what the cost says."""
+    for fault in ("H", "g", "no cost"):
+        record = json.loads(step)
+        extra = record["extra"]
+        if fault == "H":
+            extra["H"][-1][-1] += 0.5
+        elif fault == "g":
+            extra["g"][-1] += 0.5
+        else:
+            del extra["H"], extra["g"]
+        yield fault, *of_step(record, solution)
+
+
+def checked(folder, step, solution):
+    paths = folder / "s.json", folder / "x.json"
+    for path, text in zip(paths, (step, solution), strict=True):
+        path.write_text(text)
+    return checker.main(*map(str, paths))
+
+
+def test_verify_and_the_checker_read_the_cost(tmp_path):
+    step = bounded_pinch()
+    texts = step_text(step), solution_text(solve_step(step))
+    assert list(json.loads(texts[0])["extra"]) == ["names", "A", "b", "H", "g"]
+    assert step_from_record(json.loads(texts[0])) == step
+    assert verify_refusal(tmp_path, *texts) is None
+    assert checked(tmp_path, *texts) == 0
+    for name, *wrong in changed_files(*texts):
+        assert verify_refusal(tmp_path, *wrong) is not None, name
+        assert checked(tmp_path, *wrong) == 1, name
+
+
+def test_a_file_may_leave_out_h_or_g():
+    record = json.loads(step_text(point_on_floor()))
+    for cost in ({"g": [1.0, 0.0, 0.0]}, {"H": np.eye(3).tolist()}):
+        record["extra"] = {"names": [], "A": [], "b": []} | cost
+        step = step_from_record(record)
+        assert step.extra.H.shape == (3, 3)
+        assert step.extra.g.shape == (3,)
+        assert checker.step_read(record) == json.loads(step_text(step))
+
+
+REFUSED = {
+    "another shape": (np.eye(2), "extra.H: must have shape"),
+    "not symmetric": (np.eye(3) + np.eye(3, k=1), "extra.H: must be symmetric"),
+    "a negative entry": (-np.eye(3), "a cost must be convex"),
+    "an indefinite sum": (
+        100.0 * (np.ones((3, 3)) - np.eye(3)),
+        "leave the H of the step positive",
+    ),
+    "no number": (np.full((3, 3), np.nan), "finite numbers only"),
+}
+
+
+@pytest.mark.parametrize(("H_cost", "words"), REFUSED.values(), ids=REFUSED)
+def test_a_cost_that_is_not_convex_or_of_the_step_is_refused(H_cost, words):
+    step = point_on_floor()
+    with pytest.raises(StepDataError, match=words):
+        step.replace(extra=Extra((), np.zeros((0, 3)), [], H=H_cost))
+
+
+def test_a_cost_too_large_for_float64_beside_h_is_solved_as_before():
+    """1e14 (x + y / 3)^2 leaves of m / h = 30 nothing along (1, -3)."""
+    step = point_on_floor(force=FORCE)
+    steep = Extension(lambda s: [1e17 * cp.square(s.delta_q[0] + s.delta_q[1] / 3)])
+    assert posed(step, steep) == (step, False)
+
+
+def test_without_a_cost_a_step_keeps_its_bits(rng):
+    step = random_step(rng)
+    form = qr.standard_form(step)
+    cost = Extra((), np.zeros((0, 7)), [], H=np.zeros((7, 7)))
+    idle = step.replace(extra=cost)
+    for one, other in zip(form, qr.standard_form(idle), strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert "extra" not in json.loads(step_text(step))
+    np.testing.assert_array_equal(solve_step(step).delta_q, solve_step(idle).delta_q)
+
+
+def test_private_rises_have_no_cost(rng):
+    cost = Extra((), np.zeros((0, 7)), [], H=np.eye(7), g=np.ones(7))
+    step = random_step(rng).replace(extra=cost)
+    raised = with_rises(step, Rises(loads=[1.0], masses=[1e-3], coordinates=[0]))
+    np.testing.assert_array_equal(raised.extra.H, np.diag([1.0] * 7 + [0.0]))
+    np.testing.assert_array_equal(raised.extra.g, [1.0] * 7 + [0.0])
+
+
+def spring(q):
+    """A soft spring of a user's own, as a cost: it pulls the sphere up to 1 mm a step."""
+    return Extension(lambda s: [40.0 * cp.square(s.delta_q[2] - 1e-3)])
+
+
+@pytest.mark.parametrize("settings", [[], ["cone=ellipsoid"], ["law=coulomb"]], ids=str)
+def test_a_run_with_a_cost_is_recorded_and_replayed(tmp_path, settings):
+    scenario = qr.load_scenario("sphere_spin", ["steps=3", *settings])
+    simulator = scenario.simulator(spring)
+    run = rollout(simulator, scenario.system.q_start, scenario.targets, 3, progress=False)
+    back = trajectory_read(run.save(tmp_path / "run.npz"))
+    assert back == run
+    step = back.step_data(2)
+    assert step.extra.H[2, 2] == 80.0
+    np.testing.assert_array_equal(back["H"][2], step.H)
+    np.testing.assert_array_equal(back["g"][2], qr.standard_form(step).g)
+    if not settings:
+        np.testing.assert_array_equal(solve_step(step, "daqp").delta_q, run["delta_q"][2])
+        assert set(run["certificate"].tolist()) == {"exact"}
+
+
+def test_fast_steps_with_a_cost_are_those_of_the_plain_path():
+    scenario = qr.load_scenario("sphere_spin", ["steps=3"])
+    plain = scenario.simulator(spring)
+    runs = [
+        rollout(one, scenario.system.q_start, scenario.targets, 3, progress=False)
+        for one in (plain, qr.FastSimulator(scenario.simulator(spring)))
+    ]
+    for name in ("q", "delta_q", "H", "g", "extra_H", "extra_g"):
+        np.testing.assert_array_equal(runs[0][name], runs[1][name])
+
+
+def test_one_step_by_the_fast_solver_is_that_of_any_other():
+    step = bounded_pinch()
+    solution = solve_step(step, fast=True)
+    assert solution.certificate.kind == "exact"
+    np.testing.assert_array_equal(solution.delta_q, solve_step(step).delta_q)
+
+
+def test_every_step_of_a_run_has_a_cost_or_none():
+    scenario = qr.load_scenario("sphere_spin", ["steps=2"])
+    first = scenario.system.q_start
+
+    def at_first(q):
+        return spring(q) if (q == first).all() else Extension()
+
+    simulator = scenario.simulator(at_first)
+    with pytest.raises(RunFailed, match="no quadratic cost in step 1, the step before has one"):
+        rollout(simulator, first, scenario.targets, 2, progress=False)
+
+
+def test_derivatives_of_an_extended_step_are_refused():
+    scenario = qr.load_scenario("sphere_spin")
+    with pytest.raises(InputError, match="extension: has no derivative"):
+        qr.derivatives(scenario.simulator(spring), scenario.system.q_start, np.zeros(0))
+
+
+def test_forces_of_a_step_with_a_cost_balance_its_load():
+    """A ball of weight m g whose cost pushes it down with W / h as well: f_n = m g + W / h."""
+    step = point_on_floor(m=M, force=(0.0, 0.0, -M * 9.81), h=H)
+    push = Extra((), np.zeros((0, 3)), [], g=[0.0, 0.0, -H * 2.0])
+    solution = solve_step(step.replace(extra=push))
+    assert_relative(solution.wrench[0, 2], M * 9.81 + 2.0, OPTIMUM)
+    assert_relative(solution.forces[0, 2], M * 9.81 + 2.0, 1e-5)
+
+
+def test_a_page_of_the_paper_refuses_a_cost():
+    with pytest.raises(StepDataError, match="has a user's own cost"):
+        qr.StepProblem(two_points(W))
