@@ -134,6 +134,10 @@ class ExactForm(ABC):
         """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
         return []
 
+    def of_different_contacts(self, some: Sequence[int]) -> list[int]:
+        """The first of some rows of each contact; of a program without contacts, all."""
+        return [*some]
+
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
         """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
         return (columns(self.exact_rows(some), slice(0, self.n + 1)) * z).entries()
@@ -239,7 +243,7 @@ class StepForm(ExactForm):
         self._own = own
         contact, kind = np.nonzero(self._mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(len(self._phi), k) for k in range(len(own))]
+        self._places += [(len(self._phi) + k, 0) for k in range(len(own))]
         self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.m = len(self._places)
@@ -286,8 +290,8 @@ class StepForm(ExactForm):
     def exact_row(self, i: int) -> Row:
         """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
         c, kind = self._places[i]
-        if c == len(self._J):
-            return [arb(v) for v in self._own[kind].tolist()]
+        if c >= len(self._phi):
+            return [arb(v) for v in self._own[c - len(self._phi)].tolist()]
         if c not in self._rows:
             with ctx.workprec(EXACT):
                 self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
@@ -299,7 +303,7 @@ class StepForm(ExactForm):
         slacks = []
         for i in some:
             c, kind = self._places[i]
-            if c == len(self._J):
+            if c >= len(self._phi):
                 slacks += super().slacks([i], z)
                 continue
             if c not in of_contact:
@@ -313,10 +317,14 @@ class StepForm(ExactForm):
         held: dict[int, tuple[int, ...]] = {}
         for c, kind in sorted(self._places[i] for i in working):
             held[c] = (*held.get(c, ()), kind)
-        held.pop(len(self._J), None)
-        kinds = {c: _implied_kinds(self._cone_name, of_c) for c, of_c in held.items()}
+        n_c = len(self._phi)
+        kinds = {c: _implied_kinds(self._cone_name, of_c) for c, of_c in held.items() if c < n_c}
         places = ((i, *self._places[i]) for i in some)
         return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
+
+    def of_different_contacts(self, some: Sequence[int]) -> list[int]:
+        """As of the base; a row of the user's own counts as a contact."""
+        return [*{self._places[i][0]: i for i in reversed(some)}.values()]
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [m, rad].

@@ -279,12 +279,20 @@ class Minimiser:
 
 def implied_rows(form: ExactForm, working: Sequence[int], some: Sequence[int]) -> list[int]:
     """Those of some rows, in increasing order, that are combinations [a, c] of the rows of W."""
-    by_cone = form.implied_by_cone(working, some)
-    others = sorted({*some} - {*by_cone})
-    if not others:
-        return by_cone
-    are_implied = implied(form.integers(working), form.integers(others))
-    return sorted([*by_cone, *(i for i, so in zip(others, are_implied, strict=True) if so)])
+    rows = []
+    held = [*working]
+    others = [*some]
+    while others:
+        by_cone = form.implied_by_cone(held, others)
+        others = sorted({*others} - {*by_cone})
+        # One row of each contact: if it is implied, the cone mostly implies what is left there.
+        first = form.of_different_contacts(others)
+        are_implied = implied(form.integers(working), form.integers(first))
+        shown = [i for i, is_implied in zip(first, are_implied, strict=True) if is_implied]
+        rows += by_cone + shown
+        held += shown
+        others = sorted({*others} - {*first})
+    return sorted(rows)
 
 
 def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:

@@ -55,15 +55,9 @@ class CvxpyProblem(StepProblem):
     def check_kind(self) -> None:
         """Accept every cone, rows and costs of a user's own: this problem states them all."""
 
-    def fill(self, step: StepData) -> None:
-        """Set every parameter from one step.
-
-        Raises
-        ------
-        StepDataError
-            If the step is of another kind, naming what differs.
-        """
-        super().fill(step)
+    def set_parameters(self, step: StepData) -> None:
+        """Those of the base, and those of a user's own rows, from a step of its kind."""
+        super().set_parameters(step)
         self.parameters["A_extra"].save_value(step.extra.A)
         self.parameters["b_extra"].save_value(step.extra.b)
         if step.extra.cost is not None:

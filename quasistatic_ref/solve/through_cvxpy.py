@@ -64,7 +64,7 @@ class CvxpySolver(BackendSolver):
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         assert isinstance(both, DenseStepInBothUnits)
         near, out_of_reach = within_reach(both.natural_step)
-        self.problem.fill(near)
+        self.problem.set_parameters(near)
         return out_of_reach
 
     def reply(self, option_set: OptionSet, both: StepInBothUnits) -> Reply:

@@ -192,4 +192,5 @@ class Frames(NamedTuple):
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
     """(mu_v, mu_v, mu_omega), shape (n_c, 3) [-, -, m], of fields of contacts, each (n_c,)."""
-    return read_only(np.column_stack([mu_v, mu_v, mu_omega * has_torsion(rows)]))
+    mu = np.array([mu_v, mu_v, mu_omega * has_torsion(rows)])
+    return read_only(np.ascontiguousarray(mu.T))

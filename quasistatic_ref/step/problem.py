@@ -135,6 +135,10 @@ class StepProblem:
             If the step is of another kind, naming what differs.
         """
         self.check(step)
+        self.set_parameters(step)
+
+    def set_parameters(self, step: StepData) -> None:
+        """The same for a step that is known to be of the problem's kind."""
         self.step = step
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
         self.parameters["K_q"].save_value(step.K_q)
