@@ -1,5 +1,6 @@
 """Studies small enough for a test, and functions that are broken on purpose."""
 
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -85,17 +86,18 @@ units = ["raw", "natural"]
 """
 
 
+def study_in(root, text, **changes):
+    """A study that is written beside the functions, and read."""
+    (root / "solvers.py").write_text(SOLVERS)
+    path = root / "study.toml"
+    path.write_text('format = "quasistatic-ref/study"\nversion = 2\n' + text)
+    return solver_study(path, toml_read(path), **changes)
+
+
 @pytest.fixture
 def study(tmp_path):
     """A function that writes a study file beside the functions, and reads it."""
-    (tmp_path / "solvers.py").write_text(SOLVERS)
-
-    def written(text, **changes):
-        path = tmp_path / "study.toml"
-        path.write_text('format = "quasistatic-ref/study"\nversion = 2\n' + text)
-        return solver_study(path, toml_read(path), **changes)
-
-    return written
+    return partial(study_in, tmp_path)
 
 
 @pytest.fixture
@@ -106,6 +108,13 @@ def run(study, tmp_path):
         return run_study(study(text), tmp_path / folder, progress=False, **options)
 
     return ran
+
+
+@pytest.fixture(scope="module")
+def whole(small, tmp_path_factory):
+    """The rows of the small study, and the folder with them."""
+    root = tmp_path_factory.mktemp("whole")
+    return run_study(study_in(root, small), root / "store", progress=False), root / "store"
 
 
 @pytest.fixture(scope="session")

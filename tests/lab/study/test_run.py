@@ -39,22 +39,18 @@ def facts(rows):
     return sorted(str(replace(row, **dict.fromkeys(MEASURED))) for row in rows)
 
 
-@pytest.fixture
-def whole(run, small):
-    return run(small)
-
-
-def test_every_measurement_is_a_row_once_and_libraries_read_them(whole, tmp_path):
-    assert len(whole) == len({key_of(row) for row in whole}) == CALLS
-    assert {row.outcome for row in whole} <= {"solved", "failed"}
-    natural = [row for row in whole if row.units == "natural" and row.solver == "mine"]
+def test_every_measurement_is_a_row_once_and_libraries_read_them(whole):
+    rows, store = whole
+    assert len(rows) == len({key_of(row) for row in rows}) == CALLS
+    assert {row.outcome for row in rows} <= {"solved", "failed"}
+    natural = [row for row in rows if row.units == "natural" and row.solver == "mine"]
     assert all(row.digits > 5 and not row.false_claim for row in natural)
-    assert all(0 < row.seconds_low <= row.seconds <= row.seconds_high for row in whole)
-    table = pandas.read_parquet(tmp_path / "store" / ROWS)
+    assert all(0 < row.seconds_low <= row.seconds <= row.seconds_high for row in rows)
+    table = pandas.read_parquet(store / ROWS)
     assert list(table.columns) == [field.name for field in fields(Row)]
-    assert table["seconds"].tolist() == [row.seconds for row in whole]
-    question = f"SELECT problem FROM '{tmp_path / 'store' / ROWS}' WHERE digits >= 6"
-    answer = [row.problem for row in whole if (row.digits or 0) >= 6]
+    assert table["seconds"].tolist() == [row.seconds for row in rows]
+    question = f"SELECT problem FROM '{store / ROWS}' WHERE digits >= 6"
+    answer = [row.problem for row in rows if (row.digits or 0) >= 6]
     assert [name for (name,) in duckdb.sql(question).fetchall()] == answer
 
 
@@ -75,7 +71,7 @@ def test_a_study_that_was_stopped_goes_on_and_measures_nothing_twice(
     assert len(before) == 7
     rows = run(small, "stopped")
     assert rows[:7] == before
-    assert facts(rows) == facts(whole)
+    assert facts(rows) == facts(whole[0])
     assert run(small, "stopped") == rows
     with pytest.raises(InputError, match="holds another study, of other problems or limits"):
         run(small.replace("mass_ratio = 2", "mass_ratio = 1"), "stopped")
@@ -145,7 +141,7 @@ def test_on_a_cluster_the_rows_are_the_same(run, small, whole, tmp_path):
         n_workers=1, threads_per_worker=2, dashboard_address=None
     ) as cluster:  # fmt: skip
         there = run(small, "there", scheduler=cluster.scheduler_address)
-    assert facts(there) == facts(whole)
+    assert facts(there) == facts(whole[0])
 
 
 ORDERED = """
