@@ -49,8 +49,12 @@ class Box(Rounded):
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above six planes."""
-        heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
+        heights = np.concatenate([points, -points], axis=1) - self._reach
         return heights, np.broadcast_to(AXES, (len(points), 6, 3))
+
+    @cached_property
+    def _reach(self) -> Array:
+        return np.tile(self.half_extents, 2)
 
     @property
     def corner_count(self) -> int:

@@ -187,7 +187,8 @@ class Frames(NamedTuple):
     @classmethod
     def of_all(cls, contacts: Sequence[Contacts]) -> Frames:
         """Those of the contacts of each step."""
-        return cls(*(np.concatenate([getattr(c, name) for c in contacts]) for name in cls._fields))
+        each = ([getattr(c, name) for c in contacts] for name in cls._fields)
+        return cls(*(arrays[0] if len(arrays) == 1 else np.concatenate(arrays) for arrays in each))
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:
