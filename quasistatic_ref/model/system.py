@@ -105,6 +105,9 @@ class System:
     notes : tuple of str
         Where the model differs from its files, e.g. ``arm: tool#0: mesh replaced by its hull``.
 
+    of_mjcf : bool
+        Whether its bodies are those of an MJCF scene, of whose elements a finding then speaks.
+
     Raises
     ------
     ModelError
@@ -153,6 +156,7 @@ class System:
         self.masses = world.masses
         self.ignored = world.ignored
         self.notes = world.notes
+        self.of_mjcf = False
         self.centres = world.centres
         self.inertias = world.inertias
         for array in (self.masses, self.centres, self.inertias):

@@ -15,8 +15,8 @@ from quasistatic_ref.optional.doctor.start import (
     body,
     free_bases,
     least,
+    more_points,
     slices,
-    table,
 )
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
@@ -60,7 +60,7 @@ def few_points(start: Start) -> Iterator[Finding]:
             yield Finding(
                 "too few points",
                 True,
-                f"raise k of {table(own[lacks][0])} to {len(every[lacks])}",
+                more_points(start, own[lacks][0], len(every[lacks])),
                 f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
                 "its centre of mass is not over these: it tips",
                 {"points": len(of_all), "kept": len(of_kept)},

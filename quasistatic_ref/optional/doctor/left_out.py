@@ -10,7 +10,7 @@ from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least, slices, table
+from quasistatic_ref.optional.doctor.start import least, more_points, slices
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import BEARS, SUNK
 
@@ -45,7 +45,7 @@ def border(run: Run) -> Iterator[Finding]:
             yield Finding(
                 "border of k",
                 False,
-                f"raise k of {table(pair)}",
+                more_points(run, pair),
                 f"all {pair.k - 1} contacts of {pair.name} bear load in the last step, and point "
                 f"{points.point[-1]}, the next nearest, ends {-1e6 * gap[-1]:.3g} um deep",
                 {"depth_um": -1e6 * float(gap[-1])},
@@ -64,7 +64,7 @@ def exchanged(run: Run) -> Iterator[Finding]:
             yield Finding(
                 "exchanged points",
                 False,
-                f"raise k of {table(pair)}, or take a smaller h",
+                f"{more_points(run, pair)}, or take a smaller h",
                 f"the nearest points of {pair.name} change and change back {times} times in "
                 f"{run.steps} steps, and its forces with them",
                 {"times": times, "steps": run.steps},

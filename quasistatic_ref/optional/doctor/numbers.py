@@ -14,7 +14,7 @@ MANY = 10
 
 def friction(start: Start) -> Iterator[Finding]:
     """A mu_v beyond that of anything, once for each table."""
-    rough = {table(pair): pair.mu_v for pair in start.pairs if pair.mu_v > ROUGH}
+    rough = {table(start, pair): pair.mu_v for pair in start.pairs if pair.mu_v > ROUGH}
     for name, mu_v in rough.items():
         yield Finding(
             "no friction coefficient",
@@ -43,7 +43,7 @@ def angle(start: Start) -> Iterator[Finding]:
 
 def count(start: Start) -> Iterator[Finding]:
     """A k far beyond the points of its pairs, once for each table."""
-    beyond = {table(pair): pair for pair in start.pairs if pair.k > MANY * pair.candidates}
+    beyond = {table(start, pair): pair for pair in start.pairs if pair.k > MANY * pair.candidates}
     for name, pair in beyond.items():
         yield Finding(
             "no count",

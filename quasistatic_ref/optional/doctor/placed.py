@@ -14,6 +14,7 @@ from quasistatic_ref.optional.doctor.start import (
     bodies,
     body,
     free_bases,
+    joining,
     least,
     slices,
     table,
@@ -64,7 +65,7 @@ def nothing_below(start: Start) -> Iterator[Finding]:
             yield Finding(
                 "unsupported body",
                 True,
-                f"add a table [contacts.NAME] of {name} and what should bear it",
+                joining(start, f"{name} and what should bear it"),
                 f"nothing that may touch {name} is below it: it falls past "
                 f"{listed(sorted({pair.name for pair, _ in own}))}",
                 {"pairs": len(own)},
@@ -78,7 +79,7 @@ def penetration(start: Start) -> Iterator[Finding]:
         return
     for pair, own in slices(start.pairs):
         depth = -float(start.points.phi[own].min(initial=0.0))
-        name = table(pair)
+        name = table(start, pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
             deepest[name] = Finding(

@@ -113,9 +113,28 @@ def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
         yield pair, slice(start, end)
 
 
-def table(pair: ContactPair) -> str:
-    """The table of a scenario that a pair is of, such as ``contacts.floor``."""
+def table(start: Start, pair: ContactPair) -> str:
+    """The table of a scenario that a pair is of, such as ``contacts.floor``; or a MuJoCo pair."""
+    if start.system.of_mjcf:
+        return f"contact[{pair.name}]"
     return f"contacts.{pair.name.partition('(')[0]}"
+
+
+def joining(start: Start, names: str) -> str:
+    """What lets some bodies touch, by the scene's own elements."""
+    if start.system.of_mjcf:
+        return (
+            f"let geoms of {names} touch (contype, conaffinity, and no contact/exclude), or add "
+            "some"
+        )
+    return f"add a table [contacts.NAME] of {names}"
+
+
+def more_points(start: Start, pair: ContactPair, count: int | None = None) -> str:
+    """What gives a pair more contacts, or as many as `count`, by the scene's own elements."""
+    if start.system.of_mjcf:
+        return f"split the geoms of {pair.name}, of which each pair has {pair.k} places at most"
+    return f"raise k of {table(start, pair)}" + ("" if count is None else f" to {count}")
 
 
 def sizes(shapes: Iterable[PlacedShape]) -> list[float]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least, slices, table
+from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUNK
@@ -18,15 +18,15 @@ def sunk(run: Run) -> Iterator[Finding]:
     first: dict[str, Finding] = {}
     gap = run.noted("gap")
     for pair, own in slices(run.pairs):
-        said = _surprise(pair, run["phi"][:, own], run["point"][:, own], gap[:, own])
-        name = table(pair)
+        said = _surprise(run, pair, run["phi"][:, own], run["point"][:, own], gap[:, own])
+        name = table(run, pair)
         if said and (name not in first or said.numbers["step"] < first[name].numbers["step"]):
             first[name] = said
     yield from first.values()
 
 
 def _surprise(
-    pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array
+    run: Run, pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array
 ) -> Finding | None:
     deepest = SUNK * least(pair)
     k, j = np.nonzero(phi[1:] < -deepest)  # contacts are in ascending distance
@@ -45,7 +45,7 @@ def _surprise(
     deep = f"{depth:.3g} mm deep at step {step}"
     numbers = {"depth_mm": depth, "step": step}
     what = "point" if pair.has_cloud or number[i] < pair.corners else "candidate"
-    raised = f"raise k of {table(pair)}"
+    raised = more_points(run, pair)
     if not considered[i]:
         left_out = f"was not among its {pair.n_c} closest at step {step - 1}"
         return Finding(

@@ -10,6 +10,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.scene_notes import side
+from quasistatic_ref.optional.doctor.start import joining
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -143,7 +144,8 @@ def still(run: Run) -> Iterator[Finding]:
         yield Finding(
             "no motion",
             True,
-            f"add targets, [[bodies.{bodies[0]}.targets]]",
+            "add targets, "
+            + ("--targets" if run.system.of_mjcf else f"[[bodies.{bodies[0]}.targets]]"),
             f"all targets are where {listed(bodies)} starts, so that nothing is driven, and no "
             f"pair of contacts.{idle[0]} ever touches",
             {"steps": task.steps},
@@ -190,8 +192,8 @@ def through(run: Run) -> Iterator[Finding]:
             said[key] = Finding(
                 "passes through",
                 True,
-                f"add a table [contacts.NAME] of {listed(names)}, or keep them apart",
-                f"no table joins them, and they pass through each other, {length(depth)} deep "
+                joining(run, listed(names)) + ", or keep them apart",
+                f"nothing lets them touch, and they pass through each other, {length(depth)} deep "
                 f"at {k * task.h:.2f} s",
                 {"depth_mm": 1e3 * depth, "step": k - 1},
             )

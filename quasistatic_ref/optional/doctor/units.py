@@ -33,7 +33,7 @@ def long_shapes(start: Start) -> Iterator[Finding]:
 def large_mu_omega(start: Start) -> Iterator[Finding]:
     """mu_omega longer than the smaller body, once for each table of contacts."""
     rough = [pair for pair in start.pairs if pair.mu_omega > least(pair)]
-    for name, pair in {table(pair): pair for pair in rough}.items():
+    for name, pair in {table(start, pair): pair for pair in rough}.items():
         yield Finding(
             "unit of mu_omega",
             True,

@@ -5,16 +5,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start, bodies, free_bases
+from quasistatic_ref.optional.doctor.start import Start, bodies, body, free_bases, joining
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import BEARS
+from quasistatic_ref.tolerances import BEARS, FILLED
 
 
 def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables joins to what stands."""
     free = {*free_bases(start.system)}
-    borne = {"world", *(b.name for b in start.system.bodies)} - free
+    borne = {body(start.system, link) for link in range(len(start.system.links))} - free
     joined = [bodies(start.system, pair) for pair in start.pairs]
     for _ in free:  # a chain is no longer
         borne |= {name for pair in joined if pair & borne for name in pair}
@@ -24,6 +24,7 @@ def alone(start: Start) -> set[str]:
 def unsupported(start: Start) -> Iterator[Finding]:
     """Bodies that are joined to nothing, if they weigh anything."""
     joined = [bodies(start.system, pair) for pair in start.pairs]
+    joint = "pair of geoms" if start.system.of_mjcf else "table"
     for name in sorted(alone(start)) if start.g else ():
         touching = [pair - {name} for pair in joined if name in pair]
         others = " but to bodies that fall as well" if any(touching) else ""
@@ -31,8 +32,8 @@ def unsupported(start: Start) -> Iterator[Finding]:
         yield Finding(
             "unsupported body",
             True,
-            f"add a table [contacts.NAME] of {name} and what should bear it",
-            f"no table joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
+            joining(start, f"{name} and what should bear it"),
+            f"no {joint} joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
             {"weight_N": weight},
         )
 
@@ -71,4 +72,7 @@ def _remedy(own: Array, run: Run, first: int) -> str:
         return "hold it more firmly or longer, or put something below it"
     k = int(np.abs(run["phi"][0, own]).argmin())
     gap = 1e3 * float(run["phi"][0, own][k])
-    return f"start it on what should bear it, {gap:.4g} mm away at the start"
+    beyond = gap >= 1e3 * FILLED  # farther away than what has a distance
+    return "start it on what should bear it" + (
+        "" if beyond else f", {gap:.4g} mm away at the start"
+    )

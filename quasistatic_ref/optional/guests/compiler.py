@@ -71,7 +71,13 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
         raise fence.too_much(f"needs more than {MEMORY / 2**30:g} GiB, or ends MuJoCo") from None
     outcome = json.loads(line)
     if "refused" in outcome:
-        raise fence.refusal(outcome["refused"])
+        refusal = fence.refusal(outcome["refused"])
+        if "allocate memory" in outcome["refused"]:
+            refusal.problem = (
+                f"needs more than the {MEMORY / 2**30:g} GiB that this package lets MuJoCo have; "
+                "ask for less"
+            )
+        raise refusal
     if "makes" in outcome:
         raise fence.too_much(f"makes {outcome['makes']}")
     model: MjModel = mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary})

@@ -6,6 +6,7 @@ file in several places; each of them at which there is one is checked.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -33,11 +34,12 @@ _COUNTED = {
     "flexcomp": ("count", MOST_COPIES),
     "hfield": ("nrow", "ncol", MOST_NUMBERS),
     "texture": ("width", "height", MOST_NUMBERS),
-    "mesh": ("params", MOST_NUMBERS // 4),
     "numeric": ("size", MOST_NUMBERS),
     "user": ("dim", MOST_NUMBERS),
 }
 """Element -> attributes of which the product of all numbers is bounded, and the bound."""
+RESOLUTIONS = {"wedge": 2, "plate": 2}
+"""Built-in meshes whose corners are a grid of their first two parameters, or that many squared."""
 
 
 @dataclass
@@ -173,6 +175,11 @@ class Fence:
                         asked = self._product(element, attribute)
                         if not asked <= MOST_NUMBERS:
                             raise _about(element, attribute, f"must be at most {MOST_NUMBERS}")
+            if element.tag == "mesh":
+                corners = self._corners(element)
+                if not corners <= MOST_NUMBERS // 4:
+                    problem = f"makes {corners:g} corners, more than {MOST_NUMBERS // 4}"
+                    raise _about(element, "params", problem)
             if element.tag in _COUNTED:
                 *attributes, most = _COUNTED[element.tag]
                 product = 1.0
@@ -182,6 +189,19 @@ class Fence:
                         problem = f"makes more than {most} parts or numbers"
                         raise _about(element, attribute, problem)
             front.extend((child, inner) for child in element)
+
+    def _corners(self, element: Element) -> float:
+        """Corners of a built-in mesh, by its resolutions; its other parameters are lengths."""
+        words = element.get("params", "").split()
+        count = RESOLUTIONS.get(element.get("builtin", ""), 1)
+        try:
+            sizes = [max(abs(float(word)), 1.0) for word in words[:count]]
+        except ValueError:
+            return 0.0  # MuJoCo says what is wrong with it
+        product = math.prod(sizes) ** (2 if count == 1 else 1)
+        if product > 1:
+            self.costs.append((product, element, "params"))
+        return product
 
     def _product(self, element: Element, attribute: str) -> float:
         """The product of the sizes of an attribute's numbers, each at least 1."""

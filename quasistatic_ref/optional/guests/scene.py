@@ -213,8 +213,13 @@ def mujoco_scenario(
     cone = value(top, TOP, "cone") if named_cone else ELLIPSOID if elliptic else PYRAMID
     of_equalities = [n for n in system.rows.names if n.startswith("equality")]
     if cone == ELLIPSOID and of_equalities:
-        problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
-        raise ModelError(problem, field=of_equalities[0].partition(" (")[0])
+        held = of_equalities[0].partition(" (")[0]
+        if named_cone:
+            problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
+            raise ModelError(problem, field=held)
+        cone = PYRAMID
+        note = f'option.cone: elliptic; the run takes "pyramid", since {held} is two rows, which '
+        system.notes = (*system.notes, note + "leave the ellipsoid no interior")
     certify = value(solver, SOLVER, "certify")
     controls, columns = controls_of(mujoco, model, data, steps * h, targets, system)
     actuation = _driven(system, controls, data.act.copy(), h)
@@ -368,12 +373,14 @@ def controls_of(
 
 
 def words(scene: MujocoScenario) -> str:
-    """What may touch, within which gap, and how much is left out, in one line."""
+    """What may touch, within which gap, and how much is left out, and notes, in lines."""
     places = scene.of_mujoco.places
+    notes = "".join(f"{note}\n" for note in scene.of_mujoco.notes)
     left_out = len(scene.of_mujoco.ignored)
+    count = int(places.counts.sum())
     return (
-        f"{len(places.pairs)} pairs of geoms with {int(places.counts.sum())} places for contacts, "
-        f"within a margin of {1e3 * places.margin:g} mm; {left_out} sentences of what is left out "
+        f"{notes}{len(places.pairs)} pairs of geoms with {count} places for contacts, within a "
+        f"margin of {1e3 * places.margin:g} mm; {left_out} sentences of what is left out "
         "(system.ignored)"
     )
 

@@ -275,6 +275,7 @@ class MujocoSystem(System):
         self.shapes = tuple(s for s in self.places.shapes.values() if s.link)
         self.mimics = ()
         self.notes = ()
+        self.of_mjcf = True
         self.constant_mass_matrix = False
         self.varying_mass = None
         self.mass_blocks = np.zeros((0, 6, 6))

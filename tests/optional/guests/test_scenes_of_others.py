@@ -1,0 +1,124 @@
+"""MuJoCo scenes as others write them: cones, meshes, mocap bodies, sizes, and sentences on them."""
+
+import re
+
+import mujoco
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import ModelError
+
+BOX = '<geom {}type="box" size="0.05 0.05 0.05" mass="1"{}/>'
+FREE = '<body name="box" pos="{}"><freejoint/>{}</body>'
+
+
+def scene(bodies, rest="", option="", **fields):
+    text = f"<mujoco>{option}<worldbody>{bodies}</worldbody>{rest}</mujoco>"
+    return qr.mujoco_scenario(mujoco.MjModel.from_xml_string(text), **fields)
+
+
+WELD = '<equality><weld body1="box"/></equality>'
+CONNECT = '<equality><connect body1="box" anchor="0 0 0.05"/></equality>'
+ELLIPTIC = '<option cone="elliptic"/>'
+FLOOR = '<geom name="floor" type="plane" size="1 1 1"/>'
+ON_FLOOR = FLOOR + FREE.format("0 0 0.05", BOX.format("", ""))
+
+
+@pytest.mark.parametrize("equality", [WELD, CONNECT])
+def test_equalities_in_the_elliptic_cone_take_the_pyramid_with_a_note(equality):
+    made = scene(ON_FLOOR, equality, ELLIPTIC, steps=2)
+    assert made.cone == "pyramid"
+    (note,) = made.system.notes
+    assert note.startswith('option.cone: elliptic; the run takes "pyramid", since equality[0] is')
+    assert len(made.run(progress=False)) == 2
+    with pytest.raises(ModelError, match=r"equality\[0\]: is two rows"):
+        scene(ON_FLOOR, equality, ELLIPTIC, cone="ellipsoid")
+    assert not scene(ON_FLOOR, "", ELLIPTIC).system.notes
+
+
+TWO_GROUPS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng a\nf 1 2 3\ng b\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+STRAY = TWO_GROUPS + "v 0.9 0.9 0.9\n"
+INWARD = "v -1 -1 -1\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 1 3\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+
+
+@pytest.mark.parametrize("obj", [TWO_GROUPS, STRAY, INWARD], ids=["groups", "stray", "inward"])
+def test_a_mesh_has_the_hull_of_all_its_vertices_as_mujoco_has_it(tmp_path, obj):
+    (tmp_path / "m.obj").write_text(obj)
+    file = tmp_path / "m.xml"
+    mesh = '<asset><mesh name="m" file="m.obj" scale="0.1 0.1 0.1" inertia="convex"/></asset>'
+    body = FREE.format("0 0 0.2", '<geom type="mesh" mesh="m"/>')
+    file.write_text(f"<mujoco>{mesh}<worldbody>{FLOOR}{body}</worldbody></mujoco>")
+    model = mujoco.MjModel.from_xml_path(str(file))
+    (hull,) = [
+        placed.shape
+        for placed in qr.mujoco_scenario(model).of_mujoco.places.shapes.values()
+        if placed.link
+    ]
+    graph = model.mesh_graph[model.mesh_graphadr[0] :]
+    corners = model.mesh_vert[graph[2 + graph[0] : 2 + 2 * graph[0]]]
+    assert len(hull.vertices) == len(corners)
+    for vertex in hull.vertices:
+        assert np.abs(corners - vertex).max(axis=1).min() < 1e-7
+
+
+def test_what_a_mocap_body_carries_is_borne():
+    table = (
+        '<body name="table" mocap="true"><geom type="box" size="1 1 0.1" pos="0 0 -0.1"/></body>'
+    )
+    box = FREE.format("0 0 0.05", BOX.format("", ""))
+    run = scene(table + box, steps=3).run(progress=False)
+    assert not run.findings
+    assert np.abs(run["q"][-1] - run["q"][0]).max() < 1e-9
+
+
+def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
+    apart = BOX.format("", ' contype="0" conaffinity="0"')
+    (found,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run(progress=False).findings
+    assert "let geoms of box and what should bear it touch (contype" in found.remedy
+    assert "no pair of geoms joins box" in found.cause
+    assert "contacts." not in found.sentence
+
+
+def test_other_findings_name_the_pair_and_no_table_of_a_scenario():
+    made = scene(ON_FLOOR.replace('name="floor"', 'name="floor" friction="30"'), steps=2)
+    (found,) = made.run(progress=False).findings
+    assert "check mu_v of contact[world-box(floor, geom1)]" in found.remedy
+
+
+def test_a_high_body_falls_without_a_distance_that_is_none():
+    ball = FREE.format("0 0 0.5", '<geom size="0.05"/>')
+    found = scene(FLOOR + ball, steps=20).run(progress=False).findings
+    assert [one.name for one in found] == ["starts in the air", "free fall"]
+    assert "lower box by 450 mm" in found[0].remedy
+    assert "e+09" not in found[1].sentence
+
+
+MESHES = {
+    "wedge": ('builtin="wedge" params="37 37 45 45 0"', ""),
+    "plate": ('builtin="plate" params="20 30"', ""),
+    "large plate": ('builtin="plate" params="2000 3000"', "makes 6e.06 corners"),
+    "supersphere": ('builtin="supersphere" params="2000 1 1"', "makes 4e.06 corners"),
+}
+
+
+@pytest.mark.parametrize(("mesh", "refusal"), MESHES.values(), ids=MESHES)
+def test_corners_of_a_built_in_mesh_are_counted_by_its_resolutions(tmp_path, capsys, mesh, refusal):
+    geom = '<geom type="mesh" mesh="w" mass="0" contype="0" conaffinity="0"/>'
+    file = tmp_path / "m.xml"
+    body = FREE.format("0 0 0.05", BOX.format("", "") + geom)
+    asset = f'<asset><mesh name="w" {mesh}/></asset>'
+    file.write_text(f"<mujoco>{asset}<worldbody>{FLOOR}{body}</worldbody></mujoco>")
+    out = str(tmp_path / "out.npz")
+    status = main(["run", str(file), "--set", "steps=2", "--out", out, "--quiet"])
+    assert bool(status) == bool(refusal)
+    assert re.search(f"mesh.w.*{refusal}" if refusal else "", capsys.readouterr().err)
+
+
+def test_memory_that_this_package_does_not_let_mujoco_have_is_its_own_limit(tmp_path, capsys):
+    file = tmp_path / "m.xml"
+    file.write_text(f'<mujoco><size memory="64G"/><worldbody>{ON_FLOOR}</worldbody></mujoco>')
+    assert main(["run", str(file)])
+    said = capsys.readouterr().err
+    assert "size.memory: needs more than the 2 GiB that this package lets MuJoCo have" in said
