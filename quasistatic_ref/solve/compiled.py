@@ -31,6 +31,9 @@ CANON = cp.CPP_CANON_BACKEND
 """CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
 another by itself, which fails at a product of mu_v with J_1 delta_q (docs/studies.md)."""
 
+MOST_ENTRIES = 200_000
+"""Most entries of parameters whose map is compiled: of four times as many it takes 7 GiB."""
+
 
 @dataclass(frozen=True, eq=False)
 class ProblemData:
@@ -52,9 +55,20 @@ class ProblemData:
 
 
 def problem_data(problem: cp.Problem, name: str, options: Options) -> ProblemData:
-    """The data as CVXPY forms them, for any backend; the first call compiles the problem."""
-    data = problem.get_problem_data(name.upper(), canon_backend=CANON, solver_opts=options)
+    """The data as CVXPY forms them, for any backend.
+
+    The first call compiles the problem, unless its parameters are many: their values then count as
+    constants, in each call.
+    """
+    data = problem.get_problem_data(
+        name.upper(), ignore_dpp=is_large(problem), canon_backend=CANON, solver_opts=options
+    )
     return ProblemData(*data)
+
+
+def is_large(problem: cp.Problem) -> bool:
+    """Whether a problem has more entries of parameters than are compiled."""
+    return bool(sum(parameter.size for parameter in problem.parameters()) > MOST_ENTRIES)
 
 
 class CompiledMap:

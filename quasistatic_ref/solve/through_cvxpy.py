@@ -9,7 +9,7 @@ import cvxpy.settings as words
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, problem_data
+from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
@@ -81,6 +81,8 @@ class CvxpySolver(BackendSolver):
     def _map(self) -> CompiledMap | None:
         """The compiled map from parameters to data, where it serves; the problem is filled."""
         problem = self.problem.problem
+        if is_large(problem):
+            return None
         template = problem_data(problem, self.name, {})
         return CompiledMap(problem, template) if CompiledMap.serves(template) else None
 

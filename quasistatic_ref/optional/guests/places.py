@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections import Counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,6 +40,11 @@ MANY, BOXES = 4, 8
 """Places of a pair: one of what is round, two of a capsule, and of two boxes as many as a face cut
 by a face has corners; no other pair has more than four contacts that matter."""
 
+MOST_PLACES = 20_000
+"""Most places for contacts: they take some 20 kB each."""
+MOST_ENTRIES = 10_000_000
+"""Most entries of J."""
+
 
 class Places:
     """Pairs of geoms that MuJoCo's filters let touch, and the places of their contacts.
@@ -61,7 +67,7 @@ class Places:
     Raises
     ------
     ModelError
-        If friction differs in two directions, or a geom is a field.
+        If friction differs in two directions, a geom is a field, or the places are too many.
     """
 
     def __init__(self, state: Still, margin: float) -> None:
@@ -72,7 +78,9 @@ class Places:
         self.geoms = np.zeros((0, 2), dtype=np.int64)
         pairs = []
         geoms = []
-        for touch in _filtered(state):
+        touching = _filtered(state)
+        _check_count(state, touching)
+        for touch in touching:
             a, b = sorted(touch.geom.tolist(), key=lambda g: (state.model.geom_type[g], g))
             pairs.append(self._pair(state, touch, a, b))
             geoms.append((a, b))
@@ -93,9 +101,6 @@ class Places:
         if touch.dim > 1 and mu[0] != mu[1]:
             problem = "differs in its two directions, for which there is no cone; use one for both"
             raise ModelError(problem, field=f"contact[{name}].friction", value=mu[:2].tolist())
-        kinds = {geom_kind(state, g) for g in (a, b)}
-        k = BOXES if kinds == {"BOX"} else MANY
-        k = 1 if kinds & {*ONE} else 2 if kinds & {*TWO} else k
         return ContactPair(
             name=name,
             alpha=sides[0],
@@ -103,7 +108,7 @@ class Places:
             mu_v=float(mu[0]) if touch.dim > 1 else 0.0,
             mu_omega=float(mu[2]) if touch.dim > 3 else 0.0,
             rows=6 if touch.dim > 3 else 4,
-            k=k,
+            k=_places_of(state, a, b),
         )
 
     def points(self, state: Still) -> ClosestPoints:
@@ -159,6 +164,35 @@ class Places:
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
+def _places_of(state: Still, a: int, b: int) -> int:
+    """Places of a pair of geoms, by their kinds."""
+    kinds = {geom_kind(state, g) for g in (a, b)}
+    if kinds & {*ONE}:
+        return 1
+    if kinds & {*TWO}:
+        return 2
+    return BOXES if kinds == {"BOX"} else MANY
+
+
+def _check_count(state: Still, touching: list[MjContact]) -> None:
+    """Refuse pairs of more places than a step has memory for, naming the trees that have most."""
+    counts: Counter[tuple[str, ...]] = Counter()
+    for touch in touching:
+        trees = tuple(sorted(_tree(state, g) for g in touch.geom.tolist()))
+        counts[trees] += _places_of(state, *touch.geom.tolist())
+    places = counts.total()
+    if places <= MOST_PLACES and 4 * places * state.model.nv <= MOST_ENTRIES:
+        return
+    (trees, most) = counts.most_common(1)[0]
+    problem = (
+        f"are {len(touching)} pairs with {places} places for contacts, by {state.model.nv} "
+        f"coordinates, and a run has at most {MOST_PLACES} and {MOST_ENTRIES} entries of J; "
+        f"{most} of them are of {trees[0]} and {trees[1]}: exclude them (contact/exclude, "
+        "contype, conaffinity), or take fewer geoms"
+    )
+    raise ModelError(problem, field="geoms that may touch")
+
+
 def _filtered(state: Still) -> list[MjContact]:
     """One contact of each pair that may touch, by MuJoCo's own filters.
 
@@ -172,7 +206,19 @@ def _filtered(state: Still) -> list[MjContact]:
         gaps[:] = ALL
     data = copy.copy(state.data)
     mujoco.mj_kinematics(balls, data)
-    mujoco.mj_collision(balls, data)
+    count = int(((balls.geom_contype | balls.geom_conaffinity) != 0).sum())
+    try:
+        mujoco.mj_collision(balls, data)
+        held = not data.warning[mujoco.mjtWarning.mjWARN_CONTACTFULL].number
+    except mujoco.FatalError:
+        held = False
+    if not held or data.ncon > MOST_PLACES:
+        problem = (
+            f"are {count}, and make more pairs than size.memory holds, {balls.narena} bytes, or a "
+            f"run, {MOST_PLACES}; exclude some (contact/exclude, contype, conaffinity), or take "
+            "fewer geoms"
+        )
+        raise ModelError(problem, field="geoms that may touch")
     found = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
     return [found[geoms] for geoms in sorted(found)]
 

@@ -1,5 +1,7 @@
 """Findings of what steps did not represent: what triggers each, and the near miss that does not."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -28,6 +30,7 @@ class Made:
     def __init__(self, pairs, **arrays):
         nothing = np.zeros_like(arrays["phi"])
         self.pairs = pairs
+        self.system = SimpleNamespace(of_mjcf=False)
         self.arrays = {"point": nothing.astype(int), "gap": nothing} | arrays
 
     def __getitem__(self, name):

@@ -62,7 +62,7 @@ REFUSED = {
         "body[c]: is one of more than 1000 bodies",
     ),
     "memory": (
-        '<size memory="10T"/>', "size.memory: MuJoCo refuses it: Error: engine error: Could not"
+        '<size memory="10T"/>', "size.memory: needs more than the 2 GiB that this package lets"
     ),
     "an unknown attribute": ('<option foo="1"/>', "option.foo: MuJoCo refuses it: XML Error: "),
     "a size": (

@@ -9,6 +9,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.solve.compiled import is_large
+from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
 BOX = '<geom {}type="box" size="0.05 0.05 0.05" mass="1"{}/>'
 FREE = '<body name="box" pos="{}"><freejoint/>{}</body>'
@@ -122,3 +124,45 @@ def test_memory_that_this_package_does_not_let_mujoco_have_is_its_own_limit(tmp_
     assert main(["run", str(file)])
     said = capsys.readouterr().err
     assert "size.memory: needs more than the 2 GiB that this package lets MuJoCo have" in said
+
+
+def many(count, memory="50M"):
+    """Two bodies of boxes, as bowls are made of."""
+    side = range(count)
+    boxes = "".join(f'<geom type="box" size=".01 .01 .01" pos="{0.03 * i} 0 0"/>' for i in side)
+    bodies = "".join(
+        f'<body name="{name}" pos="0 0 {z}"><freejoint/>{boxes}</body>'
+        for name, z in (("bowl", 0.1), ("lid", 0.2))
+    )
+    return bodies, "", f'<size memory="{memory}"/>'
+
+
+def test_places_are_counted_before_they_are_made_and_the_refusal_says_what_to_exclude():
+    assert scene(*many(20), steps=1).of_mujoco.places.counts.sum() == 20 * 20 * 8
+    with pytest.raises(ModelError) as refused:
+        scene(*many(60))
+    said = str(refused.value)
+    assert said.startswith("geoms that may touch: are 3600 pairs with 28800 places for contacts")
+    assert "28800 of them are of bowl and lid: exclude them (contact/exclude" in said
+
+
+def test_pairs_that_mujoco_has_no_memory_for_are_not_left_out_in_silence():
+    with pytest.raises(ModelError, match=r"geoms that may touch: are 200, and make more pairs"):
+        scene(*many(100, "1M"))
+
+
+def test_a_step_of_many_coordinates_is_solved_without_the_map_of_its_parameters():
+    boxes = "".join(
+        FREE.format(f"{0.3 * i} 0 0.0499", BOX.format("", "")).replace(
+            'name="box"', f'name="box{i}"'
+        )
+        for i in range(48)
+    )
+    text = f"<mujoco><worldbody>{FLOOR}{boxes}</worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    step, _ = qr.mujoco_step(model, mujoco.MjData(model), 0.01)
+    solver = CvxpySolver(step)
+    assert is_large(solver.problem.problem)
+    answer = qr.solve_step(step)
+    assert answer.certificate.kind == "exact"
+    assert answer.forces[:, 2].sum() == pytest.approx(48 * 9.81)
