@@ -18,6 +18,8 @@ SURFACE = 10
 AWAY = 0.05
 """A stray point is so far from the surface, over its extent [-]: islands within the unseen parts of
 a scan are nearer."""
+COVERING = 20_000
+"""Points among which those are looked for that cover a surface evenly."""
 PLANE = 16
 """Points through which a plane is laid, to smooth noise."""
 
@@ -46,8 +48,10 @@ def stray(points: Array) -> NDArray[np.bool_]:
     if not few.any() or few.all():
         return np.zeros(n, dtype=bool)
     surface = points[~few]
-    away, _ = cKDTree(surface).query(points)
-    return np.asarray(few & (away > AWAY * np.ptp(surface, axis=0).max()))
+    away, _ = cKDTree(surface).query(points[few])
+    apart = few.copy()
+    apart[few] = away > AWAY * np.ptp(surface, axis=0).max()
+    return apart
 
 
 def smoothed(points: Array) -> Array:
@@ -69,13 +73,16 @@ def thinned(points: Array, count: int) -> Indices:
 
     Corners of the convex hull are what the body can lie on, and stand first: of equally low points
     the first ones become contacts. Each further point is, of all, the farthest from those before
-    it, so that the whole surface is covered evenly.
+    it, so that the whole surface is covered evenly; of very many points, it is so of those whose
+    numbers are equally far apart.
     """
     corners = ConvexHull(points).vertices
     if len(points) <= count:
         return np.concatenate([np.sort(corners), np.setdiff1d(np.arange(len(points)), corners)])
     chosen = _farthest(points[corners], [], min(count // 2, len(corners)))
-    return _farthest(points, corners[chosen].tolist(), count)
+    some = np.arange(0, len(points), -(-len(points) // COVERING))
+    some = np.concatenate([corners[chosen], np.setdiff1d(some, corners[chosen])])
+    return np.asarray(some[_farthest(points[some], list(range(len(chosen))), count)])
 
 
 def _farthest(points: Array, chosen: list[int], count: int) -> Indices:

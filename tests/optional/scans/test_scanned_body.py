@@ -1,8 +1,11 @@
 """Bodies from scans: mass properties against formulas, strays, units, and what is refused."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 import trimesh
+from scipy.spatial import cKDTree
 
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
@@ -186,3 +189,15 @@ def test_a_cloud_on_a_coarse_grid_is_told_so(tmp_path):
     assert not [note for note in body(tmp_path, points).notes if "grid" in note]
     made = body(tmp_path, np.unique(points.round(2), axis=0))
     assert [note for note in made.notes if "on a grid of 10 mm" in note]
+
+
+def test_of_very_many_points_a_sample_is_covered_evenly_and_corners_stay_first():
+    rng = np.random.default_rng(3)
+    ball = rng.normal(size=(60_000, 3))
+    ball *= 0.1 / np.linalg.norm(ball, axis=1, keepdims=True)
+    cube = 0.2 * np.array(list(product((-1.0, 1.0), repeat=3)))
+    kept = thinned(np.concatenate([ball, cube]), 500)
+    assert len(np.unique(kept)) == 500
+    assert {*kept[:8].tolist()} == {*range(60_000, 60_008)}
+    away, _ = cKDTree(ball[kept[8:]]).query(ball)
+    assert away.max() < 0.02  # 492 discs of that radius cover the ball's surface 4.9 times
