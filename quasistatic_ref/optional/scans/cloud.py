@@ -51,7 +51,7 @@ def stray(points: Array) -> NDArray[np.bool_]:
     away, _ = cKDTree(surface).query(points[few])
     apart = few.copy()
     apart[few] = away > AWAY * np.ptp(surface, axis=0).max()
-    return apart
+    return np.asarray(apart)
 
 
 def smoothed(points: Array) -> Array:
