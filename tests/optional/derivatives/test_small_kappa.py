@@ -15,7 +15,7 @@ def pinched():
     return simulator, q, target, qr.derivatives(simulator, q, target)
 
 
-@pytest.mark.parametrize("kappa", [1e-12, 1e-14, 1e-16, 1e-18, 1e-20, 1e-25, 1e-30])
+@pytest.mark.parametrize("kappa", [1e-12, 1e-16, 1e-20, 1e-30])
 def test_derivatives_tend_to_the_exact_ones_with_kappa_as_far_as_it_goes(pinched, kappa):
     """The bias is proportional to kappa, down to rounding."""
     simulator, q, target, exact = pinched
@@ -38,7 +38,7 @@ def test_how_large_the_bias_of_a_kappa_is_as_the_page_says(pinched):
 @pytest.mark.parametrize("kappa", [1e-12, 1e-20, 1e-25, 1e-30])
 def test_a_sphere_that_spins_has_derivatives_at_every_kappa(kappa):
     """Its rows depend on each other: in float64 the equations are singular."""
-    scenario = qr.load_scenario("sphere_spin")
+    scenario = qr.load_scenario("sphere_spin", steps=6)
     simulator = scenario.simulator()
     q = scenario.run(progress=False).q[5]
     target = scenario.targets(39 * scenario.h)
