@@ -10,12 +10,10 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.optional.show.table import data_frame
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
-from quasistatic_ref.simulate.simulator import SCENE_FINDINGS
-from quasistatic_ref.simulate.trajectory import STEPS_TABLE, trajectory_read
+from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
@@ -47,26 +45,23 @@ class Missing:
             raise ModuleNotFoundError(name=name)
 
 
-def test_what_fills_a_slot_is_there_or_none_and_a_mistaken_name_is_no_missing_part(without):
-    assert STEPS_TABLE.found() is data_frame
-    assert Slot("nothing.at_all").found() is None
-    with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"):
-        Slot("show.tabel").found()
+def test_a_missing_part_is_one_sentence_and_a_mistaken_name_is_no_missing_part(without):
+    with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"), needing("tables"):
+        from quasistatic_ref.optional.show.tabel import data_frame
+    with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"), if_there():
+        from quasistatic_ref.optional.show.tabel import data_frame
+    with pytest.raises(ModuleNotFoundError, match="no_package_of_this_name"), if_there():
+        import no_package_of_this_name  # noqa: F401
     without("show")
-    assert STEPS_TABLE.found() is None
-    assert SCENE_FINDINGS.found() is not None
+    reached = []
+    with if_there():
+        from quasistatic_ref.optional.show.table import data_frame
 
-
-def test_every_slot_is_filled_by_the_module_that_it_names():
-    loaded = [module for name, module in sys.modules.items() if name.startswith("quasistatic_ref.")]
-    slots = {
-        f"{module.__name__}.{name}": slot
-        for module in loaded
-        for name, slot in vars(module).items()
-        if isinstance(slot, Slot)
-    }
-    assert len(slots) > 40
-    assert [name for name, slot in slots.items() if slot.found() is None] == []
+        reached.append(data_frame)
+    assert reached == []
+    sentence = r"^tables needs quasistatic_ref/optional/show$"
+    with pytest.raises(InputError, match=sentence), needing("tables"):
+        from quasistatic_ref.optional.show.table import data_frame
 
 
 @pytest.mark.parametrize(

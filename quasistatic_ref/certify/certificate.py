@@ -12,7 +12,7 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -31,7 +31,7 @@ from quasistatic_ref.certify.rows import contact_rows, flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import HasPage
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
@@ -132,11 +132,6 @@ def exact_certificate(
     )
 
 
-BOUND_VERDICT: Slot[Callable[[StepData, Array, Array | None, float | None], Verdict]] = Slot(
-    "large.judged"
-)
-
-
 def verify(
     step: StepData,
     delta_q: Array,
@@ -181,8 +176,9 @@ def verify(
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
     if claims is not None and claims.kind == "residual":
-        judged = BOUND_VERDICT.needed('a certificate of kind "residual"')
-        return judged(step, delta_q, lam, claims.error_bound)
+        with needing('a certificate of kind "residual"'):
+            from quasistatic_ref.optional.large.judged import bound_verdict
+        return bound_verdict(step, delta_q, lam, claims.error_bound)
     curved = cone(step.cone).curved
     if curved is not None:
         return curved.verdict(step, delta_q, active, lam, claims)

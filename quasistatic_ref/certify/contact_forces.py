@@ -1,9 +1,8 @@
 """Forces of single contacts, as ``optional/forces`` finds them."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 
@@ -41,11 +40,6 @@ class ContactForces:
             read_only(array)
 
 
-CONTACT_FORCES: Slot[Callable[[StepData, tuple[Array, Array] | None], ContactForces]] = Slot(
-    "forces.forces"
-)
-
-
 def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForces:
     """The forces of a step's contacts, sought from where a solution shows them to be.
 
@@ -60,4 +54,6 @@ def forces_near(step: StepData, near: tuple[Array, Array] | None) -> ContactForc
     InputError
         If there is no ``optional/forces``.
     """
-    return CONTACT_FORCES.needed("forces")(step, near)
+    with needing("forces"):
+        from quasistatic_ref.optional.forces.forces import contact_forces
+    return contact_forces(step, near=near)

@@ -138,7 +138,7 @@ class Minimiser:
 
     @cached_property
     def balls(self) -> Solution:
-        """The solution in balls: by the system of multipliers, or from the fractions.
+        """The solution in balls, by the system of multipliers, or from the fractions.
 
         H^-1 has a radius, so that a finer system would not help where that is too wide to show that
         the rows are independent.

@@ -18,10 +18,10 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.parts import if_there
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
 from quasistatic_ref.simulate.finding import finding_table
-from quasistatic_ref.simulate.simulator import SCENE_FINDINGS
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"
@@ -105,8 +105,12 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
-    known = SCENE_FINDINGS.found() is not None
-    record["findings"] = [finding_table(found) for found in scenario.findings()] if known else []
+    record["findings"] = []
+    with if_there():
+        from quasistatic_ref.optional.doctor.checks import scene_findings
+
+        findings = scene_findings(scenario.simulator(), scenario.system.q_start)
+        record["findings"] = [finding_table(finding) for finding in findings]
     record["fields"] = named_fields(scenario.path)
     return record
 

@@ -14,13 +14,11 @@ from quasistatic_ref.errors import InputError, RunFailed, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.npz import header_of, npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import needed_package, needing
+from quasistatic_ref.parts import if_there, needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.observer import DOCTOR
 from quasistatic_ref.simulate.trajectory import (
-    ACCOUNT,
     FORMAT,
     VERSION,
     WHAT,
@@ -102,7 +100,8 @@ def run(options: argparse.Namespace) -> int:
             from quasistatic_ref.optional.show.table import check_table_path, table_written
         check_table_path(file, option)
     if options.strict:
-        DOCTOR.needed("--strict")
+        with needing("--strict"):
+            from quasistatic_ref.optional.doctor import checks  # noqa: F401
     failure: RunFailed | None = None
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet)
@@ -145,7 +144,7 @@ def run(options: argparse.Namespace) -> int:
     if view is not None:
         summary["view"] = str(view)
     account = None
-    if ACCOUNT.found() is not None:
+    with if_there():
         from quasistatic_ref.optional.doctor import telling
 
         account = trajectory.account(forces=False)
@@ -168,9 +167,8 @@ def run(options: argparse.Namespace) -> int:
             f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
             f"s is its own to within {off:.1e} m"
         )
-    if DOCTOR.found() is not None:
-        print(_artifacts(trajectory.header))
     if account is not None:
+        print(_artifacts(trajectory.header))
         for line in telling.lines(account, telling.PRINTED):
             shared.print_wrapped(line, "    ")
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())

@@ -6,7 +6,6 @@ angle has a sine of at most SKEW have no crossing. docs/conventions.md states th
 rims are in ``optional/curved``.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +14,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.model.angles import cos_sin
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.step.data import Array, Indices
@@ -63,11 +62,6 @@ class Crossings(NamedTuple):
     number: Indices
 
 
-RIMS: Slot[Callable[[ShapeInWorld, ShapeInWorld, Array, Array, Array], Crossings]] = Slot(
-    "curved.rims"
-)
-
-
 def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Array) -> Crossings:
     """All crossings of two solids, in the world frame.
 
@@ -84,7 +78,9 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
         return edge_crossings(edges(a, alpha, n), edges(b, beta, -n), n)
     rimmed = [isinstance(solid.shape, Cylinder | Cone) for solid in (a, b)]
     if all(np.logical_or(flat, rimmed)):
-        return RIMS.needed("a rim")(a, b, alpha, beta, n)
+        with needing("a rim"):
+            from quasistatic_ref.optional.curved.rims import curve_crossings
+        return curve_crossings(a, b, alpha, beta, n)
     return Crossings(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
 
 

@@ -4,14 +4,12 @@ Where it is one of several, the solids touch, and it is between them, or the ste
 docs/conventions.md states the rule.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.data import Array
@@ -27,9 +25,6 @@ SAYS = {
     OF_CLOUD: "two faces are as near: the one along which the whole cloud is farthest out",
 }
 """Each tie in words."""
-KNOWN_GAPS: Slot[Callable[[ShapeInWorld, ShapeInWorld, Witness], tuple[Array, Array]]] = Slot(
-    "curved.ways_out"
-)
 
 
 def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
@@ -97,7 +92,9 @@ def tied_normals(
     else:
         if every is None:
             # Gaps along what may be normals, and these.
-            every = KNOWN_GAPS.needed("a curved solid")(a, b, found)
+            with needing("a curved solid"):
+                from quasistatic_ref.optional.curved.ways_out import known_gaps
+            every = known_gaps(a, b, found)
         gaps_along, normals = every
     tied = distinct([*normals[gaps_along >= found.phi - within]])
     if len(tied) > 1:

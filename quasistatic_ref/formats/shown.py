@@ -1,16 +1,12 @@
 """Objects that show themselves: in words where they are printed, as HTML in a notebook."""
 
-from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.formats.quoting import shown_value
-from quasistatic_ref.parts import Slot
-
-TEXT: Slot[Callable[[object], str]] = Slot("show.pages")
-HTML: Slot[Callable[[object], str]] = Slot("show.pages")
+from quasistatic_ref.parts import if_there
 
 
 class Shown:
@@ -28,12 +24,18 @@ class HasPage(Shown):
     """What ``optional/show`` has a page for; where that part is missing, its fields are shown."""
 
     def __repr__(self) -> str:
-        text = TEXT.found()
-        return super().__repr__() if text is None else text(self)
+        with if_there():
+            from quasistatic_ref.optional.show.pages import text
+
+            return text(self)
+        return super().__repr__()
 
     def _repr_html_(self) -> str | None:
-        html = HTML.found()
-        return None if html is None else html(self)
+        with if_there():
+            from quasistatic_ref.optional.show.pages import html
+
+            return html(self)
+        return None
 
 
 def _short(value: object) -> str:

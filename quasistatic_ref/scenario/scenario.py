@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
@@ -18,7 +17,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.formats.together import together
 from quasistatic_ref.model.system import System
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     body_entry,
@@ -52,21 +51,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
 from quasistatic_ref.step.ordered import total
 
-"""What `run` hands on to a rollout."""
 MOST_BODIES = 1000
-EXTENDED_BODIES: Slot[
-    Callable[
-        [System, tuple[ContactPair, ...], Mapping[str, BodyEntry], float, Array, Array],
-        tuple[tuple[ContactPair, ...], OfBodies],
-    ]
-] = Slot("extensions.of_scenario")
-
-FAST_SIMULATOR: Slot[Callable[[Simulator], Simulator]] = Slot("fast.simulator")
-FAST_DEFAULT: Slot[Callable[[System, Sequence[ContactPair], str, bool], str]] = Slot(
-    "fast.simulator"
-)
-"""The backend of `fast` where none is named: of the system, the pairs, the cone, and whether the
-steps are the model's own, neither extended nor under Coulomb's law."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -116,7 +101,11 @@ class Scenario(Settings, Plain, Shown):
         if self.of_bodies is not None:
             extension = self.of_bodies.beside(extension)
         simulator = Simulator(**self.settings(), extension=extension)
-        return FAST_SIMULATOR.needed("fast")(simulator) if self.fast else simulator
+        if not self.fast:
+            return simulator
+        with needing("fast"):
+            from quasistatic_ref.optional.fast.simulator import FastSimulator
+        return FastSimulator(simulator)
 
     @property
     def force(self) -> Callable[[float, Array], Array] | None:
@@ -254,12 +243,15 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     K_q = total(stiffness(system, entry) for entry in entries.values())
     of_bodies = None
     if any(entry.extends for entry in entries.values()):
-        more = EXTENDED_BODIES.needed("joint_friction, support and joint_limits")
-        pairs, of_bodies = more(system, pairs, entries, h, K_q, gravity)
+        with needing("joint_friction, support and joint_limits"):
+            from quasistatic_ref.optional.extensions.of_scenario import of_scenario
+        pairs, of_bodies = of_scenario(system, pairs, entries, h, K_q, gravity)
     ordinary = law == CONVEX and of_bodies is None
     backend = value(solver, SOLVER, "backend")
     if fast and backend is None:
-        backend = FAST_DEFAULT.needed("fast")(system, pairs, named, ordinary)
+        with needing("fast"):
+            from quasistatic_ref.optional.fast.simulator import default_backend
+        backend = default_backend(system, pairs, named, ordinary)
     try:  # here rather than in the first step
         backend = usable_backend(backend, named, certify)
     except BackendError as error:

@@ -1,16 +1,13 @@
 """The law of friction that steps obey: the model's own, or Coulomb's of ``optional/coulomb``."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.solution import StepSolution
-    from quasistatic_ref.solve.solver import Solver
-    from quasistatic_ref.step.data import StepData
+    pass
 
 CONVEX = "convex"
 COULOMB = "coulomb"
@@ -21,10 +18,6 @@ by how much that is not its own [m]; and how many convex steps were solved."""
 
 
 COULOMB_LAW = f'law = "{COULOMB}"'
-COULOMB_STEP: "Slot[Callable[[StepData, Solver, float], StepSolution]]" = Slot(
-    "coulomb.fixed_point"
-)
-"""A step under Coulomb's law, by a solver, with its accuracy."""
 
 
 def check_law(law: str, certify: str) -> None:
@@ -38,7 +31,8 @@ def check_law(law: str, certify: str) -> None:
     if law not in LAWS:
         raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
     if law == COULOMB:
-        COULOMB_STEP.needed(COULOMB_LAW)
+        with needing(COULOMB_LAW):
+            from quasistatic_ref.optional.coulomb import fixed_point  # noqa: F401
         if certify != "full":
             problem = (
                 f'needs certify = "full", not "{certify}": the iteration ends where exact steps '

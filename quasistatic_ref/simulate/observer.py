@@ -1,11 +1,11 @@
 """What watches a run: before each step, after it, and at the end."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import if_there
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.recorder import Recorder
@@ -56,13 +56,13 @@ class Observer:
         return trajectory
 
 
-DOCTOR: Slot[Callable[[bool], Observer]] = Slot("doctor.observer")
-
-
 def doctors(printed: bool = False) -> list[Observer]:
     """The observer that notes a run's scene and finds at its end, perhaps printing its findings.
 
     It is of ``optional/doctor``, where that is there.
     """
-    doctor = DOCTOR.found()
-    return [] if doctor is None else [doctor(printed)]
+    with if_there():
+        from quasistatic_ref.optional.doctor.observer import Doctor
+
+        return [Doctor(printed)]
+    return []

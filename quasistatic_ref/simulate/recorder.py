@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from quasistatic_ref.certify.contact_forces import CONTACT_FORCES
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import (
@@ -97,7 +97,8 @@ class Recorder:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
-            CONTACT_FORCES.needed('record = "forces"')
+            with needing('record = "forces"'):
+                from quasistatic_ref.optional.forces import forces  # noqa: F401
         self.simulator = simulator
         self.scene = simulator.scene
         self.system = simulator.system

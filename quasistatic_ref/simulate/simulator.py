@@ -19,12 +19,11 @@ from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import (
     COULOMB,
     COULOMB_LAW,
-    COULOMB_STEP,
     check_law,
 )
 from quasistatic_ref.simulate.limits import Limits
@@ -34,7 +33,7 @@ from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
-from quasistatic_ref.solve.solve import EXTENDED_STEP, check_accuracy, solve_step, solved_step
+from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
@@ -48,10 +47,6 @@ FIXED = {
     *("accuracy", "certify", "cone", "law", "limits", "backend"),
 }
 """What a simulator is made of: its problem, and what C keeps of it, are of these."""
-SCENE_FINDINGS: Slot[Callable[[Simulator, Array], list[Finding]]] = Slot("doctor.checks")
-EXTENDED: Slot[Callable[[Simulator, StepData, Extension], StepSolution]] = Slot(
-    EXTENDED_STEP.module
-)
 P = ParamSpec("P")
 R = TypeVar("R")
 S = TypeVar("S", bound="Simulator")
@@ -353,14 +348,17 @@ class Simulator(Settings, Shown):
         InputError
             If there is no ``optional/doctor``.
         """
-        found = SCENE_FINDINGS.needed("findings")
+        with needing("findings"):
+            from quasistatic_ref.optional.doctor.checks import scene_findings
         q = self.system.q_start if q is None else self.system.checked(q)
-        return tuple(found(self, q))
+        return tuple(scene_findings(self, q))
 
     def extended(self, step: StepData, q: Array) -> StepSolution:
         """A step solved with the user's own constraints and costs at q, shape (n_q,)."""
         assert self.extension is not None
-        return EXTENDED.needed("extension")(self, step, self.extension(q))
+        with needing("extension"):
+            from quasistatic_ref.optional.extensions.extended import simulated_solution
+        return simulated_solution(self, step, self.extension(q))
 
     def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
@@ -372,7 +370,9 @@ class Simulator(Settings, Shown):
         """A step solved under the simulator's law, by the solver that is kept."""
         solver = self.fitting_solver(step)
         if self.law == COULOMB:
-            return COULOMB_STEP.needed(COULOMB_LAW)(step, solver, self.accuracy)
+            with needing(COULOMB_LAW):
+                from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
+            return simulated_solution(step, solver, self.accuracy)
         try:
             return solved_step(step, solver, self.accuracy, self.certify)
         except StepNotSolved as failure:

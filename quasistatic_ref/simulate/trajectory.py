@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +20,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import HasPage
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.account import Account
 from quasistatic_ref.simulate.finding import Finding, finding_read
@@ -35,11 +35,6 @@ if TYPE_CHECKING:
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1
 WHAT = "a trajectory written by this program"
-TIME_FINDINGS: Slot[Callable[[Trajectory], list[Finding]]] = Slot("doctor.checks")
-ACCOUNT: Slot[Callable[[Trajectory, bool], Account]] = Slot("doctor.account")
-STEPS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
-COORDINATES_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
-CONTACTS_TABLE: Slot[Callable[[Trajectory], DataFrame]] = Slot("show.table")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,8 +142,10 @@ class Trajectory(Plain, HasPage):
         """
         listed = enumerate(self.header.get("findings", ()))
         findings = [finding_read(table, f"findings[{i}]") for i, table in listed]
-        if self.seconds and (of_time := TIME_FINDINGS.found()) is not None:
-            findings += of_time(self)
+        with if_there():
+            from quasistatic_ref.optional.doctor import checks
+
+            findings += checks.findings(checks.OF_TIME, self) if self.seconds else []
         return tuple(findings)
 
     def step_data(self, k: int) -> StepData:
@@ -324,7 +321,9 @@ class Trajectory(Plain, HasPage):
         InputError
             If there is no ``optional/doctor``, or the file has no names or no scene.
         """
-        return ACCOUNT.needed("account")(self, forces)
+        with needing("account"):
+            from quasistatic_ref.optional.doctor.account import account_of
+        return account_of(self, forces)
 
     def _scene(self, given: HasScene | None) -> HasScene:
         scene = self.scene if given is None else given
@@ -343,7 +342,9 @@ class Trajectory(Plain, HasPage):
         InputError
             If pandas is not installed, or that part is missing.
         """
-        return STEPS_TABLE.needed("to_pandas")(self)
+        with needing("to_pandas"):
+            from quasistatic_ref.optional.show.table import data_frame
+        return data_frame(self)
 
     def coordinates_to_pandas(self) -> DataFrame:
         """One row a step and entry of q: its name, unit, value and target.
@@ -353,7 +354,9 @@ class Trajectory(Plain, HasPage):
         InputError
             As for :meth:`to_pandas`.
         """
-        return COORDINATES_TABLE.needed("to_pandas")(self)
+        with needing("to_pandas"):
+            from quasistatic_ref.optional.show.table import coordinate_frame
+        return coordinate_frame(self)
 
     def contacts_to_pandas(self) -> DataFrame:
         """One row a step and contact: its pair, point, gap, forces, points and frame.
@@ -363,7 +366,9 @@ class Trajectory(Plain, HasPage):
         InputError
             As for :meth:`to_pandas`.
         """
-        return CONTACTS_TABLE.needed("to_pandas")(self)
+        with needing("to_pandas"):
+            from quasistatic_ref.optional.show.table import contact_frame
+        return contact_frame(self)
 
     def save(self, path: str | Path) -> Path:
         """Write the file, whole or not at all."""

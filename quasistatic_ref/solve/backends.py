@@ -12,16 +12,12 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
 
 Options = dict[str, Any]
 OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
-AVAILABLE: Slot[Callable[[], list[str]]] = Slot("qpsolvers.through_qpsolvers")
-"""The backends that qpsolvers reaches here."""
-ERROR_BOUND: Slot[Callable[[StepData, Array, Array], float]] = Slot("large.bound")
 
 
 @dataclass(frozen=True)
@@ -202,8 +198,7 @@ NONE = "none"
 def installed(interface: str) -> tuple[str, ...]:
     """The installed backends, reached by ``"cvxpy"`` or ``"qpsolvers"``."""
     if interface == "qpsolvers":
-        available = AVAILABLE.found()
-        there = [] if available is None else available()
+        there = through_qpsolvers()
         return tuple(name for name in BACKENDS if name in there)
     import cvxpy
 
@@ -211,14 +206,21 @@ def installed(interface: str) -> tuple[str, ...]:
     return tuple(b.name for b in BACKENDS.values() if b.cvxpy and b.name in here)
 
 
+def through_qpsolvers() -> list[str]:
+    """The backends that qpsolvers reaches here; none without ``optional/qpsolvers``."""
+    with if_there():
+        from quasistatic_ref.optional.qpsolvers.through_qpsolvers import available_solvers
+
+        return available_solvers()
+    return []
+
+
 def others_installed() -> tuple[str, ...]:
     """Names of what CVXPY, and behind ``qpsolvers:`` qpsolvers, have that is not in the table."""
     import cvxpy
 
-    available = AVAILABLE.found()
-    there = [] if available is None else available()
     names = [name.lower() for name in cvxpy.installed_solvers()]
-    names += [QPSOLVERS + name for name in there]
+    names += [QPSOLVERS + name for name in through_qpsolvers()]
     return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
 
 
@@ -250,7 +252,8 @@ def backend(name: str) -> Backend:
         If the name is unknown, or its solver is not installed.
     """
     if str(name).startswith(QPSOLVERS):
-        AVAILABLE.needed(name)
+        with needing(name):
+            from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     known = backend_names()
@@ -336,7 +339,8 @@ def check_certify(name: str | None, certify: str) -> None:
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if certify == "residual":
-        ERROR_BOUND.needed(RESIDUAL)
+        with needing(RESIDUAL):
+            from quasistatic_ref.optional.large import bound  # noqa: F401
     if name == NONE and certify != CERTIFY[0]:
         problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)

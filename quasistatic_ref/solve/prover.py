@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.solve.backends import ERROR_BOUND, RESIDUAL
+from quasistatic_ref.parts import needing
+from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
@@ -39,7 +40,9 @@ class Prover:
         """
         if not cone(both.si_step.cone).polyhedral:
             return math.inf
-        return ERROR_BOUND.needed(RESIDUAL)(both.si_step, delta_q, lam)
+        with needing(RESIDUAL):
+            from quasistatic_ref.optional.large.bound import error_bound
+        return error_bound(both.si_step, delta_q, lam)
 
 
 class OnwardProver(Prover):

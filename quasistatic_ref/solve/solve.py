@@ -16,7 +16,7 @@ from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_len
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.formats.given import check_kind
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
@@ -30,13 +30,6 @@ from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
 NOTHING_CLAIMED = Certificate("none")
-
-EXTENDED_STEP: Slot[
-    Callable[
-        [StepData, Extension, str | Callable[..., Any] | Solver | None, bool, float, str],
-        StepSolution,
-    ]
-] = Slot("extensions.extended")
 
 
 def solve_step(
@@ -115,8 +108,9 @@ def solve_step(
     name = solver.name if isinstance(solver, Solver) else solver
     check_certify(name if isinstance(name, str) else None, certify)
     if extension is not None:
-        extended = EXTENDED_STEP.needed("extension")
-        return extended(step, extension, solver, fast, accuracy, certify)
+        with needing("extension"):
+            from quasistatic_ref.optional.extensions.extended import extended_step
+        return extended_step(step, extension, solver, fast, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)
     else:

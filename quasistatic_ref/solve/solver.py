@@ -14,9 +14,8 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
-    AVAILABLE,
     BACKENDS,
     DEFAULT,
     NONE,
@@ -290,10 +289,6 @@ class NoSolver(Solver):
         raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
 
 
-FAST_SOLVER: Slot[Callable[[StepData, str | None], Solver]] = Slot("fast.solver")
-QPSOLVERS_SOLVER: Slot[Callable[[StepData, str], Solver]] = Slot(AVAILABLE.module)
-
-
 def solver_for(
     step: StepData, name: str | Callable[..., Any] | None = None, fast: bool = False
 ) -> Solver:
@@ -325,13 +320,17 @@ def solver_for(
             raise BackendError(problem, field="backend", value=str(name))
         return FunctionSolver(step, name)
     if fast:
-        return FAST_SOLVER.needed("fast")(step, name)
+        with needing("fast"):
+            from quasistatic_ref.optional.fast.solver import fast_solver
+        return fast_solver(step, name)
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
-        return QPSOLVERS_SOLVER.needed(name)(step, name)
+        with needing(name):
+            from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
+        return QpsolversSolver(step, name)
     # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 

@@ -31,7 +31,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
@@ -318,9 +318,6 @@ def facets(K: int) -> ConeFunction:
     return rows
 
 
-CURVED_CONE: Slot[CurvedCone] = Slot("ellipsoid.cone")
-
-
 @cache
 def cone(name: str) -> FrictionCone:
     """The cone of a name.
@@ -347,7 +344,9 @@ def cone(name: str) -> FrictionCone:
     if name == "frictionless":
         return PolyhedralCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
-        return CURVED_CONE.needed(f'cone = "{name}"')
+        with needing(f'cone = "{name}"'):
+            from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
+        return ELLIPSOID_CONE
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)

@@ -5,21 +5,15 @@ Units are those of the steps that fill it. A run fills it with steps in natural 
 contacts out of reach are nearer (:mod:`~quasistatic_ref.solve.through_cvxpy`).
 """
 
-from collections.abc import Callable
-
 import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import KIND, Array, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import ACCURACY
-
-SOLVED_PAGE: Slot[Callable[["StepProblem", StepData, str, float], Array]] = Slot(
-    "extensions.solved_page"
-)
 
 
 class StepProblem:
@@ -181,7 +175,9 @@ class StepProblem:
         """
         if self.step is None:
             raise StepDataError("is not filled: call fill(step) first", field="StepProblem")
-        return SOLVED_PAGE.needed("StepProblem.solve")(self, self.step, solver, accuracy)
+        with needing("StepProblem.solve"):
+            from quasistatic_ref.optional.extensions.solved_page import solved_page
+        return solved_page(self, self.step, solver, accuracy)
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""

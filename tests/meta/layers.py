@@ -19,9 +19,9 @@ CORE = (
 )
 
 # What parts ask of each other, and what they bound errors with, which all of them import.
-BETWEEN = ("optional/between", "optional/gap")
+BETWEEN = ("optional/gap",)
 
-# Each folder of `optional` imports the core, and no other folder of `optional`.
+# Each folder of `optional` imports the core, and no other folder of `optional`, but below GUARDS.
 OPTIONAL = (
     "optional/coulomb",
     "optional/curved",
@@ -137,6 +137,9 @@ READERS = ("model/joints", "model/body.py", "model/urdf", "scenario", "cli", "la
 
 DYNAMIC = ("import_module", "__import__")
 
+# Of parts.py: below these anything but the ground may import an optional part in a function.
+GUARDS = {"needing", "if_there"}
+
 
 def under_type_checking(tree):
     """The nodes that run only for a type checker."""
@@ -148,11 +151,30 @@ def under_type_checking(tree):
     return inside
 
 
+def guarded(tree):
+    """The nodes of functions below a GUARDS, which say what to do where a part is missing."""
+    inside = set()
+    for function in ast.walk(tree):
+        if isinstance(function, ast.FunctionDef):
+            for node in ast.walk(function):
+                if isinstance(node, ast.With) and any(
+                    isinstance(item.context_expr, ast.Call)
+                    and ast.unparse(item.context_expr.func) in GUARDS
+                    for item in node.items
+                ):
+                    inside |= set(ast.walk(node))
+    return inside
+
+
 def imports(tree, package, module):
     """(line, dotted name) of everything imported anywhere in a file, functions included."""
     skipped = under_type_checking(tree)
+    below_guards = guarded(tree)
     for node in ast.walk(tree):
         if node in skipped:
+            continue
+        of_part = isinstance(node, ast.ImportFrom) and f"{package}.optional." in f"{node.module}"
+        if of_part and node in below_guards:
             continue
         if isinstance(node, ast.Import):
             for alias in node.names:

@@ -36,6 +36,16 @@ PLANTED = {
         "from quasistatic_ref.optional.show import words",
         "another part",
     ),
+    "an optional part in the core": (
+        "simulate/a.py",
+        "def f():\n    from quasistatic_ref.optional.show import words",
+        "later folder",
+    ),
+    "an optional part where the core begins": (
+        "simulate/a.py",
+        "with if_there():\n    from quasistatic_ref.optional.show import words",
+        "later folder",
+    ),
     "the lab as a string": ("cli/run.py", "x = 'quasistatic_ref.lab.commands'", "names the lab"),
     "an optional part as a string": (
         "cli/run.py",

@@ -6,19 +6,15 @@ all others, a cylinder, cone or ellipsoid and any of these or of those, ``option
 and checks coal's answer.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
-
-COAL_WITNESS: Slot[Callable[[str, ShapeInWorld, ShapeInWorld], Witness]] = Slot("curved.by_coal")
 
 
 def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
@@ -69,7 +65,9 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
     kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
-    return COAL_WITNESS.needed(f"{name}: contact of {kinds}")(name, a, b)
+    with needing(f"{name}: contact of {kinds}"):
+        from quasistatic_ref.optional.curved.by_coal import coal_witness
+    return coal_witness(name, a, b)
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:

@@ -6,7 +6,6 @@ that a camera did not see are, is left out.
 """
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,7 @@ from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points, number_or_nan, point_lines
-from quasistatic_ref.parts import Slot
+from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import Mask
@@ -137,7 +136,6 @@ VERTICES = (".off", ".obj")
 """Extensions of files whose vertices are taken."""
 OF_PART = (".ply", ".pcd", ".npy", ".npz")
 """Extensions of files that ``optional/readers`` reads."""
-POINTS_OF: Slot[dict[str, Callable[[Path], Array]]] = Slot("readers.points")
 KINDS = (*TEXTS, *VERTICES, *OF_PART)
 
 
@@ -146,4 +144,6 @@ def _points(path: Path, kind: str) -> Array:
         return _of_text(path)
     if kind in VERTICES:
         return _of_mesh(path)
-    return POINTS_OF.needed(f"a {kind} cloud")[kind](path)
+    with needing(f"a {kind} cloud"):
+        from quasistatic_ref.optional.readers.points import POINTS
+    return POINTS[kind](path)

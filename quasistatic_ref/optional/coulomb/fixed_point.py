@@ -25,7 +25,6 @@ from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError, NoFixedPoint
 from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.simulate.law import COULOMB_STEP
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import Array, finite, read_only
@@ -253,6 +252,3 @@ def longest_slips(step: StepData, delta_q: Array) -> Array:
     moves = np.abs(step.contacts.J) @ np.abs(delta_q)
     mu_v, _, mu_omega = step.contacts.mu.T
     return np.asarray(mu_v * moves[:, :3].sum(axis=1) + mu_omega * moves[:, 3])
-
-
-COULOMB_STEP.fill(simulated_solution)

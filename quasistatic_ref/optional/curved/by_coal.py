@@ -21,9 +21,7 @@ import numpy as np
 
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.solid_pair import COAL_WITNESS
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.between import OTHER_WAYS_OUT
 from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -304,7 +302,3 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
         n = n + (n - before)
         n = n / np.sqrt(n @ n)
     return best
-
-
-COAL_WITNESS.fill(coal_witness)
-OTHER_WAYS_OUT.fill(other_ways_out)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.crossings import (
-    RIMS,
     ROUND,
     UP,
     Crossings,
@@ -180,6 +179,3 @@ def _numbered(alpha: Array, beta: Array, number: Indices, good: Mask) -> Crossin
     """The good ones of crossings (2, N), two for each number."""
     numbers = np.stack([number, number + 1])
     return Crossings(alpha[good], beta[good], numbers[good])
-
-
-RIMS.fill(curve_crossings)

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.contact.separations import KNOWN_GAPS, gaps
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.step.data import Array, Indices
@@ -102,6 +102,3 @@ def _sphere() -> tuple[Array, Indices]:
     r = np.sqrt(1 - z * z)
     sphere = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
     return sphere, np.argsort(-(sphere @ sphere.T), axis=1, kind="stable")[:, 1:9]
-
-
-KNOWN_GAPS.fill(known_gaps)

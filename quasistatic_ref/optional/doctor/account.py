@@ -20,7 +20,7 @@ from quasistatic_ref.simulate.account import (
     PairAccount,
     Stop,
 )
-from quasistatic_ref.simulate.trajectory import ACCOUNT, Trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, SPINS, TOUCHES
@@ -273,6 +273,3 @@ def _drive(joint: Joint, run: Trajectory, stiffness: Array) -> Drive:
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
     return Drive(joint, "m" if joint.lengths else "rad", error, spring)
-
-
-ACCOUNT.fill(account_of)

@@ -24,8 +24,8 @@ from quasistatic_ref.optional.doctor import (
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.simulator import SCENE_FINDINGS, Simulator
-from quasistatic_ref.simulate.trajectory import TIME_FINDINGS, Trajectory
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 
@@ -136,7 +136,3 @@ def not_looked_at(checks: Iterable[Check], of: Start) -> str:
 def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
     """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
     return findings(OF_SCENE, Start(simulator, q))
-
-
-SCENE_FINDINGS.fill(scene_findings)
-TIME_FINDINGS.fill(lambda trajectory: findings(OF_TIME, trajectory))

@@ -24,7 +24,7 @@ from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.scene_notes import scene_notes
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import finding_table
-from quasistatic_ref.simulate.observer import DOCTOR, Observer
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -97,6 +97,3 @@ class Doctor(Observer):
             if skipped:
                 print(f"quasistatic-ref: not looked at: {skipped}", file=sys.stderr)
         return trajectory
-
-
-DOCTOR.fill(Doctor)

@@ -7,9 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.contact_forces import (
-    CONTACT_FORCES,
     ContactForces,
-    forces_near,
 )
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -17,6 +15,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.account import pair_accounts
 from quasistatic_ref.optional.doctor.scene_notes import sides
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.parts import if_there
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
@@ -104,12 +103,15 @@ class Run(Start):
 
     def compliant(self, k: int) -> ContactForces | None:
         """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
-        if not self.searched or CONTACT_FORCES.found() is None:
+        if not self.searched:
             return None
-        if k not in self._forces:
-            near = self["delta_q"][k], self["wrench"][k]
-            self._forces[k] = forces_near(self.step_data(k), near)
-        return self._forces[k]
+        with if_there():
+            from quasistatic_ref.optional.forces.forces import contact_forces
+
+            if k not in self._forces:
+                near = self["delta_q"][k], self["wrench"][k]
+                self._forces[k] = contact_forces(self.step_data(k), near=near)
+        return self._forces.get(k)
 
 
 def wrenches(step: StepData) -> Array | None:

@@ -2,10 +2,13 @@
 
 from collections.abc import Iterator
 
-from quasistatic_ref.optional.between import STRAY
+import numpy as np
+
 from quasistatic_ref.optional.doctor.start import Start, body
+from quasistatic_ref.parts import if_there
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.step.data import Array, Mask
 
 FEWEST, MOST = 50, 200_000
 """Points of a cloud that is looked at: fewer have no surface, more take a second."""
@@ -19,11 +22,8 @@ def strays(start: Start) -> Iterator[Finding]:
         for p in start.sides
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MOST
     }
-    stray = STRAY.found() if clouds else None  # it loads SciPy, which takes a second
-    if stray is None:
-        return
     for shape, name in clouds.values():
-        found = shape.points[stray(shape.points)]
+        found = shape.points[_stray(shape.points)]
         if len(found):
             places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
             more = ["..."] if len(found) > SHOWN else []
@@ -36,3 +36,12 @@ def strays(start: Start) -> Iterator[Finding]:
                 "points of its surface",
                 {"strays": len(found)},
             )
+
+
+def _stray(points: Array) -> Mask:
+    """Which points, shape (N, 3) [m], no gap of a few spacings joins to the others."""
+    with if_there():
+        from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
+
+        return stray(points)
+    return np.zeros(len(points), dtype=bool)

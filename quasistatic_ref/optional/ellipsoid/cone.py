@@ -31,7 +31,7 @@ from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import duality_gap, fractions
 from quasistatic_ref.step.arrays import Array, Mask
-from quasistatic_ref.step.cones import CURVED_CONE, ELLIPSOID, CurvedCone, Judge, Rows, Violations
+from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
@@ -167,7 +167,6 @@ def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
 
 
 ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion, CLAIMS)
-CURVED_CONE.fill(ELLIPSOID_CONE)
 
 
 def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:

@@ -25,11 +25,11 @@ from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.simulator import EXTENDED, Simulator
+from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
 from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, Own
-from quasistatic_ref.solve.solve import EXTENDED_STEP, solve_step
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
@@ -309,7 +309,3 @@ def _coefficients(expr: cp.Expression, unknowns: tuple[cp.Variable, ...]) -> Arr
         dense = block.toarray() if hasattr(block, "toarray") else np.asarray(block)
         blocks.append(dense.reshape(x.size, size).T)
     return np.asarray(np.hstack(blocks), dtype=np.float64)
-
-
-EXTENDED_STEP.fill(extended_step)
-EXTENDED.fill(simulated_solution)

@@ -14,7 +14,6 @@ from quasistatic_ref.optional.extensions.rises import private_rises, urdf_fricti
 from quasistatic_ref.optional.extensions.stops import JointLimits, urdf_limits
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.scenario import EXTENDED_BODIES
 from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.extension import Extension, ExtensionOfQ, Rises
@@ -117,6 +116,3 @@ def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:
         raise entry.table.error_about("support", 'is for a body with base = "planar"')
     check_names(rubs, SUPPORT)
     return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")
-
-
-EXTENDED_BODIES.fill(of_scenario)

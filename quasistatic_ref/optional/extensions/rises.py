@@ -12,7 +12,6 @@ from quasistatic_ref.model.joints import BASES
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
-from quasistatic_ref.optional.between import WITH_RISES
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.extension import Rises
@@ -161,6 +160,3 @@ def urdf_friction(system: System, name: str) -> dict[str, float]:
             friction = abs(factor) * says.number("friction", default=0.0)
             found[coordinate] = found.get(coordinate, 0.0) + friction
     return found
-
-
-WITH_RISES.fill(with_rises)

@@ -7,7 +7,7 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import in_si
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.problem import SOLVED_PAGE, StepProblem
+from quasistatic_ref.step.problem import StepProblem
 
 
 def solved_page(page: StepProblem, step: StepData, name: str, accuracy: float) -> Array:
@@ -40,6 +40,3 @@ def solved_page(page: StepProblem, step: StepData, name: str, accuracy: float) -
         for row, i in zip(page.contact_rows, present, strict=True):
             row.save_dual_value(of_rows[step.mask[:, i], i])
     return delta_q
-
-
-SOLVED_PAGE.fill(solved_page)

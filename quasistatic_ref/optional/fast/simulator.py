@@ -20,7 +20,6 @@ from quasistatic_ref.optional.fast.program import NaturalProgram
 from quasistatic_ref.optional.fast.solver import DAQP, FastSolver
 from quasistatic_ref.optional.fast.steps import Steps
 from quasistatic_ref.optional.fast.sums import Sums
-from quasistatic_ref.scenario.scenario import FAST_DEFAULT, FAST_SIMULATOR
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, Stopwatch, by_one_thread
@@ -275,7 +274,3 @@ class FastSimulator(Simulator):
         """Forget what the solvers keep of earlier steps, if answers depend on it."""
         super().start_cold()
         self.simulator.start_cold()
-
-
-FAST_SIMULATOR.fill(FastSimulator)
-FAST_DEFAULT.fill(default_backend)

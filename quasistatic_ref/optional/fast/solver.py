@@ -1,11 +1,15 @@
 """DAQP called by its own interface, group by group, and kept between steps."""
 
-from quasistatic_ref.optional.between import FLOAT_BOUND, FloatBound
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from quasistatic_ref.optional.fast.program import Program, Workspaces
+from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import RESIDUAL, check_backend
 from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import FAST_SOLVER, BackendSolver, OptionSet, Solver, solver_for
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet, Solver, solver_for
 from quasistatic_ref.solve.units import (
     DenseStepInBothUnits,
     HessianInBothUnits,
@@ -16,6 +20,9 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import BOUNDED
+
+if TYPE_CHECKING:
+    from quasistatic_ref.optional.large.float_bound import FloatBound
 
 DAQP = "daqp"
 
@@ -54,7 +61,9 @@ class FastProver(Prover):
         assert isinstance(both, DenseStepInBothUnits)
         H = both.hessian.natural_H
         if self.bound is None or self.bound.H is not H:
-            self.bound = FLOAT_BOUND.needed(RESIDUAL)(H)
+            with needing(RESIDUAL):
+                from quasistatic_ref.optional.large.float_bound import FloatBound
+            self.bound = FloatBound(H)
         error = self.bound.step_error(both, delta_q, lam)
         return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
 
@@ -120,6 +129,3 @@ class FastSolver(BackendSolver):
         reply = kept.reply(self._hessian)
         option_set.kept = kept
         return reply
-
-
-FAST_SOLVER.fill(fast_solver)

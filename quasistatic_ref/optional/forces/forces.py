@@ -29,7 +29,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.contact_forces import CONTACT_FORCES, ContactForces
+from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.norm import energy_norm
@@ -228,6 +228,3 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
         lambda found: [m * s for m, s in zip(mu, found.x[n:], strict=True)], arb(compliance)
     )
     return p.reshape(-1, 4), end.minimiser.rounded(lambda found: found.x[:n])
-
-
-CONTACT_FORCES.fill(lambda step, near: contact_forces(step, near=near))

@@ -13,12 +13,12 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.optional.between import WITH_RISES
 from quasistatic_ref.optional.guests import ties, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Loads, loads
 from quasistatic_ref.optional.guests.natural import Natural, moved
 from quasistatic_ref.optional.guests.still import Still, still
+from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
@@ -222,7 +222,9 @@ def with_friction(
     heavy = np.concatenate([step.h**2 * np.diag(step.K_q), np.diag(step.M_u)])
     rises, names = joint_friction(state, tied.T, heavy)
     if names:
-        step = WITH_RISES.needed("frictionloss")(step, rises)
+        with needing("frictionloss"):
+            from quasistatic_ref.optional.extensions.rises import with_rises
+        step = with_rises(step, rises)
     return step, np.concatenate([tied.dofs, np.full(len(names), -1)]), names
 
 

@@ -23,7 +23,6 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.form import PRECISION, StepForm, exact_matrix
 from quasistatic_ref.optional.gap import inner, nearest_above, square_root
 from quasistatic_ref.optional.large.opening import opening
-from quasistatic_ref.solve.backends import ERROR_BOUND
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -88,6 +87,3 @@ def opening_direction(step: StepData) -> Array | None:
     unit = 1 / np.sqrt(np.diag(form.H))
     d = opening(csc_matrix(form.A * unit), np.zeros(len(form.A)), RIDGE)
     return None if d is None else d * unit
-
-
-ERROR_BOUND.fill(error_bound)

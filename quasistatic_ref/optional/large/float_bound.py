@@ -19,7 +19,6 @@ import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU, splu
 
-from quasistatic_ref.optional.between import FLOAT_BOUND
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.outward import above, below, down, total, total_of_products, up
@@ -219,6 +218,3 @@ def least_way(low: Array, opens: Array, least: float = 0.0) -> float:
         return math.inf
     t = float((-low.take(short) / opened).max(initial=0.0)) * ENOUGH
     return t if bool((below(low + below(t * opens)) >= 0).all()) else math.inf
-
-
-FLOAT_BOUND.fill(FloatBound)

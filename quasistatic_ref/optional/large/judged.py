@@ -14,7 +14,6 @@ import math
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.certificate import BOUND_VERDICT
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.form import StepForm, fraction
 from quasistatic_ref.certify.minimiser import fraction_solution
@@ -63,6 +62,3 @@ def bound_verdict(
     if energy(form, off) + gap <= bound * bound * free_energy(form):
         return Verdict(True)
     return Verdict(False, f"error_bound is claimed to be {claimed!r}; the error is larger")
-
-
-BOUND_VERDICT.fill(bound_verdict)

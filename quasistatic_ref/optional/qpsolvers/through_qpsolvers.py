@@ -7,9 +7,9 @@ from time import perf_counter
 import numpy as np
 import qpsolvers
 
-from quasistatic_ref.solve.backends import AVAILABLE, QPSOLVERS, Options
+from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import QPSOLVERS_SOLVER, BackendSolver, OptionSet
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -111,7 +111,3 @@ def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:
         iterations = np.ravel(extras["iterations"])[0]
     words = str(status) if status is not None else "found" if solution.found else "not found"
     return words.rpartition(".")[2], None if iterations is None else int(iterations)
-
-
-AVAILABLE.fill(available_solvers)
-QPSOLVERS_SOLVER.fill(QpsolversSolver)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
-from quasistatic_ref.model.readers.clouds import POINTS_OF
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points
 from quasistatic_ref.optional.readers.pcd import pcd_points
@@ -65,6 +64,3 @@ POINTS: Final[dict[str, Callable[[Path], Array]]] = {
     ".npz": _npz,
 }
 """Extension -> the points of such a file, shape (N, 3) [m]."""
-
-
-POINTS_OF.fill(POINTS)

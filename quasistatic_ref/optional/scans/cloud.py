@@ -6,7 +6,6 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, cKDTree
 
-from quasistatic_ref.optional.between import STRAY
 from quasistatic_ref.step.arrays import Array, Indices
 
 LINKED = 6.0
@@ -93,6 +92,3 @@ def _farthest(points: Array, chosen: list[int], count: int) -> Indices:
         chosen.append(int(distance.argmax()))
         distance = np.minimum(distance, np.linalg.norm(points - points[chosen[-1]], axis=1))
     return np.array(chosen)
-
-
-STRAY.fill(stray)

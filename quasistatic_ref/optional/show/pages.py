@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-from quasistatic_ref.formats.shown import HTML, TEXT
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
 from quasistatic_ref.optional.show.simulate_words import trajectory_page
 from quasistatic_ref.optional.show.step_words import certificate_page, step_page
@@ -28,7 +27,3 @@ def html(shown: object) -> str:
 def _page(shown: object) -> Page:
     names = (kind.__name__ for kind in type(shown).__mro__)
     return next(PAGES[name](shown) for name in names if name in PAGES)
-
-
-TEXT.fill(text)
-HTML.fill(html)

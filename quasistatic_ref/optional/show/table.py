@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.simulate.trajectory import CONTACTS_TABLE, COORDINATES_TABLE, STEPS_TABLE
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -198,8 +197,3 @@ def _positions(trajectory: "Trajectory") -> list[str]:
 
 def _pandas() -> ModuleType:
     return needed_package("pandas", "pandas", "a table")
-
-
-STEPS_TABLE.fill(data_frame)
-COORDINATES_TABLE.fill(coordinate_frame)
-CONTACTS_TABLE.fill(contact_frame)

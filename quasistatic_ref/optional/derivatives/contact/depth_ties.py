@@ -6,8 +6,8 @@ from quasistatic_ref.contact.separations import tied_normals
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
-from quasistatic_ref.optional.between import OTHER_WAYS_OUT
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.parts import needing
 from quasistatic_ref.shapes.placed_shape import Ellipsoid, HalfSpace, PointCloud, Shape, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
@@ -38,7 +38,9 @@ def depth_tie(couple: Couple) -> bool:
         return False
     within = TIED * couple.of.size
     if polytope(a.shape) is None or polytope(b.shape) is None:
-        ways = OTHER_WAYS_OUT.needed(CURVED)(a, b, within)
+        with needing(CURVED):
+            from quasistatic_ref.optional.curved.by_coal import other_ways_out
+        ways = other_ways_out(a, b, within)
         if any(np.abs(way - couple.n).max() > np.sqrt(TIED) for way in ways):
             return True
     elif couple.phi == 0:
