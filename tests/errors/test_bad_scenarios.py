@@ -203,9 +203,6 @@ def test_a_time_step_that_overflows_is_named(tmp_path, refused):
     assert sentence == "h: takes h K_q or M_u / h out of the range of float64 (got 1e-310)"
 
 
-CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-
-
 def test_a_cloud_that_many_bodies_have_is_read_once(tmp_path, monkeypatch):
     read = []
 

@@ -79,7 +79,6 @@ def walls(y):
 
 
 STANDS = [("floor", "box", 0.5, 4)]
-BALL_STANDS = [("floor", "ball", 0.5, 1)]
 IN_SLOT = [*STANDS, ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
 TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""

@@ -9,8 +9,6 @@ from quasistatic_ref.lab.vectors.layers import selection
 from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from tests.lab.vectors.committed_cases import cases, expected_of, right_answers
 
-SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
-
 
 def record(output, flags=None, **tolerance):
     """What is expected, with tolerances by field."""
