@@ -177,7 +177,7 @@ class FastSimulator(Simulator):
     def _step(self, q: Array, q_bar_a: Array, force: Array | float) -> StepResult | None:
         """The step; None if it is the first, and not that of the plain path."""
         lap = Stopwatch()
-        change = self.system.actuated_difference(q, q_bar_a) + 0.0  # which checks both
+        change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
         load = checked_force(self.system, force)
         self._poses.move(q)
         self._steps.closest()
@@ -255,9 +255,9 @@ class FastSimulator(Simulator):
         """The solution of a step from q, (n_q,); errors as of the plain path."""
         if both is None:
             return self.solution(step) if self.extension is None else self.extended(step, q)
+        assert self.solver is not None  # which fits the step in both units
         try:
-            solver = self.fitting_solver(step)
-            return without_warnings(solved, both, solver, self.accuracy, self.certify)
+            return without_warnings(solved, both, self.solver, self.accuracy, self.certify)
         except StepNotSolved as failure:
             return self.otherwise_solved(step, failure, DAQP)
 

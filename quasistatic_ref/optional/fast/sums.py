@@ -1,8 +1,12 @@
-"""Sums q (+) delta_q in C, if it knows every joint. Sines that C cannot decide are Python's."""
+"""q (+) delta_q and q_a (-) q in C, if it knows every joint.
+
+Sines and angles that C cannot decide are Python's.
+"""
 
 import numpy as np
 
 from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
@@ -10,7 +14,7 @@ from quasistatic_ref.step.data import Array
 
 
 class Sums:
-    """Sums of the configurations of a system.
+    """Sums and differences of the configurations of a system.
 
     Parameters
     ----------
@@ -27,6 +31,9 @@ class Sums:
         self._turning = [i for i, joint in enumerate(joints) if joint.unit]
         self._delta_q = np.zeros(system.n_v)
         self._q_next = np.zeros(system.n_q)
+        self._here = np.zeros(system.n_q)
+        self._target = np.zeros(system.n_q_a)
+        self._change = np.zeros(system.n_a)
         kinds = [-1 if joint.in_c is None else joint.in_c for joint in joints]
         self.structure = Structure(
             "Sums",
@@ -39,6 +46,10 @@ class Sums:
                 "q": poses.q,
                 "delta_q": self._delta_q,
                 "q_next": self._q_next,
+                "actuated": sum(joint.actuated for joint in joints),
+                "here": self._here,
+                "target": self._target,
+                "delta_q_bar_a": self._change,
             },
         )
 
@@ -54,3 +65,12 @@ class Sums:
                 s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
         compiled.sums(s.pointer)
         return self._q_next.copy()
+
+    def actuated_difference(self, q: Array, q_a: Array) -> Array:
+        """Change q_a (-) q of the actuated coordinates, shape (n_a,); errors as of the system's."""
+        if self._known:
+            self._here[:] = with_shape(q, "q", self._here.shape)
+            self._target[:] = with_shape(q_a, "q_a", self._target.shape)
+            if library().differences(self.structure.pointer):
+                return self._change + 0.0
+        return self._system.actuated_difference(q, q_a) + 0.0

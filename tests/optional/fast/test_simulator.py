@@ -14,6 +14,7 @@ from quasistatic_ref import (
     FastSimulator,
     HalfSpace,
     InputError,
+    ModelError,
     PlacedShape,
     PointCloud,
     Simulator,
@@ -24,6 +25,7 @@ from quasistatic_ref import (
 )
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.joints.axis_joint import Revolute
+from quasistatic_ref.optional.fast import library
 from quasistatic_ref.optional.fast import simulator as of_fast
 from tests.helpers import error, residuals_of
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
@@ -218,6 +220,27 @@ def test_the_data_of_a_step_are_those_of_the_plain_path_wherever_it_is(tmp_path,
         in_c = fast._steps.form(system.actuated_difference(q, goal) + 0.0, force)
         assert bits(in_c) == bits((step, standard_form(step), points))
         assert bits(fast._sums.integrate(move)) == bits(system.integrate(q, move))
+
+
+@needs_compiler
+def test_changes_of_actuated_joints_are_those_of_the_core(tmp_path, rng):
+    """Of bases that are held and joints that turn on, from a hair to more than half a turn."""
+    held, wheels = bodies(tmp_path).bodies[2:]
+    system = System([held, replace(wheels, actuated=("turn", "open"))])
+    plain = Simulator(system, [], h=0.01, K_q=1.0)
+    sums = FastSimulator(plain)._sums
+    q = system.q_start
+    decided = 0
+    for k in range(400):
+        move = rng.normal(size=system.n_v) * 10.0 ** rng.integers(-12, 1) * (k % 7 > 0)
+        goal = system.integrate(q, move)[: system.n_q_a]
+        expected = system.actuated_difference(q, goal) + 0.0
+        assert bits(sums.actuated_difference(q, goal)) == bits(expected)
+        decided += library.library().differences(sums.structure.pointer)
+        q = system.integrate(q, rng.normal(size=system.n_v))
+    assert decided > 300
+    with pytest.raises(ModelError, match="length one"):
+        sums.actuated_difference(q, 2 * goal)
 
 
 @needs_compiler

@@ -74,8 +74,12 @@ typedef struct {
     double *angle, *cosine, *sine; /* how far each joint turns [rad]; of half of that */
     const double *q, *delta_q;
     double *q_next; /* written */
+    int64_t actuated; /* joints, the first of all */
+    const double *here, *target;
+    double *delta_q_bar_a; /* written: target (-) here */
 } Sums;
 
 int half_turns(Sums *s);
 void sums(const Sums *s);
+int differences(const Sums *s);
 double squared_distances(int64_t links, const double *const *t);

@@ -1,6 +1,7 @@
-/* model/system, `integrate`: q (+) delta_q, in the order of operations of model/screw.
+/* model/system, `integrate` and `actuated_difference`: q (+) delta_q and q_a (-) q, in the order of
+   operations of model/screw.
 
-   Sines are correctly rounded: those of long double, where their error leaves no doubt about that, or
+   Sines and angles are correctly rounded: those of long double, where their error leaves no doubt about that, or
    else those of Python. */
 
 #include "vectors.h"
@@ -132,6 +133,80 @@ void sums(const Sums *s)
         else
             heading(q + 2, delta_q[2], C, S, there + 2);
     }
+}
+
+/* model/configuration, `UnitParts.check`: whether a part of n numbers surely has length one. */
+static int is_unit(const double *part, int n)
+{
+    double square = 0.0;
+    for (int i = 0; i < n; i++)
+        square += part[i] * part[i];
+    return fabs(square - 1) < 1e-10;
+}
+
+/* model/angles, `angle_of`; 0 if it is in doubt. A zero has no sign. */
+static int angle_of(double y, double x, double *angle)
+{
+    return nearest(atan2l(y + 0.0, x), angle);
+}
+
+/* model/screw, `rotation_between`, whose length is *a; 0 if it is in doubt. */
+static int rotation_between(const double *here, const double *there, double *w, double *a, double *c2)
+{
+    double x = here[0], y = here[1], z = here[2], s = here[3];
+    double p = there[0], q = there[1], r = there[2], k = there[3], b;
+    double v[3] = {s * p - x * k - y * r + z * q, s * q - y * k - z * p + x * r,
+                   s * r - z * k - x * q + y * p};
+    double cosine = s * k + x * p + y * q + z * r, S = sqrt(dot(v, v)), C = fabs(cosine);
+    int sure = angle_of(S, C, &b);
+    double ratio = S != 0.0 ? b / S : 1.0, scale = cosine >= 0 ? 2 * ratio : -2 * ratio;
+    for (int i = 0; i < 3; i++)
+        w[i] = scale * v[i];
+    *a = 2 * b;
+    *c2 = S != 0.0 ? 1 - ratio * C : 0.0;
+    return sure;
+}
+
+/* model/joints/floating, `change`; 0 if it is in doubt. */
+static int change(const double *q, const double *there, double *delta_q)
+{
+    double R[9], a, c2, v[3], *w = delta_q + 3;
+    double apart[3] = {there[0] - q[0], there[1] - q[1], there[2] - q[2]};
+    int sure = rotation_between(q + 3, there + 3, w, &a, &c2);
+    rotation(FLOATING, q, R);
+    for (int i = 0; i < 3; i++) {
+        double axis[3] = {R[i], R[3 + i], R[6 + i]};
+        v[i] = dot(axis, apart);
+    }
+    combined(v, w, a, -0.5, c2, delta_q);
+    return sure;
+}
+
+/* model/system, `actuated_difference`; 0 if a part may not have length one, an angle is in doubt, or
+   a base in the plane is actuated. */
+int differences(const Sums *s)
+{
+    int sure = 1;
+    for (int64_t joint = 0; joint < s->joints; joint++) {
+        int64_t kind = s->kind[joint];
+        const double *q = s->here + s->q_start[joint], *there = s->target + s->q_start[joint];
+        double *delta_q = s->delta_q_bar_a + s->v_start[joint];
+        int first = kind == FLOATING ? 3 : kind == PLANAR ? 2 : 0, n = kind == FLOATING ? 4 : 2;
+        int actuated = joint < s->actuated;
+        if (kind != SCALAR)
+            sure &= is_unit(q + first, n) && (!actuated || is_unit(there + first, n));
+        if (!actuated)
+            continue;
+        if (kind == FLOATING)
+            sure &= change(q, there, delta_q);
+        else if (kind == CONTINUOUS)
+            sure &= angle_of(q[0] * there[1] - q[1] * there[0], q[0] * there[0] + q[1] * there[1], delta_q);
+        else if (kind == SCALAR)
+            delta_q[0] = there[0] - q[0];
+        else
+            sure = 0;
+    }
+    return sure;
 }
 
 /* simulate/limits, `out_of_reach`: the squared distances of all links' origins from that of the world. */
