@@ -5,8 +5,6 @@ and the theme brings its own fonts and scripts. ``python -m validation.tools.che
 it.
 """
 
-import ast
-import json
 import re
 import sys
 from importlib.util import find_spec
@@ -20,10 +18,8 @@ sys.path.insert(0, str(ROOT))
 import quasistatic_ref  # noqa: E402 the path has to be there first
 from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
-from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.study.fields import TABLES as STUDY  # noqa: E402 the path has to be there first
 from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
-from validation.tools.lectures import LECTURES, lesson, notebook  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"
 author = "The quasistatic_ref developers"
@@ -38,10 +34,11 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
     "matplotlib.sphinxext.plot_directive",
+    "sphinx_gallery.gen_gallery",
     "sphinxcontrib.bibtex",
     "sphinx-mathjax-offline",  # MathJax 3, copied into _static
 ]
-exclude_patterns = ["examples", "figures", "_build"]
+exclude_patterns = ["examples", "figures", "gallery", "slides", "_build"]
 nitpicky = True
 
 # -- Pages ---------------------------------------------------------------------------------------
@@ -93,6 +90,16 @@ plot_html_show_source_link = False
 plot_html_show_formats = False
 plot_rcparams = {"savefig.bbox": "tight"}  # as the package's own style saves them
 plot_apply_rcparams = True
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "scripts",  # written at each build
+    "filename_pattern": r"\.py$",
+    "download_all_examples": False,
+    "show_memory": False,
+    "show_signature": False,
+    "min_reported_time": 10_000,
+    "reset_modules": (),
+}
 bibtex_bibfiles = ["references.bib"]
 bibtex_default_style = "plain"
 
@@ -143,22 +150,18 @@ def setup(app):
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
     app.connect("html-page-context", _navigation_kept, priority=400)  # furo's is 500
-    app.connect("build-finished", _downloads_written)
 
 
 def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
     ``% fields of a scenario`` and ``% fields of a study`` are the tables by which these are read,
-    ``% modules of quasistatic_ref/FOLDER`` is every module of that folder, ``% examples`` each
-    example, ``% lessons`` each notebook of the course.
+    ``% modules of quasistatic_ref/FOLDER`` is every module of that folder.
     """
     up = "../" * docname.count("/")
     text = source[0]
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
-    text = text.replace("\n% examples\n", "\n" + "\n".join(map(_example, EXAMPLES)))
-    text = text.replace("\n% lessons\n", "\n" + "\n".join(map(_lesson, LECTURES)))
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% fields of a study\n", "\n" + reference_page(STUDY))
     text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
@@ -211,61 +214,6 @@ def _modules(folder):
         for name in names
         if not name.endswith("__init__")
     )
-
-
-def _example(name):
-    """One example in the gallery: what it says of itself, its figure, and its code folded away."""
-    file = f"quasistatic_ref/lab/examples/{EXAMPLES[name]}/{name}.py"
-    path = ROOT / file
-    title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
-    text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
-    return f"""
-## {title.rstrip(".")}
-
-{text}
-
-```{{eval-rst}}
-.. plot::
-   :filename-prefix: gallery_{name}
-   :alt: {title}
-
-   from quasistatic_ref.lab.examples.gallery import figure_of
-   figure_of("{name}")
-```
-
-:::{{admonition}} {file}
-:collapsible: closed
-
-```{{literalinclude}} ../../{file}
-:language: python
-```
-:::
-"""
-
-
-def _lesson(name):
-    """A notebook of the course as part of a page: answers folded away, and its address."""
-    (_, head), *parts = lesson(name)
-    lines = [f"#{head}", f'<a href="../lessons/{name}.ipynb" download>{name}.ipynb</a>']
-    for kind, source in parts[1:-1]:  # without what counts the marks
-        code = source if kind == "text" else f"```python\n{source}\n```"
-        folded = f":::{{admonition}} Answer\n:collapsible: closed\n\n{code}\n:::"
-        lines.append(folded if kind == "answer" else code)
-    return "\n\n".join(lines)
-
-
-def _downloads_written(app, failure):
-    """The notebooks and the slides that pages give to be downloaded."""
-    if failure is None and app.builder.format == "html":
-        from validation.tools.slides import SETS, write_slides  # reads every example
-
-        for name in SETS:
-            write_slides(name, Path(app.outdir) / "slides")
-        folder = Path(app.outdir) / "lessons"
-        folder.mkdir(exist_ok=True)
-        for name in LECTURES:
-            text = json.dumps(notebook(name, answers=False), indent=1)
-            (folder / f"{name}.ipynb").write_text(text + "\n", "utf-8")
 
 
 # -- Docstrings are read in the source first: some habits of theirs are no markup ---------------

@@ -10,7 +10,6 @@ from importlib.metadata import PackageNotFoundError, distribution, requires
 import pytest
 
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.examples.gallery import EXAMPLES
 from quasistatic_ref.optional.fast.library import missing
 
 OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
@@ -53,7 +52,3 @@ def marked_parameters(names, needs):
 
 SCENARIOS = marked_parameters(scenario_names(), {"allegro_turn": "robots", "panda_push": "robots"})
 """The scenarios that come along."""
-GALLERY = marked_parameters(
-    EXAMPLES, {"hand_turns_a_drum": "robots", "plan_a_push": "jax", "robot_push": "robots"}
-)
-"""The examples of the gallery."""

@@ -29,3 +29,10 @@ def shell_lines(page):
 def downloads(folder):
     """Name -> text of the files in a folder of docs/examples."""
     return {p.name: p.read_text("utf-8") for p in sorted((EXAMPLES / folder).glob("*"))}
+
+
+def named_files(page):
+    """Name -> text of the blocks of a page whose first line is a comment that names a file."""
+    blocks = re.findall(r"^```\w+\n(# ([\w.]+\.\w+)\b.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    xml = re.findall(r"^```\w+\n(<!-- ([\w.]+\.\w+) -->.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    return {name: text for text, name in (*blocks, *xml)}

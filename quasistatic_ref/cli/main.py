@@ -33,7 +33,7 @@ COMMANDS = {
     "vectors": "reference vectors: check another implementation against them, layer by layer",
     "validate": "measure the claims about the model against the paper, formulas and other engines",
     "study": "compare solvers on problems with exact answers",
-    "figures": "make the figures, as PNG and PDF",
+    "figures": "run the scripts of the gallery, and write their figures",
     "bench": "measure what a step costs, plain and fast, unproved and proved, next to MuJoCo's",
     "backends": "list the solvers that can be chosen here",
     "schema": "print the JSON Schema of scenario or study files, for editors, or of an opinion",

@@ -69,7 +69,6 @@ LAB = (
     "lab/bench",
     "lab/reality",
     "lab/claims",
-    "lab/examples",
     "lab/commands",
 )
 
@@ -115,8 +114,7 @@ WALLS = {
     ),
 }
 
-# What a folder may not import although it comes before: figures draw what they are given, examples
-# need no claim.
+# What a folder may not import although it comes before: figures draw what they are given.
 CLOSED = dict.fromkeys(
     ("optional/show", "lab/figures"),
     (
@@ -127,7 +125,7 @@ CLOSED = dict.fromkeys(
         "step/data/StepData",
         "step/data/Contacts",
     ),
-) | {"lab/examples": ("lab/claims",)}
+)
 
 # Kinds answer for themselves: who may ask for the class of a cone, and name a kind of joint.
 CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}

@@ -61,11 +61,6 @@ PLANTED = {
     "the word of a joint": ("simulate/a.py", "joint.kind == 'planar'", "asks for a kind"),
     "from an unknown folder": ("step/a.py", "import quasistatic_ref.attic", "no folder"),
     "cvxpy in the judge": ("certify/a.py", "import cvxpy as cp", "imports cvxpy"),
-    "a claim in an example": (
-        "lab/examples/a.py",
-        "from quasistatic_ref.lab.claims.paper.grasp import evidence",
-        "closed to lab/examples",
-    ),
 }
 
 

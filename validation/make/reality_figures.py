@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from quasistatic_ref.lab.examples.gallery import figure_of
+from docs.drawings import which_cone_is_real
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
 from validation.tools.scripts import RESULTS, script_options
@@ -100,7 +100,7 @@ def main() -> None:
     identified = result("reality_identified")
     with figure_style():
         figures = {
-            "reality_pushes": figure_of("which_cone_is_real"),
+            "reality_pushes": which_cone_is_real.figure(),
             "reality_identified": identified_ratios(identified),
             "reality_loads": lost_shares(identified),
             "reality_errors": errors_by_pair(result("reality")),

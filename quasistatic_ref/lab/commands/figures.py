@@ -1,7 +1,6 @@
-"""``figures [NAME...]``: make the figures of the examples, as PNG and PDF."""
+"""``figures [NAME...]``: run the scripts of the gallery, and write their figures."""
 
 import argparse
-import sys
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
@@ -10,17 +9,12 @@ from quasistatic_ref.formats.quoting import suggestion
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
-    parser.add_argument(
-        "names", nargs="*", metavar="NAME", help="all by default, but those whose extra is missing"
-    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="a script; all by default")
     parser.add_argument(
         "--style",
         default="paper",
         metavar="STYLE",
         help="paper (default), slides, poster, one of matplotlib's, or a file such as my.mplstyle",
-    )
-    parser.add_argument(
-        "--numbers", action="store_true", help="print what each example comes to, too"
     )
     shared.add(parser, "--out", default="figures")
 
@@ -34,27 +28,18 @@ def run(options: argparse.Namespace) -> int:
         If a name is unknown.
     """
     from quasistatic_ref.formats.files import writable_folder
-    from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
+    from quasistatic_ref.lab.figures.gallery import gallery_figure, gallery_scripts
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
+    scripts = gallery_scripts()
     for name in options.names:
-        if name not in EXAMPLES:
-            problem = f"is not a figure{suggestion(name, EXAMPLES)}"
+        if name not in scripts:
+            problem = f"is not a script of the gallery{suggestion(name, scripts)}"
             raise InputError(problem, field="NAME", value=name)
     with figure_style(options.style):
         writable_folder(options.out)
-        for name in options.names or EXAMPLES:
+        for name in options.names or scripts:
             shared.progress_line(options, f"{name} ...")
-            try:
-                figure = figure_of(name)
-            except InputError as error:  # a robot of an extra that is not installed
-                if options.names:
-                    raise
-                print(f"quasistatic-ref: {name} was not made: {error}", file=sys.stderr)
-                continue
-            if options.numbers:
-                for what, value in example(name).main().items():
-                    print(f"{what}: {value:.6g}")
-            for path in figure_written(figure, options.out, name):
+            for path in figure_written(gallery_figure(scripts[name]), options.out, name):
                 print(path)
     return 0

@@ -91,7 +91,7 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
 
 
 def test_the_program_on_the_page_takes_the_steps_of_the_simulator(tmp_path):
-    page = (ROOT / "docs" / "guides" / "ask_step_by_step.md").read_text("utf-8")
+    page = (ROOT / "docs" / "guides" / "check_your_implementation.md").read_text("utf-8")
     (program,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     client = tmp_path / "client.py"
     client.write_text(program)

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.study.study_file import solver_study, study_path
 
 ROOT = Path(__file__).parents[3]
 STUDIES = ROOT / "validation" / "studies"
-PAGE = (ROOT / "docs" / "solver_study.md").read_text("utf-8")
+PAGE = (ROOT / "docs" / "studies.md").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")

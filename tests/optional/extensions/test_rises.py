@@ -3,8 +3,8 @@
 import cvxpy as cp
 import numpy as np
 import pytest
-
 from docs.examples.joint_limits import joint_limits
+
 from quasistatic_ref import (
     Extension,
     InputError,

@@ -67,7 +67,7 @@ CLAIM = Claim(
     where="the paper, Fig. 1 and section III-B; docs/derivations.md (R39) for other clouds",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers; the largest rotation "
     f"from the closed grip, t = {CLOSED:g} s, to the end of the lift, t = {TOP:g} s. Then 480 "
-    "other clouds of the same bunny, 200 to 100,000 points drawn in four ways (docs/clouds.md): "
+    "other clouds of the same bunny, 200 to 100,000 points drawn in four ways (docs/reality.md): "
     f"committed rows, of which {4 * SEEDS} are measured again",
     reason="The paper gives no numbers and the scene is ours, its lift too: 1 degree and 30 "
     "degrees are what an eye would call no rotation and rotation. Of the other clouds without "

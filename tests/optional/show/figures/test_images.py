@@ -6,9 +6,8 @@ Whoever changes a figure looks at the new image before it is committed.
 import numpy as np
 import pytest
 
-from docs.drawings import contact_geometry, corner_loads
+from docs.drawings import cone_surfaces, contact_geometry, corner_loads
 from quasistatic_ref import load_scenario, trajectory_read
-from quasistatic_ref.lab.examples.friction import cone_surfaces
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.grasp import rotations

@@ -1,0 +1,189 @@
+"""The examples of docs/extensions.md: short, right, and exact where they are rows."""
+
+import re
+from pathlib import Path
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref import (
+    BackendError,
+    Extension,
+    InputError,
+    load_scenario,
+    rollout,
+    solve_step,
+    step_read,
+    step_written,
+    trajectory_read,
+    verify,
+)
+from quasistatic_ref.optional.extensions.extended import extension_data, joined
+from tests.closeness import assert_relative, assert_within
+from tests.helpers import changed, error, pinch, random_step
+from tests.tolerances import OPTIMUM, ROUNDING
+
+PAGE = Path(__file__).parents[3] / "docs" / "extensions.md"
+SHOWN = {}
+for block in re.findall(r"^```python\n(.*?)^```$", PAGE.read_text("utf-8"), re.M | re.S):
+    if "def " in block:
+        exec(block, SHOWN)
+actuator_saturation, dry_friction, joint_limits = (
+    SHOWN[name] for name in ("actuator_saturation", "dry_friction", "joint_limits")
+)
+smoothing, velocity_limit, weld = (SHOWN[name] for name in ("smoothing", "velocity_limit", "weld"))
+
+
+def joint(K=100.0, tau=2.0, target=0.0, h=0.01):
+    """One actuated coordinate, without contacts: alone it would go to target + tau / K."""
+    step = random_step(np.random.default_rng(0), 1, 0, rows=())
+    return step.replace(h=h, K_q=[[K]], tau_a=[tau], delta_q_bar_a=[target])
+
+
+def wall(target, K=1000.0, h=0.01, phi=0.0):
+    """The same pressing on a wall at a distance phi."""
+    step = random_step(np.random.default_rng(0), 1, 0, rows=(4,))
+    J = np.zeros((1, 4, 1))
+    J[0, :3, 0] = -step.contacts.n[0]
+    contacts = changed(step.contacts, phi=[phi], J=J)
+    return step.replace(h=h, K_q=[[K]], tau_a=[0.0], delta_q_bar_a=[target], contacts=contacts)
+
+
+def test_a_joint_stops_at_its_limit_exactly():
+    # Free it would move by tau / K = 0.02; the limit is 0.005 away and pushes back tau - K 0.005.
+    limits = joint_limits(np.array([0.25]), np.array([-1.0]), np.array([0.255]))
+    step = joint()
+    answer = solve_step(step, extension=limits)
+    assert answer.certificate.kind == "exact"
+    assert answer.delta_q[0] == 0.255 - 0.25
+    push = step.h * (2.0 - 100.0 * (0.255 - 0.25))
+    assert_relative(answer.lam_extra, [0.0, push], ROUNDING)
+
+
+@pytest.mark.parametrize("target", [0.001, 0.003, 0.05])
+def test_a_saturated_actuator_presses_with_tau_max_and_no_more(target):
+    # On the wall the contact carries min(K target, tau_max).
+    K = 1000.0
+    tau_max = 4.0
+    step = wall(target, K)
+    saturation = actuator_saturation(step.h, np.array([K]), np.array([tau_max]))
+    answer = solve_step(step, extension=saturation)
+    assert answer.certificate.kind == "residual"
+    expected = min(K * target, tau_max)
+    assert_relative(answer.wrench[0, 2], expected, OPTIMUM)
+    assert_within(answer.delta_q, [0.0], OPTIMUM * target)
+    assert_relative(solve_step(step).wrench[0, 2], K * target, ROUNDING)
+
+
+@pytest.mark.parametrize("tau", [-3.0, 0.0, 0.99, 1.5])
+def test_dry_friction_holds_up_to_its_force_and_takes_it_off_beyond(tau):
+    # (1 + 1e-6) K delta_q = tau - tau_f sign(delta_q), or 0 while |tau| <= tau_f = 1.
+    friction = dry_friction(0.01, np.array([100.0]), np.ones(1))
+    answer = solve_step(joint(tau=tau), extension=friction)
+    assert answer.certificate.kind == "exact"
+    expected = np.sign(tau) * max(abs(tau) - 1.0, 0.0) / (100.0 * (1 + 1e-6))
+    assert_relative(answer.delta_q, [expected, abs(expected)], ROUNDING)
+
+
+def test_welded_bodies_move_as_one_exactly(rng):
+    # Two free bodies, m_1 pushed: with one twist for both, (M_1 + M_2) delta = h^2 tau.
+    step = random_step(rng, 0, 12, rows=())
+    J = [np.hstack([np.eye(6), np.zeros((6, 6))]), np.hstack([np.zeros((6, 6)), np.eye(6)])]
+    answer = solve_step(step, extension=weld(*J))
+    assert answer.certificate.kind == "exact"
+    one = answer.delta_q[:6]
+    two = answer.delta_q[6:]
+    np.testing.assert_array_equal(two, one)
+    E = np.vstack([np.eye(6), np.eye(6)])
+    expected = step.h**2 * np.linalg.solve(E.T @ step.M_u @ E, E.T @ step.tau_u)
+    assert_relative(one, expected, ROUNDING * 100)
+
+
+def test_the_smoothed_step_converges_to_the_hard_one_like_the_weight():
+    step = pinch(grip=5.0, offset=0.02)
+    hard = solve_step(step).delta_q
+    weights = 10.0 ** -np.arange(8, 13)
+    errors = [error(step, solve_step(step, extension=smoothing(w)).delta_q, hard) for w in weights]
+    rates = np.diff(np.log10(errors)) / np.diff(np.log10(weights))
+    assert_within(rates, 1.0, 0.01)
+
+
+def test_rows_of_an_extension_travel_in_a_step_file(tmp_path):
+    limits = joint_limits(np.zeros(2), np.full(2, -1e-4), np.full(2, 1e-3))
+    step = pinch(grip=5.0, offset=0.2)
+    own = extension_data(step, limits)
+    assert own is not None
+    extended = step.replace(extra=joined(step.extra, own))
+    read = step_read(step_written(tmp_path / "step.json", extended))
+    assert read == extended
+    answer = solve_step(step, extension=limits)
+    again = solve_step(read, "piqp")
+    np.testing.assert_array_equal(again.delta_q, answer.delta_q)
+    lam = np.concatenate([again.lam, again.lam_extra])
+    assert verify(read, again.delta_q, again.certificate.active, lam, again.certificate)
+
+
+def test_the_numbers_of_a_row_are_those_that_were_written():
+    step = random_step(np.random.default_rng(1), 2, 1, rows=())
+    extension = Extension(
+        lambda s: [
+            0.1 * s.delta_q_a[0] - 3 * s.delta_q_u[0] >= 0.7,
+            s.delta_q[1] == 1 / 3,
+        ]
+    )
+    own = extension_data(step, extension)
+    assert own is not None
+    assert own.names == ("extension 0[0]", "extension 1[0]", "extension 1[0] reversed")
+    np.testing.assert_array_equal(own.A, [[0.1, 0.0, -3.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    np.testing.assert_array_equal(own.b, [0.7, -1 / 3, 1 / 3])
+
+
+MORE_THAN_ROWS = {
+    "a cost": lambda s: [cp.sum(cp.abs(s.delta_q))],
+    "a ball": lambda s: [cp.norm(s.delta_q) <= 1e-3],
+    "a variable": lambda s: [s.delta_q_a[0] <= cp.Variable(nonneg=True)],
+}
+
+
+@pytest.mark.parametrize("terms", MORE_THAN_ROWS.values(), ids=MORE_THAN_ROWS)
+def test_anything_else_gets_residuals_and_says_so(terms):
+    step = pinch(grip=5.0, offset=0.2)
+    assert extension_data(step, Extension(terms)) is None
+    answer = solve_step(step, extension=Extension(terms))
+    assert answer.certificate.kind == "residual"
+    assert answer.certificate.error_bound is None
+    assert max(answer.certificate.residuals.values()) < OPTIMUM
+    with pytest.raises(
+        BackendError,
+        match="constraints or costs needs one of clarabel, scs",
+    ):
+        solve_step(step, "piqp", extension=Extension(terms))
+
+
+def test_a_cost_that_is_not_convex_is_refused_in_a_sentence():
+    with pytest.raises(InputError, match="not convex"):
+        solve_step(joint(), extension=Extension(lambda s: [-cp.sum_squares(s.delta_q)]))
+
+
+def test_an_extension_stands_beside_the_ellipsoid():
+    step = pinch(grip=5.0, offset=0.2).replace(cone="ellipsoid")
+    limit = Extension(lambda s: [s.delta_q_u[2] >= -1e-4])
+    assert solve_step(step, extension=limit).certificate.kind == "enclosure"
+    cost = Extension(MORE_THAN_ROWS["a cost"])
+    assert solve_step(step, extension=cost).certificate.kind == "residual"
+
+
+def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
+    scenario = load_scenario("bunny_grasp", ["steps=8"], fast=True)
+    h = scenario.h
+    n_a = scenario.system.n_a
+    simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
+    trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
+    assert set(trajectory["certificate"].tolist()) == {"exact"}
+    np.testing.assert_array_less(np.abs(trajectory["delta_q"][:, :n_a]), 1e-3 * h * (1 + ROUNDING))
+    read = trajectory_read(trajectory.save(tmp_path / "run.npz"))
+    step = read.step_data(7)
+    assert len(step.extra.names) == 2 * n_a
+    answer = solve_step(step, "osqp")
+    np.testing.assert_array_equal(answer.delta_q, read["delta_q"][7])
