@@ -2,7 +2,6 @@
 
 import io
 import json
-import re
 import subprocess
 import sys
 
@@ -13,6 +12,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
 from tests.lab.vectors.committed_cases import ROOT
+from tests.pages import named_files
 
 BALL = [0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0]
 
@@ -92,9 +92,8 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
 
 def test_the_program_on_the_page_takes_the_steps_of_the_simulator(tmp_path):
     page = (ROOT / "docs" / "guides" / "check_your_implementation.md").read_text("utf-8")
-    (program,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     client = tmp_path / "client.py"
-    client.write_text(program)
+    client.write_text(named_files(page)["client.py"])
     command = [sys.executable, str(client), "two_finger_pinch"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout) == steps("two_finger_pinch")
