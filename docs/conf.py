@@ -131,6 +131,7 @@ KEPT = re.compile(
 INCLUDED = {
     "validation/results/claims.md": "claims.md",
     "validation/vectors/README.md": "vectors.md",
+    "validation/contact_qp/README.md": "contact_qp.md",
 }
 """Pages of the repository that are pages of the site too: where they are, and where here."""
 PUBLIC = {getattr(quasistatic_ref, name).__module__ for name in quasistatic_ref.__all__[1:]}
@@ -162,6 +163,7 @@ def _expanded(app, docname, source):
     text = source[0]
     for file, page in INCLUDED.items():
         text = text.replace(f"]({up}../{file})", f"]({up}{page})")
+    text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% fields of a study\n", "\n" + reference_page(STUDY))
     text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
