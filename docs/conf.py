@@ -5,12 +5,14 @@ and the theme brings its own fonts and scripts. ``python -m validation.tools.che
 it.
 """
 
+import pkgutil
 import re
 import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 from docutils import nodes
+from sphinx.util.nodes import make_refnode
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
@@ -29,6 +31,7 @@ version = release = __version__
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
     "sphinx.ext.doctest",
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
@@ -44,6 +47,7 @@ nitpicky = True
 # -- Pages ---------------------------------------------------------------------------------------
 html_theme = "furo"
 html_title = f"quasistatic_ref {version}"
+templates_path = ["_templates"]
 html_static_path = ["_static"]
 html_extra_path = ["draggable"]  # a page of its own
 viewcode_follow_imported_members = False
@@ -68,6 +72,7 @@ napoleon_google_docstring = False
 napoleon_use_param = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
+autosummary_generate = True  # api/names, at each build
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_default_options = {"members": True, "show-inheritance": True}
@@ -116,11 +121,9 @@ np.set_printoptions(precision=8, suppress=False)  # a page before may have chang
 """
 
 
-PACKAGE = ROOT / "quasistatic_ref"
-LAB = PACKAGE / "lab"
 CLOSED_FORMS = (
-    "derivations", "certificates", "cones", "derivatives", "distances",
-    "extensions", "artifacts", "proofs", "studies",
+    "derivations", "exactness", "cones", "derivatives", "distances",
+    "extensions", "artifacts", "studies",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
@@ -134,12 +137,9 @@ INCLUDED = {
     "validation/contact_qp/README.md": "contact_qp.md",
 }
 """Pages of the repository that are pages of the site too: where they are, and where here."""
-PUBLIC = {getattr(quasistatic_ref, name).__module__ for name in quasistatic_ref.__all__[1:]}
-"""Modules of the names that users import from the package itself."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
 CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
-MODULES = re.compile(r"^% modules of (\S+)$", re.MULTILINE)
 
 
 def setup(app):
@@ -150,6 +150,7 @@ def setup(app):
     app.connect("doctree-read", _plain_listings)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
+    app.connect("missing-reference", _public)
     app.connect("html-page-context", _navigation_kept, priority=400)  # furo's is 500
 
 
@@ -157,7 +158,7 @@ def _expanded(app, docname, source):
     """Links that are right in the repository lead out of docs/; here they lead to their pages.
 
     ``% fields of a scenario`` and ``% fields of a study`` are the tables by which these are read,
-    ``% modules of quasistatic_ref/FOLDER`` is every module of that folder.
+
     """
     up = "../" * docname.count("/")
     text = source[0]
@@ -166,7 +167,6 @@ def _expanded(app, docname, source):
     text = text.replace(f"]({up}gallery/README.md)", f"]({up}scripts/index.rst)")
     text = text.replace("\n% fields of a scenario\n", "\n" + reference_page(SCENARIO))
     text = text.replace("\n% fields of a study\n", "\n" + reference_page(STUDY))
-    text = MODULES.sub(lambda found: _modules(ROOT / found.group(1)), text)
     if docname in CLOSED_FORMS:
         text = RESULT.sub(lambda r: f"[**({r[1]}){r[2]}**]{{#{r[1].lower()}}}", text)
     source[0] = _results_linked(text)
@@ -205,17 +205,30 @@ def _navigation_kept(app, pagename, templatename, context, doctree):
         context["toctree"] = kept
 
 
-def _modules(folder):
-    """An automodule directive for each module of a folder; package and lab give only their own."""
-    files = folder.glob("*.py") if folder in (PACKAGE, LAB) else folder.rglob("*.py")
-    names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
-    names.sort(key=lambda name: name not in PUBLIC)  # what a user calls comes first
-    one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"
-    return "\n".join(
-        one.format(short=name.split(".", 1)[1].replace(".", "/") + ".py", name=name)
-        for name in names
-        if not name.endswith("__init__")
-    )
+def _public(app, env, node, contnode):
+    """A name of the package leads to the page of the public name, or is shown as it is.
+
+    Docstrings name modules; pages are of public names. A name that does not exist stays an error.
+    """
+    path = node.get("reftarget", "")
+    name = path.rpartition(".")[2]
+    if not path.startswith("quasistatic_ref."):
+        return None
+    if name in quasistatic_ref.__all__:
+        place = env.get_domain("py").objects[f"quasistatic_ref.{name}"]
+        return make_refnode(app.builder, node["refdoc"], place.docname, place.node_id, contnode)
+    return contnode if _exists(path) else None
+
+
+def _exists(path):
+    """Whether a dotted path is a module, or an attribute of one or of its class."""
+    try:
+        pkgutil.resolve_name(path)
+    except (ImportError, AttributeError):
+        module, _, field = path.rpartition(".")
+        owner = pkgutil.resolve_name(module) if module.count(".") > 1 else None
+        return field in getattr(owner, "__annotations__", {})
+    return True
 
 
 # -- Docstrings are read in the source first: some habits of theirs are no markup ---------------

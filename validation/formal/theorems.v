@@ -1,4 +1,4 @@
-(* The four theorems on which a verdict stands, over any ordered field: docs/proofs.md says them in words.
+(* The four theorems on which a verdict stands, over any ordered field: docs/exactness.md says them in words.
    Accepted by Debian's coq 8.16 with libcoq-mathcomp-algebra 1.15: `coqc -w none theorems.v`. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From Coq Require Import Ring.
