@@ -120,7 +120,7 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     points : array_like, shape (N, 3)
         At least four, not in one plane [m]; corners keep their order, the others are dropped.
     excess : float
-        See :class:`ConvexMesh` [-].
+        See :class:`~quasistatic_ref.shapes.convex_mesh.ConvexMesh` [-].
 
     Raises
     ------

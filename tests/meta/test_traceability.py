@@ -59,8 +59,8 @@ def test_under_each_equation_stand_its_code_and_its_test():
         module, name = UNDER_TEST.search(header).groups()
         # (2) and (3), (5) and (6) are one display and one function.
         shown = under[number + 1 if number in (2, 5) else number]
-        assert f"quasistatic_ref/{module.replace('.', '/')}.py" in shown, number
-        assert re.search(rf":pyobject: {name}\b", shown), number
+        file = f"quasistatic_ref/{module.replace('.', '/')}.py"
+        assert re.search(rf"<!-- code {file} {name}\b", shown), number
         assert f"`tests/equations/{path.name}`" in shown, number
 
 

@@ -58,7 +58,7 @@ def derivatives(
         External generalised force in addition to gravity, which does not depend on q [N, N m].
     towards : mapping, optional
         A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
-        [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
+        [of the parameter] as in ``Derivatives.along``. Where rows touch without load, the
         derivatives are then those next to the kink, on the side to which it points.
     nearly : float
         Distance to a kink, in natural units [-], below which the state counts as at it: rows that

@@ -1,0 +1,71 @@
+"""The notebooks of docs/notebooks: their scripts run, and their sources are those of the scripts.
+
+``python -m tests.test_notebooks`` writes the notebooks again, with their outputs. Whoever does so
+looks at them. Outputs are not compared: they depend on the machine.
+"""
+
+import json
+import re
+import runpy
+import warnings
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+
+FOLDER = Path(__file__).parents[1] / "docs" / "notebooks"
+SCRIPTS = sorted(FOLDER.glob("*.py"))
+LARGEST = 300_000  # bytes
+NEEDS = {"one_contact": "ipywidgets"}
+
+
+def cells(script):
+    """Kind and source of each cell of a script in jupytext's percent format."""
+    _, *parts = re.split(r"^# %%(.*)\n", script.read_text("utf-8"), flags=re.MULTILINE)
+    for head, text in zip(parts[::2], parts[1::2], strict=True):
+        source = text.strip("\n")
+        if "[markdown]" in head:
+            yield "markdown", re.sub(r"^# ?", "", source, flags=re.MULTILINE)
+        else:
+            yield "code", source
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_script_runs(script, monkeypatch):
+    if script.stem in NEEDS:
+        pytest.importorskip(NEEDS[script.stem])
+    monkeypatch.setattr(plt, "show", lambda: plt.close("all"))
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", category=DeprecationWarning)  # of ipywidgets
+        runpy.run_path(str(script))
+    plt.close("all")
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_notebook_has_the_sources_of_its_script_and_outputs(script):
+    path = script.with_suffix(".ipynb")
+    assert path.stat().st_size <= LARGEST
+    made = json.loads(path.read_text("utf-8"))["cells"]
+    assert [(cell["cell_type"], "".join(cell["source"])) for cell in made] == list(cells(script))
+    assert any(
+        "image/png" in output.get("data", {}) for cell in made for output in cell.get("outputs", ())
+    )
+
+
+def written(script):
+    """Write the notebook of a script, run in a kernel of its own."""
+    import jupytext
+    import nbformat
+    from nbclient import NotebookClient
+
+    made = jupytext.read(script)
+    NotebookClient(made, timeout=600).execute()
+    for number, cell in enumerate(made.cells):
+        cell.id = f"cell-{number}"  # the same every time
+    made.metadata.pop("widgets", None)
+    nbformat.write(made, script.with_suffix(".ipynb"))
+
+
+if __name__ == "__main__":
+    for each in SCRIPTS:
+        written(each)
