@@ -43,7 +43,7 @@ def block(push, mu_v=0.5, mu_omega=0.02, torque=0.0):
 def cone(mu_v, push):
     """The section of the cone at the normal force, with what the table bears."""
     solution = qr.solve_step(block(push, mu_v))
-    figure, axes = plt.subplots(figsize=(4, 3.4), layout="constrained")
+    _, axes = plt.subplots(figsize=(4, 3.4), layout="constrained")
     qr.cone_with_load(axes, solution.wrench[0], mu_v, 0.02)
     axes.set_title(f"slip {1e6 * solution.delta_q[0]:.1f} um")
     plt.show()
@@ -79,7 +79,7 @@ def slips(mu_v):
     beyond = np.maximum(pushes - mu_v * GRAVITY, 0.0)
     formula = H**2 * beyond / (1 + mu_v**2)
     assert np.abs(moved[:, 0] - formula).max() < 1e-12
-    figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
+    _, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
     axes.plot(pushes, 1e6 * formula, color="0.6", linewidth=3, label="slip, (R8)")
     axes.plot(pushes, 1e6 * moved[:, 0], "k.", label="slip")
     axes.plot(pushes, 1e6 * moved[:, 2], "k--", label="rise")
