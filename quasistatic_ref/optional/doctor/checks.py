@@ -9,7 +9,6 @@ from quasistatic_ref.optional.doctor import (
     few_points,
     guides,
     leaps,
-    left_out,
     numbers,
     placed,
     solving,
@@ -92,12 +91,9 @@ OF_RUN = (
     Check(sunk.sunk),
     Check(leaps.leaps),
     Check(targets.joints_beyond),
-    Check(targets.half_turns),
     Check(unsupported.falling),
     Check(solving.backend_failures),
     Check(drag.drag),
-    Check(left_out.border, is_large, "points beyond k"),
-    Check(left_out.exchanged),
     Check(unborne.unborne, is_beyond, "forces of single contacts"),
 )
 NO_STEPS = (Check(numbers.no_steps),)

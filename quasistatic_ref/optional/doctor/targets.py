@@ -1,4 +1,4 @@
-"""Targets and joints beyond the limits of a URDF, and joints that lag by half a turn."""
+"""Targets and joints beyond the limits of a URDF."""
 
 from collections.abc import Iterator
 
@@ -9,11 +9,6 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
-
-NEAR = 0.3
-"""An entry of a joint's quaternion, or (cos, sin), is farther from its target's than this [-] where
-it lags by pi / 2: quaternions are 2 sin(pi / 8) = 0.77 apart then, and one of four entries half of
-that."""
 
 
 def beyond_limits(run: Run) -> Iterator[Finding]:
@@ -84,27 +79,3 @@ def _farthest(joint: Joint, q: Array) -> tuple[float, float, int]:
     within = np.clip(at, *joint.limits)
     k = int(abs(at - within).argmax())
     return float(at[k]), float(within[k]), k
-
-
-def half_turns(run: Run) -> Iterator[Finding]:
-    """Joints that come to lag their target by half a turn, from where springs turn them back."""
-    for joint in run.system.joints:
-        if not joint.actuated or joint.unit is None:
-            continue
-        here = run["q"][:-1, joint.q]
-        there = run["q_bar_a"][:, joint.q]
-        if np.abs(there - here)[:, joint.lengths :].max() < NEAR:
-            continue
-        lag = np.array(list(map(joint.change, here.tolist(), there.tolist())))[:, joint.lengths :]
-        far = np.linalg.norm(lag, axis=1) > np.pi / 2
-        turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
-        if turned_over.any():
-            k = int(turned_over.argmax()) + 1
-            yield Finding(
-                "half a turn behind",
-                True,
-                "take a larger K_q or a slower target",
-                f"{joint.name} lags its target by half a turn at step {k}, and a spring turns the "
-                "shorter way",
-                {"step": k},
-            )

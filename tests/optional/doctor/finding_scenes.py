@@ -336,17 +336,6 @@ found = findings([box(mass=0.1)], push={"box": (500, 0, 0)}, steps=2)
 finger = motor("finger", xyz=(0, 0, 0.05))
 found = findings([finger], [("floor", "finger", 0.0, 4)], target=[0.5])
 
-# %% half a turn behind: a weak spring and a fast target
-wheel = Body("wheel", joint("continuous", "0 0 1"), actuated="all")
-brake = box(mass=50.0, xyz=(0, 0.1, 0.05))
-found = findings(
-    [wheel, brake],
-    [*STANDS, ("wheel", "box", 0.5, 4)],
-    K_q=0.1,
-    steps=8,
-    target=[[np.cos(a), np.sin(a)] for a in np.linspace(0, 5, 8)],
-)
-
 # %% free fall: a box dropped from 1 m falls by h^2 g a step, for ever as slowly
 found = findings([box(xyz=(0, 0, 1.05))])
 
@@ -389,12 +378,6 @@ found = findings(
 
 # %% drag: a box on ice
 found = findings([box()], [("floor", "box", 0.0, 4)], push={"box": (3, 0, 0)}, steps=10)
-
-# %% border of k: a cylinder on two points of its rim
-found = findings([TIN], [("floor", "tin", 0.5, 2)], steps=1)
-
-# %% exchanged points: a box of a hundred points that rocks on five
-found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": FACE}, steps=40)
 
 # %% failing backend: twelve digits of OSQP, which gives nine
 found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)
