@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import coulomb_step, standard_form
-from quasistatic_ref.lab.claims.claim import HOLDS, finding
+from quasistatic_ref.lab.claims.claim import HOLDS, claim_result
 from quasistatic_ref.lab.claims.registry import CLAIMS
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -19,7 +19,7 @@ from tests.oracles.random_steps import mixed_step
 
 @pytest.mark.parametrize("name", CLAIMS["Closed forms"])
 def test_a_claim_holds(name):
-    claim = finding(CLAIMS["Closed forms"][name])
+    claim = claim_result(CLAIMS["Closed forms"][name])
     assert claim.verdict == HOLDS, [c.what for c in claim.evidence.comparisons if not c.holds]
 
 

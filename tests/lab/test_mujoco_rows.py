@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
-from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
+from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, claim_result
 from quasistatic_ref.lab.claims.engines import mujoco_rows
 from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of
 from quasistatic_ref.lab.claims.engines.mujoco_scenes import heap
@@ -43,9 +43,9 @@ def test_without_the_formula_the_rows_do_not_agree(monkeypatch):
         rows = rows_of(scene)
         return rows | {"shift": 0 * rows["shift"]}
 
-    assert finding(mujoco_rows.CLAIM).verdict == HOLDS
+    assert claim_result(mujoco_rows.CLAIM).verdict == HOLDS
     monkeypatch.setattr(mujoco_rows, "rows_of", without)
-    found = finding(mujoco_rows.CLAIM)
+    found = claim_result(mujoco_rows.CLAIM)
     assert found.verdict == FAILS
     # It is the tangential rows that suffer, and the torsional ones that do not.
     holds = {c.what.split()[0]: c.holds for c in found.evidence.comparisons}

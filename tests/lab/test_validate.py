@@ -14,8 +14,8 @@ from quasistatic_ref.lab.claims.claim import (
     NOT_RUN,
     Claim,
     Evidence,
+    claim_result,
     comparison,
-    finding,
     sum_of_terms,
 )
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
@@ -56,7 +56,7 @@ def test_the_scale_of_a_sum_is_its_largest_term():
 
 
 def test_a_claim_without_its_engine_is_not_run_and_says_so():
-    found = finding(claim_of(engine="no_such_engine"))
+    found = claim_result(claim_of(engine="no_such_engine"))
     assert found.verdict == NOT_RUN == "not run (engine not installed)"
     assert summary(found)[0] == NOT_RUN
     assert NOT_RUN in claims_page({"Engines": [found]})
@@ -65,14 +65,14 @@ def test_a_claim_without_its_engine_is_not_run_and_says_so():
 def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
     good = comparison("good", 1.0, 1.0, 0.0)
     bad = comparison("bad", 1.0, 2.0, 0.1)
-    assert finding(claim_of(good)).verdict == HOLDS
-    assert finding(claim_of(good, bad)).verdict == FAILS
-    assert finding(claim_of()).verdict == FAILS  # no evidence is no claim
+    assert claim_result(claim_of(good)).verdict == HOLDS
+    assert claim_result(claim_of(good, bad)).verdict == FAILS
+    assert claim_result(claim_of()).verdict == FAILS  # no evidence is no claim
 
     def measure():
         raise InputError("is wrong")
 
-    broken = finding(claim_of(measure=measure))
+    broken = claim_result(claim_of(measure=measure))
     assert (broken.verdict, broken.trouble) == (FAILS, "is wrong")
 
 

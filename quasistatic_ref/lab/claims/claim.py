@@ -163,7 +163,7 @@ class Claim:
 
 
 @dataclass(frozen=True, eq=False)
-class Finding:
+class ClaimResult:
     """A claim with its evidence.
 
     Parameters
@@ -192,10 +192,10 @@ class Finding:
         return HOLDS if comparisons and all(c.holds for c in comparisons) else FAILS
 
 
-def finding(claim: Claim) -> Finding:
+def claim_result(claim: Claim) -> ClaimResult:
     """Measure a claim, or say that its engine is missing."""
     if claim.engine_version is None:
-        return Finding(claim, None)
+        return ClaimResult(claim, None)
     start = time.perf_counter()
     evidence = None
     trouble = ""
@@ -203,4 +203,4 @@ def finding(claim: Claim) -> Finding:
         evidence = claim.measure()
     except QuasistaticError as error:  # a wrong formula may well make a step unsolvable
         trouble = str(error)
-    return Finding(claim, evidence, trouble, time.perf_counter() - start)
+    return ClaimResult(claim, evidence, trouble, time.perf_counter() - start)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.claims.claim import HOLDS, Comparison, Finding
+from quasistatic_ref.lab.claims.claim import HOLDS, ClaimResult, Comparison
 from quasistatic_ref.lab.page.markdown import markdown_table
 
 HEAD = """# Claims
@@ -16,7 +16,7 @@ Formulas (R1), (R2), ... are derived in docs/derivations.md.
 """
 
 
-def finding_record(finding: Finding) -> dict[str, Any]:
+def finding_record(finding: ClaimResult) -> dict[str, Any]:
     """One finding as a JSON object."""
     claim = finding.claim
     comparisons = () if finding.evidence is None else finding.evidence.comparisons
@@ -51,7 +51,7 @@ def _finite(x: float) -> float | None:
     return float(x) if np.isfinite(x) else None
 
 
-def summary(finding: Finding) -> tuple[str, str, str, str]:
+def summary(finding: ClaimResult) -> tuple[str, str, str, str]:
     """Verdict and points; error and tolerance of the comparison that is nearest to failing."""
     record = finding_record(finding)["comparisons"]
     if not record:
@@ -68,12 +68,14 @@ def _share(record: Mapping[str, Any]) -> float:
     return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
 
 
-def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[str] = ()) -> str:
+def claims_page(
+    sections: Mapping[str, Sequence[ClaimResult]], figures: Collection[str] = ()
+) -> str:
     """The page: claim, where it stands, measured, expected, verdict.
 
     Parameters
     ----------
-    sections : mapping of str to sequence of Finding
+    sections : mapping of str to sequence of ClaimResult
     figures : collection of str
         Names of the claims that have a figure; it is in the folder ``figures`` next to the page.
     """
@@ -92,7 +94,7 @@ def claims_page(sections: Mapping[str, Sequence[Finding]], figures: Collection[s
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _chapter(finding: Finding) -> list[str]:
+def _chapter(finding: ClaimResult) -> list[str]:
     record = finding_record(finding)
     engine = f"*Engine:* {record['engine']}. " if record["engine"] else ""
     lines = [

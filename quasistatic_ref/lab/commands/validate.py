@@ -8,7 +8,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, Finding, finding
+from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, NOT_RUN, ClaimResult, claim_result
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.claims.report import claims_page, finding_record, summary
 from quasistatic_ref.lab.commands import reality
@@ -45,10 +45,10 @@ def run(options: argparse.Namespace) -> int:
         if name not in BY_NAME:
             raise InputError(f"is not a claim{suggestion(name, BY_NAME)}", field="NAME", value=name)
     chosen = options.names or list(BY_NAME)
-    findings: dict[str, Finding] = {}
+    findings: dict[str, ClaimResult] = {}
     for k, name in enumerate(chosen, start=1):
         shared.progress_line(options, f"[{k}/{len(chosen)}] {name} ...", end=" ")
-        findings[name] = finding(BY_NAME[name])
+        findings[name] = claim_result(BY_NAME[name])
         took = f"({findings[name].seconds:.1f} s)"
         shared.progress_line(options, f"{findings[name].verdict} {took}")
     drawn = _figures(findings, options.out)
@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     return 1 if failed else 0
 
 
-def _why(found: Finding) -> str:
+def _why(found: ClaimResult) -> str:
     """One sentence on a claim that fails."""
     name = found.claim.name
     if found.trouble:
@@ -87,7 +87,7 @@ def _why(found: Finding) -> str:
     return f"{name} fails: {said}"
 
 
-def _figures(findings: dict[str, Finding], folder: Path) -> list[str]:
+def _figures(findings: dict[str, ClaimResult], folder: Path) -> list[str]:
     from quasistatic_ref.lab.figures.validation import PICTURES
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 

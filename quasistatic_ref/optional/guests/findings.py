@@ -47,7 +47,7 @@ class Words(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Finding:
+class Discrepancy:
     """One finding.
 
     Parameters
@@ -83,7 +83,7 @@ def findings(
     weight: float,
     tolerance: float,
     words: Words,
-) -> Iterator[Finding]:
+) -> Iterator[Discrepancy]:
     """All findings.
 
     Parameters
@@ -152,7 +152,7 @@ def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
 
 def _motion(
     body: Body, own: Sequence[Contact], tolerance: float, words: Words
-) -> Iterator[Finding]:
+) -> Iterator[Discrepancy]:
     """What contacts let a body do."""
     moved = [c for c in own if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
@@ -188,7 +188,7 @@ def _creep(contact: Contact, body: Body) -> float:
     return _motion_of(replace(contact.theirs, slip=slip, spin=spin), body)
 
 
-def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Finding:
+def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
     speed, unit, creeps = _fast(body, True)
     slip = max(c.theirs.slip for c in through)
     if body.size * body.theirs.turn <= slip:
@@ -207,7 +207,7 @@ def _torque(through: Sequence[Contact]) -> float:
     return 1e3 * sum(c.exact.torque for c in through if c.exact)
 
 
-def _slides(body: Body, through: Sequence[Contact], words: Words) -> Finding:
+def _slides(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
     slides = f"{body.name} slides: its friction is at its limit"
     share = 1.0
     if body.free:
@@ -218,7 +218,7 @@ def _slides(body: Body, through: Sequence[Contact], words: Words) -> Finding:
     return _finding("slides", body, through, share, "", words.stronger, sentence)
 
 
-def _turns(body: Body, through: Sequence[Contact], words: Words) -> Finding:
+def _turns(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
     mu_omega = max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
     needed = body.torque / sum(c.exact.normal for c in through if c.exact)
@@ -228,7 +228,7 @@ def _turns(body: Body, through: Sequence[Contact], words: Words) -> Finding:
     return _finding("turns", body, through, mu_omega, "m", words.spins, sentence)
 
 
-def _moves(body: Body, own: Sequence[Contact], words: Words) -> Finding:
+def _moves(body: Body, own: Sequence[Contact], words: Words) -> Discrepancy:
     speed = body.fastest(body.exact)
     alone = "its contacts, loads and joints alone let it move"
     sentence = f"{body.name} rests in {words.engine}; {alone}"
@@ -237,7 +237,7 @@ def _moves(body: Body, own: Sequence[Contact], words: Words) -> Finding:
 
 def _penetration(
     between: Sequence[Contact], body: Body, reasons: Mapping[str, str], weight: float, words: Words
-) -> Iterator[Finding]:
+) -> Iterator[Discrepancy]:
     """Whether two bodies are pushed apart by more than their loads."""
     depth = max(c.depth for c in between)
     theirs = sum(c.theirs.normal for c in between)
@@ -257,7 +257,7 @@ def _penetration(
 
 def _inside(
     between: Sequence[Contact], body: Body, depth: float, size: float, words: Words
-) -> Finding:
+) -> Discrepancy:
     """Two bodies that are so deep in each other that they are not rigid."""
     other = next(name for name in between[0].bodies if name != body.name)
     share = f"{depth / size:.0%} of the distance from the middle to the farthest point"
@@ -270,12 +270,12 @@ def _inside(
 
 def overlapping(
     name: str, bodies: tuple[str, str], depth: float, when: str, words: Words
-) -> Finding:
+) -> Discrepancy:
     """The finding about two bodies that overlap by a depth [m], whatever an engine makes of it."""
     body, other = bodies if bodies[0] != "world" else bodies[::-1]
     overlap = f"{body} and {other} overlap by {1e3 * depth:.3g} mm {when}"
     sentence = f"{name}: {overlap} ({words.apart})"
-    return Finding("penetrates", body, (name,), float(depth), "m", words.apart, sentence)
+    return Discrepancy("penetrates", body, (name,), float(depth), "m", words.apart, sentence)
 
 
 def _fast(body: Body, turns: bool) -> tuple[float, str, str]:
@@ -291,9 +291,9 @@ def _fast(body: Body, turns: bool) -> tuple[float, str, str]:
 def _finding(
     kind: str, body: Body, through: Sequence[Contact], number: float, unit: str, remedy: str,
     sentence: str,
-) -> Finding:  # fmt: skip
+) -> Discrepancy:  # fmt: skip
     """A finding whose sentence begins with its contacts, each pair once, and ends with a remedy."""
     names = tuple(c.name for c in through)
     pairs = dict.fromkeys(c.pair for c in through)
     whole = f"{' and '.join(pairs)}: {sentence} ({remedy})"
-    return Finding(kind, body.name, names, float(number), unit, remedy, whole)
+    return Discrepancy(kind, body.name, names, float(number), unit, remedy, whole)

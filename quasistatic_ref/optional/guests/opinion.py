@@ -13,7 +13,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, Said
 from quasistatic_ref.optional.guests.findings import (
-    Finding,
+    Discrepancy,
     Words,
     findings,
     not_unique,
@@ -48,7 +48,7 @@ class Opinion(Plain):
     contacts : tuple of Contact
     bodies : tuple of Body
         Those that touch and can move.
-    findings : tuple of Finding
+    findings : tuple of Discrepancy
     left_out : tuple of str
         What the exact answer does not have, or holds as it is.
     """
@@ -59,7 +59,7 @@ class Opinion(Plain):
     certificate: str
     contacts: tuple[Contact, ...]
     bodies: tuple[Body, ...]
-    findings: tuple[Finding, ...]
+    findings: tuple[Discrepancy, ...]
     left_out: tuple[str, ...]
 
     @property
@@ -130,7 +130,7 @@ def opinion_of(
     words: Words,
     weight: float,
     reasons: Callable[[StepData], Mapping[str, str]],
-    overlaps: Sequence[Finding] = (),
+    overlaps: Sequence[Discrepancy] = (),
 ) -> Opinion:
     """The exact answer next to an engine's, and what is found.
 
@@ -148,7 +148,7 @@ def opinion_of(
         Of the whole model [N].
     reasons : callable
         What keeps deep contacts of the step where they are.
-    overlaps : sequence of Finding
+    overlaps : sequence of Discrepancy
         About bodies in each other that contacts do not tell.
 
     Raises

@@ -17,7 +17,7 @@ FORMAT = "quasistatic-ref/counterexample"
 
 
 @dataclass(frozen=True)
-class Finding:
+class Failure:
     """A case that a program gets wrong.
 
     Parameters

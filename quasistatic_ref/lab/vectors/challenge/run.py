@@ -14,7 +14,7 @@ from itertools import count
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.challenge.finding import Finding
+from quasistatic_ref.lab.vectors.challenge.finding import Failure
 from quasistatic_ref.lab.vectors.challenge.fresh import (
     ASKED,
     EASY,
@@ -48,12 +48,12 @@ class Outcome:
         As the program names itself.
     verdicts : Counter
         Answers by (layer, verdict); ``unsupported``, ``error``, ``end``, ... are verdicts, too.
-    findings : list of Finding
+    findings : list of Failure
     """
 
     implementation: str = ""
     verdicts: Counter[tuple[str, str]] = field(default_factory=Counter)
-    findings: list[Finding] = field(default_factory=list)
+    findings: list[Failure] = field(default_factory=list)
 
     def cases(self, layer: str) -> int:
         """How many cases of a layer were asked."""
@@ -189,7 +189,7 @@ def _asked(
     case: Json,
     record: Json,
     digits: float | None,
-) -> Finding | None:
+) -> Failure | None:
     """Ask one case, count what came of it, and return what is wrong."""
     if layer not in player.layers:
         return None
@@ -206,11 +206,11 @@ def _asked(
         if verdict.verdict != FAILED:
             return None
         expected = record["output"]
-        finding = Finding(id, layer, "wrong", verdict.field, verdict.reason, case, expected, output)
+        finding = Failure(id, layer, "wrong", verdict.field, verdict.reason, case, expected, output)
     else:
         outcome.verdicts[layer, reply.kind] += 1
         if reply.kind == "unsupported":
             return None
-        finding = Finding(id, layer, reply.kind, "", reply.reason, case)
+        finding = Failure(id, layer, reply.kind, "", reply.reason, case)
     outcome.findings.append(finding)
     return finding

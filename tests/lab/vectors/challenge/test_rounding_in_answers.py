@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from quasistatic_ref.lab.vectors.challenge.finding import Finding
+from quasistatic_ref.lab.vectors.challenge.finding import Failure
 from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
 
 # min x^2/2 - g x with x + 1 >= 0, x* = g: at g = 1/64 the row is idle. The free step's energy is
@@ -30,7 +30,7 @@ def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
     given = {"x": [float("nan"), 1.0]}
     bound = {"error_bound": float("inf")}
     expected = {"x": [0.5, 1.0], "certificate": bound}
-    finding = Finding("qp/1", "qp", "wrong", "x", "it is", {}, expected, given)
+    finding = Failure("qp/1", "qp", "wrong", "x", "it is", {}, expected, given)
     folder = finding.write_folder(tmp_path, "./sim")
 
     def refused(word):
