@@ -62,7 +62,7 @@ def sleeps(P, q, G, h):
     time.sleep(600)
 
 def eats(P, q, G, h):
-    held = np.ones(10**8)
+    held = np.ones(5 * 10**7)
     time.sleep(600)
 
 def spoils(P, q, G, h):
