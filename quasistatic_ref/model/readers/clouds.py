@@ -33,7 +33,8 @@ def point_cloud(path: str | Path) -> PointCloud:
         ``.xyz``, ``.csv``, ``.txt``, ``.pts``: three numbers a line, and further columns, separated
         by spaces, commas, semicolons or tabs; ``#`` starts a comment. A header may name columns x,
         y and z among others; a first line of one whole number is the number of points.
-        ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z. ``.npy``: an
+        ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z.
+        ``.las``: scaled, with laspy. ``.npy``: an
         array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
 
     Returns
@@ -134,7 +135,7 @@ TEXTS = (".xyz", ".csv", ".txt", ".pts")
 """Extensions of texts of columns."""
 VERTICES = (".off", ".obj")
 """Extensions of files whose vertices are taken."""
-OF_PART = (".ply", ".pcd", ".npy", ".npz")
+OF_PART = (".ply", ".pcd", ".las", ".npy", ".npz")
 """Extensions of files that ``optional/readers`` reads."""
 KINDS = (*TEXTS, *VERTICES, *OF_PART)
 

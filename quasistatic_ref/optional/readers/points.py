@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
@@ -17,6 +17,7 @@ from quasistatic_ref.model.readers.text import check_points
 from quasistatic_ref.optional.readers.pcd import pcd_points
 from quasistatic_ref.optional.readers.ply import ply_points
 from quasistatic_ref.optional.readers.point_table import LARGEST_HEADER
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 
 
@@ -31,6 +32,18 @@ def _ply(path: Path) -> Array:
             problem = f"must contain {int(count[1]) if count else 'some'} vertices"
             raise ModelError(problem, field="body", value=len(points))
     return points
+
+
+def _las(path: Path) -> Array:
+    laspy = needed_package("laspy", "las", "a .las cloud")
+    with about_file(path):
+        try:
+            with laspy.open(path) as reader:
+                check_points(reader.header.point_count, "points")
+                points = reader.read().xyz
+        except (laspy.errors.LaspyException, ValueError, OSError, OverflowError) as error:
+            raise ModelError(f"cannot be read as LAS: {error}") from None
+    return np.asarray(points, dtype=np.float64)
 
 
 def _npz(path: Path) -> Array:
@@ -60,6 +73,7 @@ def _of_array(array: NDArray[Any], name: str) -> Array:
 POINTS: Final[dict[str, Callable[[Path], Array]]] = {
     ".ply": _ply,
     ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
+    ".las": _las,
     ".npy": _npy,
     ".npz": _npz,
 }

@@ -3,6 +3,7 @@
 import io
 import struct
 
+import laspy
 import numpy as np
 import pytest
 
@@ -395,3 +396,19 @@ def test_vertices_that_a_ply_lacks_are_missed(tmp_path):
     path.write_text(OTHERS["list.ply"].replace("vertex 8", "vertex 9") + "\n")
     with pytest.raises(ModelError, match=r"body: must contain 9 vertices|cannot be read"):
         point_cloud(path)
+
+
+def test_las_is_read_in_metres_and_a_broken_one_is_refused(tmp_path):
+    las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
+    las.header.scales = [0.001, 0.002, 0.004]
+    las.header.offsets = [100.0, 0.0, -5.0]
+    points = np.array([[100.001, 0.002, -4.0], [100.5, -0.25, -5.0], [99.0, 4.0, 0.5]])
+    las.x, las.y, las.z = points.T
+    file = tmp_path / "c.las"
+    las.write(file)
+    assert np.abs(point_cloud(file).points - points).max() < 1e-12
+    content = file.read_bytes()
+    for spoilt in (b"", content[:100], content[:-5], b"LASF" + bytes(300)):
+        file.write_bytes(spoilt)
+        with pytest.raises(ModelError, match="cannot be read as LAS"):
+            point_cloud(file)
