@@ -22,7 +22,7 @@ from flint import arb, arb_mat, ctx, fmpz
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, Row, exact_matrix
+from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, exact_matrix
 
 
 def degeneracy(
@@ -44,23 +44,23 @@ def degeneracy(
     """
     if len(tight_rows) <= 1:
         return not implied_rows, not tight_rows
-    columns = zip(*form.integers(tight_rows), strict=True)
-    total = [sum(column, fmpz(0)) for column in columns]
+    rows = form.integers(tight_rows)
+    total = [sum(column, fmpz(0)) for column in zip(*rows, strict=True)]
     if implied(form.integers(working), [total])[0]:
         # A_E'1 = A_W'c: with lam, lam - t c on W and t on E is optimal for small t > 0.
         return False, True
-    rows = form.exact_rows(tight_rows)
-    with ctx.workprec(EXACT):
-        exact_total = [sum(column, arb(0)) for column in zip(*rows, strict=True)]
     # A_E v >= 0 is not zero iff the sum of its entries is positive, and then v can be scaled so
     # that the sum is at least 1.
-    smooth = not feasible(form, working, [*rows, exact_total], [0] * len(rows) + [1])
+    smooth = not feasible(form, working, [*rows, total], [0] * len(rows) + [1])
     unique = not implied_rows and feasible(form, working, rows, [1] * len(rows))
     return unique, smooth
 
 
 def feasible(
-    form: ExactForm, working: Sequence[int], bounded: Sequence[Row], least: Sequence[int]
+    form: ExactForm,
+    working: Sequence[int],
+    bounded: Sequence[Sequence[arb | fmpz]],
+    least: Sequence[int],
 ) -> bool:
     """Whether some v has A_W v = 0 and B v >= least, by the active-set method.
 
@@ -69,7 +69,7 @@ def feasible(
     form : ExactForm
     working : sequence of int
         W.
-    bounded : sequence of list of arb
+    bounded : sequence of list of arb or fmpz
         Rows of B, each with a constant, which does not count.
     least : sequence of int
         One for each row.

@@ -152,15 +152,18 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    optimum = optimum_by_groups(step, warm)
-    check_length(step, optimum.delta_q, groups(step))
+    parts = groups(step)
+    optimum = optimum_by_groups(step, parts, warm)
+    check_length(step, optimum.delta_q, parts)
     return optimum
 
 
-def optimum_by_groups(step: StepData, warm: Sequence[int]) -> ExactOptimum:
-    """The same, however long it is; StepInfeasible as above."""
+def optimum_by_groups(
+    step: StepData, parts: Sequence[Group], warm: Sequence[int] = ()
+) -> ExactOptimum:
+    """The same, however long it is, from the groups of the step; StepInfeasible as above."""
     optima: list[tuple[Group, ExactOptimum]] = []
-    for group in groups(step):
+    for group in parts:
         whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
         form = StepForm(step, None if whole else group)
         optimum = form_optimum(form, group.within(warm))
@@ -186,20 +189,20 @@ def optimum_by_groups(step: StepData, warm: Sequence[int]) -> ExactOptimum:
         return slack
 
     # A row is strictly active, or implied by others, within its group.
-    parts = [optimum for _, optimum in optima]
-    slacks = [part.smallest_inactive_slack for part in parts]
-    multipliers = [part.smallest_active_multiplier for part in parts]
+    each = [optimum for _, optimum in optima]
+    slacks = [optimum.smallest_inactive_slack for optimum in each]
+    multipliers = [optimum.smallest_active_multiplier for optimum in each]
     return ExactOptimum(
         delta_q=delta_q,
         lam=lam,
         net=net,
         slacks=joined_slacks,
         working_set=tuple(sorted(working)),
-        multipliers_unique=all(part.multipliers_unique for part in parts),
-        differentiable=all(part.differentiable for part in parts),
+        multipliers_unique=all(optimum.multipliers_unique for optimum in each),
+        differentiable=all(optimum.differentiable for optimum in each),
         smallest_inactive_slack=min((s for s in slacks if s is not None), default=None),
         smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
-        walks=sum(part.walks for part in parts),
+        walks=sum(optimum.walks for optimum in each),
     )
 
 

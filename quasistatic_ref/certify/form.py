@@ -238,7 +238,8 @@ class StepForm(ExactForm):
         self._cone_matrix = friction_cone.matrix
         self._exact_cone = exact_matrix(self._cone_matrix)
         self._frame = np.zeros((len(self._phi), 4, 4))
-        self._frame[:, :3, :3] = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)[at]
+        for k, axis in enumerate((contacts.n, contacts.d1, contacts.d2)):
+            self._frame[:, k, :3] = axis[at]
         self._frame[:, 3, 3] = 1.0
         self._own = own
         contact, kind = np.nonzero(self._mask)
@@ -252,20 +253,20 @@ class StepForm(ExactForm):
         tau = np.concatenate([step.tau_a[a], step.tau_u[u]])
         n_a = len(target)
         self.n = len(tau)
-        self.H, self.H_inverse = _hessian(
-            step.K_q[a][:, a].tobytes(), step.M_u[u][:, u].tobytes(), n_a, self.n - n_a, step.h
-        )
-        target = np.append(target, np.zeros(self.n - n_a))
-        with ctx.workprec(EXACT):
-            self.g = self.H * exact_matrix(target[:, None])  # h^2 tau_k, Eq. (1)
-            self.g += exact_matrix(tau[:, None]) * (self.h * self.h)
+        parts = np.zeros((3, self.n, self.n))
+        parts[0, :n_a, :n_a] = step.K_q[a][:, a]
+        parts[1, n_a:, n_a:] = step.M_u[u][:, u]
+        loads = np.zeros((3, self.n, 1))
+        loads[0, :n_a, 0] = target
+        loads[1, :, 0] = tau
         if step.extra.cost is not None:
-            H_cost, g_cost = step.extra.cost
             c = np.arange(step.n_v) if group is None else group.coordinates
-            with ctx.workprec(EXACT):
-                self.H = self.H + exact_matrix(H_cost[np.ix_(c, c)]) * self.h
-                self.g += exact_matrix(g_cost[c, None]) * self.h
-            self.H_inverse = inverse(self.H)
+            parts[2] = step.extra.cost[0][np.ix_(c, c)]
+            loads[2, :, 0] = step.extra.cost[1][c]
+        springs, self.H, self.H_inverse = _hessian(parts.tobytes(), self.n, step.h)
+        shift, force, pull = map(exact_matrix, loads)
+        with ctx.workprec(EXACT):
+            self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
@@ -378,21 +379,13 @@ def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=32)
-def _hessian(K_q: bytes, M_u: bytes, n_a: int, n_u: int, h: float) -> tuple[arb_mat, arb_mat]:
-    """h^2 K_q and M_u as the blocks of one exact matrix, and its inverse in balls."""
+def _hessian(parts: bytes, n: int, h: float) -> tuple[arb_mat, arb_mat, arb_mat]:
+    """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls."""
+    K_q, M_u, of_cost = map(exact_matrix, np.frombuffer(parts).reshape(3, n, n))
     with ctx.workprec(EXACT):
-        K = exact_matrix(np.frombuffer(K_q).reshape(n_a, n_a)) * (arb(h) * h)
-        M = exact_matrix(np.frombuffer(M_u).reshape(n_u, n_u))
-        return _diagonal(K, M), _diagonal(inverse(K), inverse(M))
-
-
-def _diagonal(K: arb_mat, M: arb_mat) -> arb_mat:
-    """Two square matrices as the blocks of one."""
-    zero = arb(0)
-    upper = [v for row in K.tolist() for v in (*row, *[zero] * M.nrows())]
-    lower = [v for row in M.tolist() for v in (*[zero] * K.nrows(), *row)]
-    n = K.nrows() + M.nrows()
-    return arb_mat(n, n, upper + lower)
+        springs = K_q * (arb(h) * h)
+        H = springs + M_u + of_cost * arb(h)
+    return springs, H, inverse(H)
 
 
 @lru_cache(maxsize=1024)

@@ -115,13 +115,6 @@ def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     return Solution(z, entries[n:], net, arb(denominator))
 
 
-def in_balls(exact: Solution) -> Solution:
-    """A solution in fractions as balls."""
-    with ctx.workprec(PRECISION):
-        share = 1 / exact.denominator
-        return Solution(exact.z * share, [v * share for v in exact.y], exact.net * share, arb(1))
-
-
 class Minimiser:
     """The minimiser of a program under a_i x + c_i = 0 for i in W.
 
@@ -151,7 +144,11 @@ class Minimiser:
         try:
             return ball_solution(self.form, self.working)
         except ZeroDivisionError:
-            return in_balls(self.fractions)
+            exact = self.fractions
+        with ctx.workprec(PRECISION):
+            share = 1 / exact.denominator
+            y = [v * share for v in exact.y]
+            return Solution(exact.z * share, y, exact.net * share, arb(1))
 
     @cached_property
     def fractions(self) -> Solution:

@@ -8,6 +8,7 @@ from quasistatic_ref.certify.exact import optimum_by_groups
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
+from quasistatic_ref.step.groups import groups
 from quasistatic_ref.step.standard_form import StandardForm
 
 NONE = np.zeros(0)
@@ -28,7 +29,7 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     """
     step = program_step(*form)
     try:
-        optimum = optimum_by_groups(step, warm)
+        optimum = optimum_by_groups(step, groups(step), warm)
     except StepInfeasible as none:
         farkas = {i: y for i, y in enumerate(none.farkas.exact) if y != "0"}
         return Answer(EXACT, 0.0, NONE, NONE, NONE, NONE, farkas)
