@@ -90,7 +90,7 @@ def test_each_function_of_the_core_that_c_repeats_exists():
     """C's comments name it as the file, then the function: contact/jacobian, `tangents`."""
     named = set()
     for file in (PACKAGE / "optional" / "fast" / "source").glob("*.[ch]"):
-        for module, name in re.findall(r"\b(\w+/\w+), `(\w+)`", file.read_text("utf-8")):
+        for module, name in re.findall(r"\b((?:\w+/)+\w+), `(\w+)`", file.read_text("utf-8")):
             python = (PACKAGE / module).with_suffix(".py").read_text("utf-8")
             assert re.search(rf"^ *def {name}\(", python, re.MULTILINE), (file.name, module, name)
             named.add(name)
