@@ -48,7 +48,8 @@ _HOMES = {
     "optional.guests.mujoco_opinion": "second_opinion",
     "optional.guests.scene": "mujoco_scenario",
     "optional.coulomb.fixed_point": "coulomb_step",
-    "certify.certificate": "Certificate verify",
+    "certify.certificate": "Certificate",
+    "certify.verification": "verify",
     "optional.forces.forces": "contact_forces",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
@@ -59,8 +60,9 @@ _HOMES = {
     "simulate.motions": "relative_turn",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
-    "NotDifferentiable RunFailed",
+    "BackendError NotDifferentiable",
+    "certify.failures": "StepNotSolved StepInfeasible StepIllPosed",
+    "simulate.failures": "LimitExceeded NoFixedPoint RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

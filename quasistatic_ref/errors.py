@@ -1,8 +1,9 @@
 """Everything that can go wrong, under one root.
 
-Two families matter to a caller: :class:`InputError` (something given is not usable; exit
-status 2) and :class:`StepNotSolved` (a well-formed step got no trustworthy answer; exit
-status 3). Each message is one plain sentence; each object carries the data behind it.
+Two families matter to a caller: :class:`InputError` (an input is not usable; exit status 2) and
+:class:`~quasistatic_ref.certify.failures.StepNotSolved` (a well-formed step got no trustworthy
+answer; exit status 3). Each message is one plain sentence; each object carries the data behind it.
+An error that carries a thing of a folder stands in that folder.
 """
 
 from __future__ import annotations
@@ -10,17 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
-
-if TYPE_CHECKING:
-    from quasistatic_ref.certify.farkas import FarkasVector
-    from quasistatic_ref.certify.residuals import Residuals
-    from quasistatic_ref.simulate.trajectory import Trajectory
-    from quasistatic_ref.solve.solver import NaturalAnswer
-    from quasistatic_ref.step.data import Array, StepData
 
 
 class QuasistaticError(Exception):
@@ -169,182 +162,6 @@ class BackendError(InputError):
     """
 
 
-class StepNotSolved(QuasistaticError):
-    """A solver gave no answer that can be trusted.
-
-    Carries everything that is needed to replay the step.
-
-    Parameters
-    ----------
-    backend : str
-        Name in the table of backends.
-    status : str
-        What the solver said, or why its answer was not taken.
-    step : StepData
-        The step in SI units, as given.
-    accuracy : float
-        The accuracy of the call, in natural units [-].
-    residuals : Residuals, optional
-        Residuals of the refused answer, where there was one.
-
-    Attributes
-    ----------
-    unclaimed : NaturalAnswer or None
-        The backend's last answer, which it does not call a full solution.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> walls = qr.Extra(names=("up", "down"), A=np.eye(6)[2] * [[1], [-1]], b=[1e-3, 1e-3])
-    >>> try:
-    ...     qr.solve_step(step.replace(extra=walls))
-    ... except qr.StepNotSolved as error:
-    ...     print(error.status, error.step.n_v)
-    infeasible 6
-    """
-
-    def __init__(
-        self,
-        backend: str,
-        status: str,
-        step: StepData,
-        accuracy: float,
-        residuals: Residuals | None = None,
-    ) -> None:
-        self.backend = backend
-        self.status = status
-        self.step = step
-        self.accuracy = accuracy
-        self.residuals = residuals
-        self.unclaimed: NaturalAnswer | None = None
-        super().__init__(
-            f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
-            "try another backend, or check the step"
-        )
-
-
-class StepInfeasible(StepNotSolved):
-    """No displacement satisfies the rows of the step; this is proved, not a solver's opinion.
-
-    Parameters
-    ----------
-    step : StepData
-        The step in SI units, as given.
-    farkas : FarkasVector
-        The proof: a combination of the rows that reads 0 >= something positive.
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> walls = qr.Extra(names=("up", "down"), A=np.eye(6)[2] * [[1], [-1]], b=[1e-3, 1e-3])
-    >>> try:
-    ...     qr.solve_step(step.replace(extra=walls))
-    ... except qr.StepInfeasible as error:
-    ...     print(error.status)
-    infeasible
-    """
-
-    def __init__(self, step: StepData, farkas: FarkasVector) -> None:
-        super().__init__("exact", "infeasible", step, 0.0)
-        self.farkas = farkas
-        self.args = (
-            f"the step has no solution: {farkas.in_words} (proved without rounding); "
-            "widen these gaps, or make one of the bodies compliant",
-        )
-
-
-class StepIllPosed(StepNotSolved):
-    """The exact optimum is known and absurd: the rows contradict each other but for rounding.
-
-    Parameters
-    ----------
-    step : StepData
-        The step in SI units, as given.
-    delta_q : ndarray, shape (n_v,)
-        The exact optimum [m, rad], correctly rounded.
-    length : float
-        Its length in the H norm, over the largest that the loads or a row ask for alone [-].
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> A = [[1, 0, 0, 0, 0, 0], [-1, 1e-12, 0, 0, 0, 0]]  # opposite but for 1e-12
-    >>> walls = qr.Extra(names=("left", "right"), A=A, b=[1e-3, 1e-3])
-    >>> try:
-    ...     qr.solve_step(step.replace(extra=walls))
-    ... except qr.StepIllPosed as error:
-    ...     print(error.length > 1e6)
-    True
-    """
-
-    def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
-        super().__init__("exact", "ill-posed", step, 0.0)
-        self.delta_q = delta_q
-        self.length = length
-        self.args = (
-            f"the exact optimum is {length:.0e} times longer than the step's forces, targets and "
-            "gaps explain, because its contacts almost contradict each other; look for opposite "
-            "normals",
-        )
-
-
-class LimitExceeded(StepNotSolved):
-    """A run has gone where no step should be taken from.
-
-    Parameters
-    ----------
-    problem : str
-        What is beyond which limit, and the remedy.
-    step : StepData
-        The step that was not taken.
-
-    Examples
-    --------
-    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
-    >>> system = qr.System([ball])
-    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
-    >>> try:
-    ...     storm.step(system.q_start, np.zeros(0))
-    ... except qr.LimitExceeded as error:
-    ...     print(error.status)
-    limit exceeded
-    """
-
-    def __init__(self, problem: str, step: StepData) -> None:
-        super().__init__("none", "limit exceeded", step, 0.0)
-        self.args = (problem,)
-
-
-class NoFixedPoint(StepNotSolved):
-    """No solution of the step under Coulomb's law was found, which does not say that none exists.
-
-    Parameters
-    ----------
-    step : StepData
-        The step in SI units, as given.
-    iterations : int
-        Convex steps that were solved.
-    residual : float
-        By how much s is not that of the last one's slip [m].
-
-    Examples
-    --------
-    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> qr.NoFixedPoint(step, 200, 1e-6).status
-    'no fixed point'
-    """
-
-    def __init__(self, step: StepData, iterations: int, residual: float) -> None:
-        super().__init__("coulomb", "no fixed point", step, 0.0)
-        self.iterations = iterations
-        self.residual = residual
-        self.args = (
-            f"no solution under Coulomb's law was found in {iterations} iterations, which does not "
-            f"say that there is none: s is still off by {residual:.3g} m; take a smaller h, or "
-            'law = "convex"',
-        )
-
-
 class NotDifferentiable(QuasistaticError):
     """A derivative is needed where a step has none.
 
@@ -363,42 +180,6 @@ class NotDifferentiable(QuasistaticError):
         self.reasons = reasons
         more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
         super().__init__(f"the step has no derivative here: {reasons[0]}{more}")
-
-
-class RunFailed(QuasistaticError):
-    """A simulation ended early; the steps before the failure are kept.
-
-    Parameters
-    ----------
-    reason : str
-        One sentence.
-    trajectory : Trajectory
-        The steps that were completed, marked with the reason.
-    step : StepData, optional
-        The step that failed.
-
-    Examples
-    --------
-    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
-    >>> system = qr.System([ball])
-    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
-    >>> try:
-    ...     qr.rollout(storm, system.q_start, [], steps=3, progress=False)
-    ... except qr.RunFailed as error:
-    ...     print(len(error.trajectory))
-    0
-    """
-
-    def __init__(
-        self,
-        reason: str,
-        trajectory: Trajectory,
-        step: StepData | None = None,
-    ) -> None:
-        self.reason = reason
-        self.trajectory = trajectory
-        self.step = step
-        super().__init__(reason)
 
 
 @contextmanager

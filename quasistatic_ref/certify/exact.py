@@ -23,10 +23,11 @@ from quasistatic_ref.certify.active_set import (
     most_violated,
 )
 from quasistatic_ref.certify.degeneracy import degeneracy
+from quasistatic_ref.certify.failures import StepIllPosed, StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import ExactForm, StepForm
 from quasistatic_ref.certify.norm import energy_norm, single_loads
-from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, group_steps, groups

@@ -1,7 +1,7 @@
 """What a certificate claims, in words."""
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.certify.curved_cone import curved_cone
 
 
 def in_words(certificate: Certificate) -> str:
@@ -19,7 +19,7 @@ def in_words(certificate: Certificate) -> str:
         return "nothing is certified"
     step = certificate.step
     assert step is not None
-    curved = cone(step.cone).curved
+    curved = curved_cone(step)
     if curved is not None:
         return curved.in_words(certificate)
     words = [

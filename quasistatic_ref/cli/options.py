@@ -9,9 +9,10 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written

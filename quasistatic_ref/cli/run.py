@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import InputError, RunFailed, about_file
+from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.npz import header_of, npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.parts import if_there, needed_package, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import (

@@ -3,9 +3,9 @@
 import argparse
 from pathlib import Path
 
-from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.verdict import wrong_bits
+from quasistatic_ref.certify.verification import verify
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import SolutionFile, rounded_wrenches, solution_read

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import (
     bytes_read,
     json_text,
@@ -28,6 +28,7 @@ from quasistatic_ref.lab.run_settings import fingerprint, run_settings
 from quasistatic_ref.optional.doctor.telling import measures
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.tolerances import LARGE

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, LimitExceeded
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.simulate.failures import LimitExceeded
 from quasistatic_ref.step.data import Array, StepData
 
 

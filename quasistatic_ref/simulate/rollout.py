@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
+from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.formats.given import checked_items
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar

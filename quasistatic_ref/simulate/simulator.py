@@ -11,11 +11,12 @@ from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.given import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System

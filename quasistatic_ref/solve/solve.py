@@ -11,17 +11,18 @@ import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate, exact_certificate
+from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
-from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
-from quasistatic_ref.step.cones import Enclosed, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import groups
@@ -171,7 +172,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     """
     step = both.si_step
     units = both.units
-    curved = cone(step.cone).curved
+    curved = curved_cone(step)
     answer, unclaimed, statistics = _answer_and_statistics(both, solver, accuracy)
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
@@ -221,7 +222,7 @@ def _answer_and_statistics(
     both: StepInBothUnits, solver: Solver, accuracy: float
 ) -> tuple[NaturalAnswer | None, NaturalAnswer | None, SolverStatistics]:
     """A backend's answer, or one that it does not call a solution, and what it said and cost."""
-    unclaimed = None
+    unclaimed: NaturalAnswer | None = None
     unanswered = False
     status = "not called"
     if not both.si_form.b.size:
@@ -231,7 +232,7 @@ def _answer_and_statistics(
             answer = solver.answer(both, accuracy)
         except StepNotSolved as failure:
             status = f"failed: {failure.status}"
-            unclaimed = failure.unclaimed
+            unclaimed = failure.answer if isinstance(failure, AnswerNotClaimed) else None
             unanswered = unclaimed is None
         else:
             return answer, None, answer.statistics

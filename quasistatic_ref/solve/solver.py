@@ -12,8 +12,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
     BACKENDS,
@@ -62,6 +63,24 @@ class NaturalAnswer:
     natural_delta_q: Array
     natural_lam: Array
     statistics: SolverStatistics
+
+
+class AnswerNotClaimed(StepNotSolved):
+    """A backend gave an answer that it does not call a full solution.
+
+    Parameters
+    ----------
+    backend, status, step, accuracy
+        As of :class:`~quasistatic_ref.certify.failures.StepNotSolved`.
+    answer : NaturalAnswer
+        The last one.
+    """
+
+    def __init__(
+        self, backend: str, status: str, step: StepData, accuracy: float, answer: NaturalAnswer
+    ) -> None:
+        super().__init__(backend, status, step, accuracy)
+        self.answer = answer
 
 
 @dataclass(eq=False)
@@ -208,9 +227,11 @@ class BackendSolver(Solver):
 
         Raises
         ------
+        AnswerNotClaimed
+            If none does, with its last answer that claims less.
         StepNotSolved
-            If none does, with its last answer that claims less; or, before any call, if the backend
-            may not return from such rows.
+            If none does and there is no answer; or, before any call, if the backend may not return
+            from such rows.
         """
         if not both.si_form.b.size:
             return self.free(both, accuracy)
@@ -253,9 +274,9 @@ class BackendSolver(Solver):
                     return answer
                 status = reply.status
                 unclaimed = answer
-        failure = StepNotSolved(self.name, status, both.si_step, tried)
-        failure.unclaimed = unclaimed
-        raise failure from cause
+        if unclaimed is not None:
+            raise AnswerNotClaimed(self.name, status, both.si_step, tried, unclaimed) from cause
+        raise StepNotSolved(self.name, status, both.si_step, tried) from cause
 
     def free(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """The answer to a step without rows, H delta_q = g: no backend is asked."""

@@ -7,7 +7,7 @@ from typing import Protocol
 import cvxpy as cp
 import cvxpy.settings as words
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem

@@ -25,7 +25,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -37,8 +37,6 @@ from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 if TYPE_CHECKING:
     import cvxpy as cp
 
-    from quasistatic_ref.certify.certificate import Certificate
-    from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.step.data import StepData
 
 Rows: TypeAlias = "tuple[Any, ...]"
@@ -89,14 +87,9 @@ class FrictionCone(ABC):
     claims: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: CLAIMS)
 
     @property
-    def curved(self) -> CurvedCone | None:
-        """Itself, where rows alone do not describe it."""
-        return None
-
-    @property
+    @abstractmethod
     def polyhedral(self) -> bool:
         """Whether linear inequalities (rows) alone describe it."""
-        return self.curved is None
 
     @cached_property
     def matrix(self) -> Array:
@@ -140,6 +133,8 @@ class FrictionCone(ABC):
 class PolyhedralCone(FrictionCone):
     """A cone that its rows describe: the core proves its optima by exact rows."""
 
+    polyhedral = True
+
     def row_coefficients(self, mu: Array) -> Array:
         """The coefficients of friction `mu`, (n_c, 3) [-, -, m], themselves."""
         return mu
@@ -159,79 +154,6 @@ class PolyhedralCone(FrictionCone):
     def judge(self, step: StepData) -> Judge:
         """See :func:`row_violations`."""
         return row_violations
-
-
-class Enclosed(Protocol):
-    """The proved optimum of a step in a curved cone."""
-
-    @property
-    def delta_q(self) -> Array:
-        """Shape (n_v,) [m, rad]."""
-
-    @property
-    def lam(self) -> Array:
-        """Shape (m,) [N s]."""
-
-    @property
-    def net(self) -> Array:
-        """A'lam, shape (n_v,) [N s, N m s]."""
-
-    def certificate(self, step: StepData, residuals: Mapping[str, float]) -> Certificate:
-        """Its certificate, with its residuals in natural units [-]."""
-
-
-class CurvedCone(FrictionCone):
-    """A cone that no rows describe: an optional part, which proves its own answers.
-
-    Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
-    that :class:`PolyhedralCone` does by its rows, and the core by exact rows, it does itself.
-    """
-
-    @property
-    def curved(self) -> CurvedCone:
-        """Itself."""
-        return self
-
-    @abstractmethod
-    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
-        """The proved optimum of a step; None if none is.
-
-        Parameters
-        ----------
-        step : StepData
-        start : (ndarray, ndarray), optional
-            A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
-        """
-
-    @abstractmethod
-    def in_words(self, certificate: Certificate) -> str:
-        """What a certificate of kind ``"exact"`` claims, in a sentence."""
-
-    @abstractmethod
-    def forces(
-        self, step: StepData, compliance: float, near: tuple[Array, Array]
-    ) -> tuple[Array, Array]:
-        """The forces of a group, (n_c, 4) [N, N m], and where it ends, (n_v,) [m, rad].
-
-        Parameters
-        ----------
-        step : StepData
-        compliance : float
-            Of each contact [m/N].
-        near : (ndarray, ndarray)
-            delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] of the step without compliance.
-        """
-
-    @abstractmethod
-    def verdict(
-        self,
-        step: StepData,
-        delta_q: Array,
-        active: Sequence[tuple[int, int]],
-        lam: Array | None,
-        claims: Certificate | None,
-    ) -> Verdict:
-        """As :func:`~quasistatic_ref.certify.certificate.verify`."""
 
 
 def has_torsion(rows: Indices) -> Mask:

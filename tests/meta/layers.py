@@ -84,6 +84,8 @@ FACE = "__init__.py"
 # Where each third-party package may be imported: a folder, or one file.
 WALLS = {
     "cvxpy": (
+        "step/cones.py",
+        "step/extension.py",
         "step/problem.py",
         "solve",
         "optional/ellipsoid",
@@ -116,7 +118,7 @@ WALLS = {
 
 # What a folder may not import although it comes before: figures draw what they are given.
 CLOSED = dict.fromkeys(
-    ("optional/show", "lab/figures"),
+    ("optional/show/figures", "lab/figures"),
     (
         "solve",
         "certify",
@@ -129,7 +131,7 @@ CLOSED = dict.fromkeys(
 
 # Kinds answer for themselves: who may ask for the class of a cone, and name a kind of joint.
 CONES = {"FrictionCone", "PolyhedralCone", "CurvedCone", "EllipsoidCone"}
-OF_CONES = ("step/cones.py", "optional/ellipsoid/cone.py")
+OF_CONES = ("step/cones.py", "certify/curved_cone.py", "optional/ellipsoid/cone.py")
 OF_JOINTS = {FIXED, *BASES, *JOINTS}
 READERS = ("model/joints", "model/body.py", "model/urdf", "scenario", "cli", "lab")
 
@@ -137,16 +139,6 @@ DYNAMIC = ("import_module", "__import__")
 
 # Of parts.py: below these anything but the ground may import an optional part in a function.
 GUARDS = {"needing", "if_there"}
-
-
-def under_type_checking(tree):
-    """The nodes that run only for a type checker."""
-    inside = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
-            for statement in node.body:
-                inside |= set(ast.walk(statement))
-    return inside
 
 
 def guarded(tree):
@@ -165,12 +157,9 @@ def guarded(tree):
 
 
 def imports(tree, package, module):
-    """(line, dotted name) of everything imported anywhere in a file, functions included."""
-    skipped = under_type_checking(tree)
+    """(line, dotted name) of everything imported anywhere in a file, for types too."""
     below_guards = guarded(tree)
     for node in ast.walk(tree):
-        if node in skipped:
-            continue
         of_part = isinstance(node, ast.ImportFrom) and f"{package}.optional." in f"{node.module}"
         if of_part and node in below_guards:
             continue
@@ -228,15 +217,6 @@ def names_of(dotted, tree):
             yield node.lineno
 
 
-def typed_parts(tree):
-    """Lines on which an optional part or the lab is imported for a type checker alone."""
-    for node in under_type_checking(tree):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(
-            ("quasistatic_ref.optional", "quasistatic_ref.lab")
-        ):
-            yield node.lineno
-
-
 def kinds_asked_for(tree, name):
     """Lines on which a file asks which cone or which joint something is."""
     for node in ast.walk(tree):
@@ -277,8 +257,6 @@ def violations(root):
         if parts[0] not in {"lab", "optional"} and name != PARTS_DOOR:
             found += [f"{name}:{line}: names a part" for line in names_of("optional", tree)]
         found += [f"{name}:{line}: asks for a kind" for line in kinds_asked_for(tree, name)]
-        if own is not None and rank(own) < len(CORE):
-            found += [f"{name}:{line}: types by a part" for line in typed_parts(tree)]
         for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):
             top, *rest = imported.split(".")
             if top == package:
@@ -291,8 +269,13 @@ def violations(root):
                     found.append(f"{name}:{line}: imports {imported}, from a later folder")
                 elif wrong := crosses(own, other):
                     found.append(f"{name}:{line}: imports {imported}, from {wrong}")
-                elif within("/".join(rest), CLOSED.get(own, ())):
-                    found.append(f"{name}:{line}: imports {imported}, which is closed to {own}")
+                else:
+                    closed = [to for to, shut in CLOSED.items() if within("/".join(rest), shut)]
+                    found += [
+                        f"{name}:{line}: imports {imported}, which is closed to {to}"
+                        for to in closed
+                        if within(name, [to])
+                    ]
             elif top in WALLS and not within(name, WALLS[top]):
                 found.append(f"{name}:{line}: imports {top}")
     return found

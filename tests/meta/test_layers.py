@@ -55,7 +55,7 @@ PLANTED = {
     "an optional part for a type checker": (
         "errors.py",
         "if TYPE_CHECKING:\n    from quasistatic_ref.optional.show import words",
-        "types by a part",
+        "later folder",
     ),
     "the class of a cone": ("solve/a.py", "isinstance(cone, CurvedCone)", "asks for a kind"),
     "the word of a joint": ("simulate/a.py", "joint.kind == 'planar'", "asks for a kind"),

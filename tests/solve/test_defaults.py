@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extension, FastSimulator, Simulator, load_scenario, solve_step
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.optional.fast import simulator as of_fast
 from quasistatic_ref.optional.fast.program import Workspaces

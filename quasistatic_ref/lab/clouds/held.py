@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.grasp import CLOSED, TOP, lift_motion
 from quasistatic_ref.lab.log import Record
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 

@@ -5,7 +5,6 @@ import argparse
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.clouds.rows import rotations_by_case
 from quasistatic_ref.lab.grasp import (
@@ -17,6 +16,7 @@ from quasistatic_ref.lab.grasp import (
     rotations,
 )
 from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.optional.doctor.artifacts import Drag, drags, moved
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import free_bases

@@ -12,6 +12,7 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
 from quasistatic_ref.certify.residuals import largest
@@ -31,7 +32,7 @@ from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import duality_gap, fractions
 from quasistatic_ref.step.arrays import Array, Mask
-from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
+from quasistatic_ref.step.cones import ELLIPSOID, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 

@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
     checked,

@@ -18,8 +18,9 @@ import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
-from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepDataError
 from quasistatic_ref.optional.extensions.conic import conic_program, conic_residuals
 from quasistatic_ref.optional.extensions.quadratic import quadratic_program
 from quasistatic_ref.optional.extensions.rises import with_rises

@@ -7,10 +7,11 @@ from functools import cache
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, StepDataError, StepNotSolved
+from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.given import check_kind
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import System

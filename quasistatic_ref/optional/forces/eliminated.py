@@ -12,10 +12,10 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, StepForm, columns
 from quasistatic_ref.certify.minimiser import Minimiser
-from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData

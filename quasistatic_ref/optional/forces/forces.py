@@ -30,16 +30,17 @@ from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.contact_forces import ContactForces
+from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
+from quasistatic_ref.certify.failures import StepInfeasible, StepNotSolved
 from quasistatic_ref.certify.form import EXACT, MatrixForm, StepForm, columns, exact_matrix
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.errors import InputError, StepInfeasible, StepNotSolved
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
 from quasistatic_ref.step.arrays import without_warnings
-from quasistatic_ref.step.cones import Enclosed, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import group_steps
@@ -126,7 +127,7 @@ def _one_of(given: Array) -> float:
 def _without_compliance(step: StepData) -> tuple[Array, Array]:
     """delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step itself."""
     optimum: Enclosed | ExactOptimum | None
-    curved = cone(step.cone).curved
+    curved = curved_cone(step)
     if curved is not None:
         optimum = curved.optimum(step, None)
         if optimum is None:
@@ -139,7 +140,7 @@ def _without_compliance(step: StepData) -> tuple[Array, Array]:
 
 def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactForces:
     """The forces of a step by itself, or of a group of one, by one compliance [m/N]."""
-    curved = cone(step.cone).curved
+    curved = curved_cone(step)
     if curved is not None:
         wrench, delta_q = curved.forces(step, c, near)
     else:

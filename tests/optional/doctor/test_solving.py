@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.lab.thresholds import exact

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.exact import optimum_by_groups
-from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.lab.scenes.rigid import program_step
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
 from quasistatic_ref.step.groups import groups

@@ -211,7 +211,7 @@ def certificate_problem(case: Json, answer: Json) -> str | None:
     answer : dict
         ``delta_q``, ``lam`` and ``certificate``; it claims the correctly rounded optimum.
     """
-    from quasistatic_ref.certify.certificate import verify
+    from quasistatic_ref.certify.verification import verify
     from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, step_of
 
     if "second_order" in case:

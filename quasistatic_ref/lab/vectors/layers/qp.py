@@ -14,9 +14,10 @@ from flint import fmpq
 from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import MatrixForm
 from quasistatic_ref.certify.minimiser import fraction_solution
-from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.exact.conditioning import NO_ERRORS, Bounds, Errors, bounds

@@ -4,10 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json

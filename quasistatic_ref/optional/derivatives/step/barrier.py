@@ -15,8 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat, ctx
 
+from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.form import exact_matrix
-from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData

@@ -1,0 +1,89 @@
+"""What a cone that no rows describe proves of its answers."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.verdict import Verdict
+from quasistatic_ref.step.cones import FrictionCone, cone
+from quasistatic_ref.step.data import Array, StepData
+
+
+class Enclosed(Protocol):
+    """The proved optimum of a step in a curved cone."""
+
+    @property
+    def delta_q(self) -> Array:
+        """Shape (n_v,) [m, rad]."""
+
+    @property
+    def lam(self) -> Array:
+        """Shape (m,) [N s]."""
+
+    @property
+    def net(self) -> Array:
+        """A'lam, shape (n_v,) [N s, N m s]."""
+
+    def certificate(self, step: StepData, residuals: Mapping[str, float]) -> Certificate:
+        """Its certificate, with its residuals in natural units [-]."""
+
+
+class CurvedCone(FrictionCone):
+    """A cone that no rows describe: an optional part, which proves its own answers.
+
+    Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
+    that :class:`~quasistatic_ref.step.cones.PolyhedralCone` does by its rows, and the core by exact
+    rows, it does itself.
+    """
+
+    polyhedral = False
+
+    @abstractmethod
+    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosed | None:
+        """The proved optimum of a step; None if none is.
+
+        Parameters
+        ----------
+        step : StepData
+        start : (ndarray, ndarray), optional
+            A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
+        """
+
+    @abstractmethod
+    def in_words(self, certificate: Certificate) -> str:
+        """What a certificate of kind ``"exact"`` claims, in a sentence."""
+
+    @abstractmethod
+    def forces(
+        self, step: StepData, compliance: float, near: tuple[Array, Array]
+    ) -> tuple[Array, Array]:
+        """The forces of a group, (n_c, 4) [N, N m], and where it ends, (n_v,) [m, rad].
+
+        Parameters
+        ----------
+        step : StepData
+        compliance : float
+            Of each contact [m/N].
+        near : (ndarray, ndarray)
+            delta_q (n_v,) [m, rad] and wrenches (n_c, 4) [N, N m] of the step without compliance.
+        """
+
+    @abstractmethod
+    def verdict(
+        self,
+        step: StepData,
+        delta_q: Array,
+        active: Sequence[tuple[int, int]],
+        lam: Array | None,
+        claims: Certificate | None,
+    ) -> Verdict:
+        """As :func:`~quasistatic_ref.certify.verification.verify`."""
+
+
+def curved_cone(step: StepData) -> CurvedCone | None:
+    """The cone of a step where no rows describe it, which proves its own answers; else None."""
+    of_step = cone(step.cone)
+    return of_step if isinstance(of_step, CurvedCone) else None

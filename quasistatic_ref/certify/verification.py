@@ -1,0 +1,162 @@
+"""The verification of a certificate without any solver.
+
+No step calls :func:`verify`, which is for whoever wants to check an answer afterwards.
+
+A certificate names a working set of independent rows. Solving one linear system without rounding
+gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is the optimum, which
+is unique. Verification solves that system in rational numbers. It shares with the method that found
+the answer the formation of H, g, A and b, the rational solution of that system, the test that H is
+positive definite, and the decisions on degeneracy; it does not search for a working set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from flint import arb, ctx
+
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.curved_cone import curved_cone
+from quasistatic_ref.certify.degeneracy import degeneracy
+from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
+from quasistatic_ref.certify.minimiser import (
+    Solution,
+    fraction_solution,
+    implied_rows,
+    rounded_quotients,
+)
+from quasistatic_ref.certify.rows import flat_rows, row_owners
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.parts import needing
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.groups import Group, groups
+
+
+def verify(
+    step: StepData,
+    delta_q: Array,
+    active: Sequence[tuple[int, int]],
+    lam: Array | None = None,
+    claims: Certificate | None = None,
+) -> Verdict:
+    """Whether delta_q is the exact optimum of a step, rounded correctly.
+
+    Where a certificate of another kind claims less: whether that claim holds.
+
+    Parameters
+    ----------
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+        The claimed optimum; every bit counts.
+    active : sequence of (int, int)
+        Contact and row of each member of the working set, as in the certificate.
+    lam : ndarray, shape (m,), optional
+        The claimed multipliers on that working set, the user's own rows last.
+    claims : Certificate, optional
+        All fields but the residuals, which are float64's, are checked. One of another step is
+        refused, and so are kind ``"none"``, which claims nothing, and ``"residual"`` without a
+        bound.
+
+    Returns
+    -------
+    Verdict
+
+    Raises
+    ------
+    InputError
+        If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> bool(qr.verify(step, solution.delta_q, solution.certificate.active))
+    True
+    """
+    if claims is not None and claims.kind != "none" and not claims.is_of(step):
+        return Verdict(False, "the certificate is of another step")
+    if claims is not None and claims.kind == "residual":
+        with needing('a certificate of kind "residual"'):
+            from quasistatic_ref.optional.large.judged import bound_verdict
+        return bound_verdict(step, delta_q, lam, claims.error_bound)
+    curved = curved_cone(step)
+    if curved is not None:
+        return curved.verdict(step, delta_q, active, lam, claims)
+    if claims is not None and claims.kind != "exact":
+        return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
+    try:
+        working = flat_rows(step, active)
+    except IndexError as error:
+        return Verdict(False, str(error))
+    delta_q_exact = np.zeros(step.n_v)
+    lam_exact = np.zeros(step.m)
+    reason = ""
+    solved = []
+    for group in groups(step):
+        form = StepForm(step, group)
+        working_rows = group.within(working)
+        try:
+            exact = fraction_solution(form, working_rows)
+        except ZeroDivisionError:
+            return Verdict(False, "the rows of the working set are not independent")
+        with ctx.workprec(EXACT):
+            slack = form.slacks(range(form.m), exact.z)  # times the denominator
+            times_h = exact.denominator * form.h
+        delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)
+        lam_exact[group.rows[working_rows]] = rounded_quotients(exact.y, times_h)
+        reason = reason or _wrong_sign(step, group, working_rows, exact.y, slack)
+        solved.append((form, working_rows, exact, slack))
+    reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
+    if lam is not None and not reason:
+        reason = wrong_bits("lam", lam, lam_exact)
+    if claims is not None and not reason:
+        reason = _wrong_claim(solved, claims, lam_exact[list(working)])
+    return Verdict(not reason, reason)
+
+
+def _wrong_sign(
+    step: StepData, group: Group, working: Sequence[int], y: Sequence[arb], slack: Sequence[arb]
+) -> str:
+    for i, y_i in zip(working, y, strict=True):
+        if y_i <= 0:
+            sign = "negative" if y_i < 0 else "zero"
+            return f"the multiplier of {_row_name(step, group.rows[i])} is {sign}"
+    for i, slack_i in zip(group.rows, slack, strict=True):
+        if slack_i < 0:
+            return f"{_row_name(step, i)} is violated by the minimiser on the working set"
+    return ""
+
+
+def _wrong_claim(
+    solved: Sequence[tuple[ExactForm, Sequence[int], Solution, Sequence[arb]]],
+    claims: Certificate,
+    lam_w: Array,
+) -> str:
+    """What is wrong with the claims, from each group's form, working set and solution."""
+    unique = smooth = True
+    slacks: list[float] = []
+    for form, working, exact, slack in solved:
+        idle = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
+        of_W = implied_rows(form, working, idle)
+        others = [i for i in idle if i not in of_W]
+        is_unique, is_smooth = degeneracy(form, working, of_W, others)
+        unique = unique and is_unique
+        smooth = smooth and is_smooth
+        inactive = [s for s in slack if not s.is_zero()]
+        slacks += rounded_quotients(inactive, exact.denominator).tolist()
+    right = {
+        "error_bound": 0.0,
+        "gap": None,
+        "multipliers_unique": unique,
+        "differentiable": smooth,
+        "smallest_inactive_slack": min(slacks, default=None) if smooth else 0.0,
+        "smallest_active_multiplier": min(lam_w.tolist(), default=None),
+    }
+    wrong = (wrong_claim(name, getattr(claims, name), value) for name, value in right.items())
+    return next(filter(None, wrong), "")
+
+
+def _row_name(step: StepData, i: int) -> str:
+    ((owner, (name,)),) = row_owners(step, [i]).items()
+    return f"row {name} of {owner}"

@@ -1,0 +1,105 @@
+"""A run that ends early: at a limit, without a solution under Coulomb's law, or at any error."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.step.data import StepData
+
+if TYPE_CHECKING:  # a trajectory needs coal, which the commands of single steps do without
+    from quasistatic_ref.simulate.trajectory import Trajectory
+
+
+class LimitExceeded(StepNotSolved):
+    """A run has gone where no step should be taken from.
+
+    Parameters
+    ----------
+    problem : str
+        What is beyond which limit, and the remedy.
+    step : StepData
+        The step that was not taken.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> try:
+    ...     storm.step(system.q_start, np.zeros(0))
+    ... except qr.LimitExceeded as error:
+    ...     print(error.status)
+    limit exceeded
+    """
+
+    def __init__(self, problem: str, step: StepData) -> None:
+        super().__init__("none", "limit exceeded", step, 0.0)
+        self.args = (problem,)
+
+
+class NoFixedPoint(StepNotSolved):
+    """No solution of the step under Coulomb's law was found, which does not say that none exists.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    iterations : int
+        Convex steps that were solved.
+    residual : float
+        By how much s is not that of the last one's slip [m].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.NoFixedPoint(step, 200, 1e-6).status
+    'no fixed point'
+    """
+
+    def __init__(self, step: StepData, iterations: int, residual: float) -> None:
+        super().__init__("coulomb", "no fixed point", step, 0.0)
+        self.iterations = iterations
+        self.residual = residual
+        self.args = (
+            f"no solution under Coulomb's law was found in {iterations} iterations, which does not "
+            f"say that there is none: s is still off by {residual:.3g} m; take a smaller h, or "
+            'law = "convex"',
+        )
+
+
+class RunFailed(QuasistaticError):
+    """A simulation ended early; the steps before the failure are kept.
+
+    Parameters
+    ----------
+    reason : str
+        One sentence.
+    trajectory : Trajectory
+        The steps that were completed, marked with the reason.
+    step : StepData, optional
+        The step that failed.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> try:
+    ...     qr.rollout(storm, system.q_start, [], steps=3, progress=False)
+    ... except qr.RunFailed as error:
+    ...     print(len(error.trajectory))
+    0
+    """
+
+    def __init__(
+        self,
+        reason: str,
+        trajectory: Trajectory,
+        step: StepData | None = None,
+    ) -> None:
+        self.reason = reason
+        self.trajectory = trajectory
+        self.step = step
+        super().__init__(reason)
