@@ -33,7 +33,7 @@ EXCEPTIONS = {
     ),
     "what the backend is given; the proof forms its own, without rounding": (
         "step/problem.py:StepProblem.__init__",
-        "step/problem.py:StepProblem.fill",
+        "step/problem.py:StepProblem.set_parameters",
     ),
     "measured of an answer or of a run; the next step does not read it": (
         "model/system.py:System.mass",
