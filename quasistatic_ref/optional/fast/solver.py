@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.parts import needing
@@ -20,9 +20,6 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import groups
 from quasistatic_ref.tolerances import BOUNDED
-
-if TYPE_CHECKING:
-    from quasistatic_ref.optional.large.float_bound import FloatBound
 
 DAQP = "daqp"
 
@@ -49,22 +46,26 @@ class FastProver(Prover):
 
     Attributes
     ----------
-    bound : FloatBound or None
-        For the H of the step whose error was bounded last.
+    natural_H : ndarray, shape (n_v, n_v), or None
+        Of the step whose error was bounded last [-].
+    bound : callable
+        (step in both units, delta_q, lam) -> a bound of the relative error of steps with this H.
     """
 
     def __init__(self) -> None:
-        self.bound: FloatBound | None = None
+        self.natural_H: Array | None = None
+        self.bound: Callable[[DenseStepInBothUnits, Array, Array], float] = super().error_bound
 
     def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""
         assert isinstance(both, DenseStepInBothUnits)
         H = both.hessian.natural_H
-        if self.bound is None or self.bound.H is not H:
+        if self.natural_H is not H:
             with needing(RESIDUAL):
                 from quasistatic_ref.optional.large.float_bound import FloatBound
-            self.bound = FloatBound(H)
-        error = self.bound.step_error(both, delta_q, lam)
+            self.natural_H = H
+            self.bound = FloatBound(H).step_error
+        error = self.bound(both, delta_q, lam)
         return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
 
 
