@@ -53,8 +53,9 @@ _HOMES = {
     "optional.forces.forces": "contact_forces",
     # A run in pictures and numbers.
     "optional.show.figures.animation": "animate",
-    "optional.show.figures.contact_pictures": "cone_with_load stick_slip_map",
+    "optional.show.figures.contact_pictures": "stick_slip_map",
     "optional.show.figures.draw": "draw_scene draw_scenes",
+    "optional.show.figures.friction_cone": "cone_with_load",
     "optional.show.figures.moments": "moment",
     "optional.show.figures.viewer": "view_written",
     "simulate.motions": "relative_turn",

@@ -7,6 +7,8 @@ looks at them. Outputs are not compared: they depend on the machine.
 import json
 import re
 import runpy
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -39,6 +41,14 @@ def test_a_script_runs(script, monkeypatch):
         warnings.filterwarnings("ignore", category=DeprecationWarning)  # of ipywidgets
         runpy.run_path(str(script))
     plt.close("all")
+
+
+def test_one_contact_needs_no_robot_library():
+    pytest.importorskip(NEEDS["one_contact"])
+    blocked = 'import runpy, sys; sys.modules["pinocchio"] = sys.modules["coal"] = None; '
+    run = f"{blocked}runpy.run_path({str(FOLDER / 'one_contact.py')!r})"
+    done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)

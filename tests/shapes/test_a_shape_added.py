@@ -16,7 +16,9 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.formats.declared import Field
 from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.derivatives.contact.features import feature
-from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.draw import draw_scene
+from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import lengths

@@ -16,8 +16,9 @@ from docs.drawings import sliding_block
 from quasistatic_ref.lab.cached_runs import grasp
 from quasistatic_ref.lab.figures.grasp import HALF, SHOWN
 from quasistatic_ref.lab.grasp import CASES, rotations
-from quasistatic_ref.optional.show.figures import draw_scene, figure_style, moment
-from quasistatic_ref.optional.show.figures.draw import force_scale
+from quasistatic_ref.optional.show.figures import figure_style
+from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
+from quasistatic_ref.optional.show.figures.moments import moment
 from validation.tools.scripts import script_options
 
 FRAMES_PER_SECOND = 8

@@ -4,8 +4,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from quasistatic_ref.optional.show.figures.draw import legend_above
-from quasistatic_ref.optional.show.figures.style import room
+from quasistatic_ref.optional.show.figures.style import legend_above, room
 
 LETTER = 0.62
 """Width of a letter over the size of its font [-]: most letters are slimmer."""

@@ -24,7 +24,7 @@ from quasistatic_ref.optional.show.figures.pens import (
     PLANES,
     Pen,
 )
-from quasistatic_ref.optional.show.figures.style import room, scaled
+from quasistatic_ref.optional.show.figures.style import legend_above, scaled
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
@@ -36,9 +36,6 @@ LONGEST, FRAME = 0.4, 0.1
 
 MARGIN, PADDING = 1.1, 0.1
 """Around everything, as a factor; and on each side, as a share of half the scene's size."""
-
-ABOVE_AXES: Final = 0.85
-"""Share of a cell's width that is above the axes, not above the labels at its side [-]."""
 
 SIGNS: Final = np.array([[-1.0], [1.0]])
 FRAME_LINES = (("$d_1$", "--"), ("$d_2$", ":"), ("$n$", "-"))
@@ -217,24 +214,3 @@ def _legend(axes: Axes, of: Moment, parts: Collection[str], scale: float) -> Non
         for label, dashes in FRAME_LINES:
             handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
     legend_above(axes, handles)
-
-
-def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None:
-    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
-
-    Parameters
-    ----------
-    axes : Axes
-    handles : sequence of Artist
-        With their labels.
-    title : str
-        Above the entries.
-    """
-    for columns in range(len(handles), 0, -1):
-        legend = axes.legend(
-            handles=handles, title=title, ncols=columns,
-            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
-            handlelength=1.8, borderaxespad=0.2,
-        )  # fmt: skip
-        if legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
-            return

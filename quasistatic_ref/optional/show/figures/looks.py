@@ -4,15 +4,22 @@ The colours are those of Okabe and Ito (2008), which colour-blind readers can di
 are grey: what is coloured is what they act on, and the forces on it.
 """
 
+from __future__ import annotations
+
 from itertools import cycle
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.step.data import Array
+
+if TYPE_CHECKING:
+    from quasistatic_ref.model.system import System
+
+ROUND: Final = 48
+"""Corners of a circle, as drawn."""
 
 CAMERA: Final = Camera(azimuth=-62, elevation=16)
 

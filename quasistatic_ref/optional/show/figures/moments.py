@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.show.figures.looks import link_colours
+from quasistatic_ref.optional.show.figures.looks import ROUND, link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -19,8 +19,6 @@ from quasistatic_ref.step.data import Array
 BEARING = 1e-3
 """A contact is drawn as bearing load above this share of the largest normal force [-]."""
 
-ROUND = 48
-"""Corners of a circle, as drawn."""
 
 SLIP = 1e-9
 """A contact that bears load slides where beta moves along the tangents by more in a step, or turns

@@ -1,6 +1,6 @@
 """Looks of figures for papers, slides and posters; where figures are drawn; writing them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
@@ -9,6 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
@@ -38,6 +39,9 @@ DRAWING: Final = "drawing"
 METADATA: Final = {"png": None, "pdf": {"CreationDate": None}}
 """What files of each format say of their making: the same figure has the same bytes."""
 _current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
+
+ABOVE_AXES: Final = 0.85
+"""Share of a cell's width that is above the axes, not above the labels at its side [-]."""
 
 
 @contextmanager
@@ -204,3 +208,24 @@ def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
             paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
     plt.close(figure)
     return paths
+
+
+def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None:
+    """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
+
+    Parameters
+    ----------
+    axes : Axes
+    handles : sequence of Artist
+        With their labels.
+    title : str
+        Above the entries.
+    """
+    for columns in range(len(handles), 0, -1):
+        legend = axes.legend(
+            handles=handles, title=title, ncols=columns,
+            loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
+            handlelength=1.8, borderaxespad=0.2,
+        )  # fmt: skip
+        if legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
+            return

@@ -6,7 +6,7 @@ from matplotlib.patches import Polygon
 
 import quasistatic_ref as qr
 from quasistatic_ref.optional.show.figures import panels
-from quasistatic_ref.optional.show.figures.contact_pictures import limit_at
+from quasistatic_ref.optional.show.figures.friction_cone import limit_at
 from tests.closeness import assert_relative
 from tests.tolerances import ROUNDING
 

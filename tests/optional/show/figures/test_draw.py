@@ -16,9 +16,11 @@ from quasistatic_ref import (
     Sphere,
     load_scenario,
 )
-from quasistatic_ref.optional.show.figures import animate, draw_scene, draw_scenes, moment, panels
-from quasistatic_ref.optional.show.figures.draw import PARTS
+from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures.animation import animate
+from quasistatic_ref.optional.show.figures.draw import PARTS, draw_scene, draw_scenes
 from quasistatic_ref.optional.show.figures.looks import CAMERA
+from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
     UP,
