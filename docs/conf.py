@@ -41,7 +41,7 @@ extensions = [
     "sphinxcontrib.bibtex",
     "sphinx-mathjax-offline",  # MathJax 3, copied into _static
 ]
-exclude_patterns = ["examples", "figures", "gallery", "slides", "_build"]
+exclude_patterns = ["examples", "figures", "gallery", "notebooks", "slides", "_build"]
 nitpicky = True
 
 # -- Pages ---------------------------------------------------------------------------------------
