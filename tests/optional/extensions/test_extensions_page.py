@@ -124,21 +124,6 @@ def test_rows_of_an_extension_travel_in_a_step_file(tmp_path):
     assert verify(read, again.delta_q, again.certificate.active, lam, again.certificate)
 
 
-def test_the_numbers_of_a_row_are_those_that_were_written():
-    step = random_step(np.random.default_rng(1), 2, 1, rows=())
-    extension = Extension(
-        lambda s: [
-            0.1 * s.delta_q_a[0] - 3 * s.delta_q_u[0] >= 0.7,
-            s.delta_q[1] == 1 / 3,
-        ]
-    )
-    own = extension_data(step, extension)
-    assert own is not None
-    assert own.names == ("extension 0[0]", "extension 1[0]", "extension 1[0] reversed")
-    np.testing.assert_array_equal(own.A, [[0.1, 0.0, -3.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
-    np.testing.assert_array_equal(own.b, [0.7, -1 / 3, 1 / 3])
-
-
 MORE_THAN_ROWS = {
     "a cost": lambda s: [cp.sum(cp.abs(s.delta_q))],
     "a ball": lambda s: [cp.norm(s.delta_q) <= 1e-3],

@@ -5,7 +5,6 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
-from quasistatic_ref import load_scenario, trajectory_read
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.grasp import rotations
@@ -19,17 +18,6 @@ INSTANTS = (0.3, 1.4, 2.9)
 COLUMNS = len(INSTANTS) + 1
 SPREAD = np.geomspace(0.05, 60.0, 20)
 """Rotations of other clouds [deg]."""
-
-
-@pytest.fixture(scope="module")
-def runs(demo):
-    names = ("with_torsion", "without_torsion")
-    return {n: trajectory_read(demo.folder / f"bunny_grasp_{n}.npz") for n in names}
-
-
-@pytest.fixture(scope="module")
-def grasp():
-    return load_scenario("bunny_grasp", fast=True)
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from docs.drawings import cone_surfaces, contact_geometry, corner_loads
-from quasistatic_ref import load_scenario, trajectory_read
+from quasistatic_ref import load_scenario
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.grasp import rotations
@@ -26,17 +26,6 @@ looks_as_committed = pytest.mark.mpl_image_compare(
     # 4. Text is the same everywhere, because matplotlib's wheels bring their own FreeType.
     tolerance=2,
 )
-
-
-@pytest.fixture(scope="module")
-def grasp():
-    return load_scenario("bunny_grasp", fast=True)
-
-
-@pytest.fixture(scope="module")
-def runs(demo):
-    names = ("with_torsion", "without_torsion")
-    return {n: trajectory_read(demo.folder / f"bunny_grasp_{n}.npz") for n in names}
 
 
 @looks_as_committed
