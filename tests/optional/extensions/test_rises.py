@@ -3,7 +3,6 @@
 import cvxpy as cp
 import numpy as np
 import pytest
-from docs.examples.joint_limits import joint_limits
 
 from quasistatic_ref import (
     Extension,
@@ -140,8 +139,8 @@ def test_terms_of_an_extension_see_no_rise():
     one = random_step(np.random.default_rng(0), 1, 0, rows=())
     one = one.replace(h=H, K_q=[[100.0]], tau_a=[1.5], delta_q_bar_a=[0.0])
     rises = Rises([1.0], [1e-6 * H**2 * 100.0], [0])
-    limited = joint_limits(np.zeros(1), np.array([-1.0]), np.array([0.002]))
-    answer = solve_step(one, extension=Extension(limited.terms, rises=rises))
+    limited = Extension(lambda s: [s.delta_q_a >= -1.0, s.delta_q_a <= 0.002], rises=rises)
+    answer = solve_step(one, extension=limited)
     assert answer.certificate.kind == "exact"
     assert answer.delta_q.tolist() == [0.002, 0.002]  # of the joint, and of its rise
     cost = Extension(lambda s: [0.5 * cp.sum_squares(s.delta_q)], rises=rises)
