@@ -133,7 +133,9 @@ def checked_shapes(
                     notes.append(f"{name}: left out, since {shape.uri} is empty")
                     continue
                 with about_field(f"{where}[{count}].mesh.vertices"):
-                    hull = hull_of_loaded(mesh, shape.scale)
+                    scale = shape.scale
+                    key = ("hull", path, scale.tobytes())
+                    hull = once(key, partial(hull_of_loaded, mesh, scale))
                 notes.append(hull_note(name, hull, mesh))
                 shape = hull
             shapes.append(

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from quasistatic_ref import ModelError
-from quasistatic_ref.model.readers.mesh_files import Mesh, mesh_hull, mesh_path
+from quasistatic_ref import Body, ModelError, System
+from quasistatic_ref.model.readers.mesh_files import Mesh, loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -248,3 +248,21 @@ def test_a_mesh_that_is_named_often_is_read_once(tmp_path, monkeypatch):
 
 
 MESH = Mesh(CORNERS.astype(float), np.array([[0, 2, 3], [0, 3, 1], [0, 1, 2], [3, 2, 1]]))
+
+
+def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):
+    (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n")
+    mesh = (
+        '<collision><geometry><mesh filename="m.obj" scale="{0} {0} {0}"/></geometry></collision>'
+    )
+    scales = (1, 1, 1, 1, 1, 2)
+    shapes = "".join(map(mesh.format, scales))
+    (tmp_path / "m.urdf").write_text(f'<robot name="r"><link name="a">{shapes}</link></robot>')
+    counts = []
+    monkeypatch.setattr(
+        urdf_shapes, "loaded_mesh", lambda path: counts.append(path) or loaded_mesh(path)
+    )
+    *same, larger = System([Body("b", tmp_path / "m.urdf")]).shapes
+    assert len(counts) == 1
+    assert len({id(placed.shape) for placed in same}) == 1
+    assert np.ptp(larger.shape.vertices, axis=0).tolist() == [2, 2, 2]
