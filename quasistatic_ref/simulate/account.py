@@ -89,11 +89,14 @@ class Motion(Plain):
         From the start, along the world's axes [m]; of a prismatic joint its position, along x.
     turned : ndarray, shape (steps + 1,)
         From the start [rad].
+    turned_in : dict of str to ndarray, shape (steps + 1,)
+        The same of a free body as each driven base that moves freely sees it, such as a hand [rad].
     """
 
     of: Joint
     moved: Array
     turned: Array
+    turned_in: dict[str, Array]
 
 
 @dataclass(frozen=True, eq=False)

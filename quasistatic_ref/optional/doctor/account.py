@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError
@@ -58,7 +59,8 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
         pairs = pair_accounts(trajectory, scene.sequence("pairs"), gravity, motion, wrench)
         drives = [_drive(joint, trajectory, stiffness) for joint in joints if joint.actuated]
-    motions = [_motion(joint, trajectory["q"]) for joint in joints if not joint.actuated]
+    hands = [joint for joint in joints if joint.actuated and joint.free]
+    motions = [_motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated]
     stops = list(_stops(trajectory, {joint.name for joint in joints}))
     return Account(
         t=trajectory["t"],
@@ -249,10 +251,20 @@ def _touches(run: Trajectory, motion: Array | None) -> Mask:
     return np.asarray(touches & (slack <= NEAR) | (slack <= TOUCHES))
 
 
-def _motion(joint: Joint, q: Array) -> Motion:
+def _motion(joint: Joint, q: Array, hands: Sequence[Joint]) -> Motion:
     moved = np.zeros((len(q), 3))
     moved[:, : joint.lengths] = (q - q[0])[:, joint.q][:, : joint.lengths]
-    return Motion(joint, moved, _angle(joint, q, np.broadcast_to(q[0], q.shape)))
+    turned_in = {
+        hand.name.removesuffix("/base"): _angle_in(joint, hand, q) for hand in hands if joint.free
+    }
+    return Motion(joint, moved, _angle(joint, q, np.broadcast_to(q[0], q.shape)), turned_in)
+
+
+def _angle_in(body: Joint, hand: Joint, q: Array) -> Array:
+    """Angle [rad] by which a free body has turned in the frame of a free hand since the start."""
+    of_body, of_hand = (Rotation.from_quat(q[:, one.q][:, one.lengths :]) for one in (body, hand))
+    seen = of_hand.inv() * of_body
+    return np.asarray((seen * seen[0].inv()).magnitude())
 
 
 def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:

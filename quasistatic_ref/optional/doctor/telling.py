@@ -48,6 +48,8 @@ def telling_numbers(
 
 def _of_motion(motion: Motion) -> dict[str, float]:
     numbers = {"largest_rotation_deg": float(np.degrees(motion.turned.max()))}
+    for hand, angle in motion.turned_in.items():
+        numbers[f"largest_turn_in_{hand}_deg"] = float(np.degrees(angle.max()))
     if motion.of.lengths:
         numbers["ends_from_start_m"] = float(np.linalg.norm(motion.moved[-1]))
     if motion.of.free:

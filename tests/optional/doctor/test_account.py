@@ -7,8 +7,8 @@ import numpy as np
 import pandas
 import pytest
 
-from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
-from quasistatic_ref.optional.doctor.telling import lines
+from quasistatic_ref import InputError, Trajectory, load_scenario, relative_turn, trajectory_read
+from quasistatic_ref.optional.doctor.telling import lines, measures
 from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
 from tests.tolerances import ROUNDING
@@ -116,6 +116,16 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
             assert numbers["ends_from_target_m"] == error[-1]
             K_q = stiffness[run.header["coordinates"].index(name)]
             assert_relative(numbers["largest_spring_N"], K_q * error.max(), ROUNDING)
+
+
+def test_the_turn_in_a_hand_is_that_of_the_two_links():
+    scenario = load_scenario("bunny_grasp", steps=60, fast=True)
+    trajectory = scenario.run(progress=False)
+    angles = np.degrees(relative_turn(scenario.system, trajectory, "bunny", "gripper"))
+    numbers = trajectory.account().numbers["bodies"]["bunny"]
+    assert angles.max() > 1e-6
+    assert_relative(numbers["largest_turn_in_gripper_deg"], angles.max(), 1e-6)
+    assert measures(trajectory.account())["bunny.largest_turn_in_gripper_deg"] > 0  # of a sweep
 
 
 def test_a_full_record_gives_the_account_of_a_record_of_forces(run, request):
