@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from flint import fmpq, fmpz, fmpz_mat
 
-if TYPE_CHECKING:
-    from quasistatic_ref.certify.form import ExactForm
-
 Row = Sequence[fmpz]
+
+
+class ExactRows(Protocol):
+    """Rows without rounding, such as those of an exact form."""
+
+    def integers(self, some: Sequence[int]) -> Sequence[Row]:
+        """Some rows [a, c] in whole numbers, times a power of two that they have in common."""
 
 
 def implied(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
@@ -20,7 +24,7 @@ def implied(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
     return [not any(column[k:rank]) for column in columns[k:]]
 
 
-def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, ...]:
+def independent_rows(form: ExactRows, candidates: Sequence[int]) -> tuple[int, ...]:
     """Those of some rows of A, in order of preference, that are independent of those before."""
     columns, _, rank = _eliminated([row[:-1] for row in form.integers(candidates)])
     chosen: list[int] = []
@@ -30,12 +34,12 @@ def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, .
     return tuple(chosen)
 
 
-def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] | None:
+def combination(form: ExactRows, working: Sequence[int], p: int) -> list[fmpq] | None:
     """The c of a_p = sum_j c_j A[working[j]]; None if a_p is independent of these rows.
 
     Parameters
     ----------
-    form : ExactForm
+    form : ExactRows
     working : sequence of int
         Independent rows.
     p : int

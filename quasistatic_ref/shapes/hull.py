@@ -1,21 +1,38 @@
 """Signed distance of points to a convex polytope, vectorised over points and triangles."""
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
-
-if TYPE_CHECKING:
-    from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 
 CHUNK = 1 << 17
 """Points times triangles handled at once: some tens of megabytes."""
 
 
-def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
+class Polytope(Protocol):
+    """The surface of a convex polytope, in triangles."""
+
+    @property
+    def vertices(self) -> Array:
+        """Shape (V, 3) [m]."""
+
+    @property
+    def triangles(self) -> Indices:
+        """Three vertices each, shape (T, 3)."""
+
+    @property
+    def normals(self) -> Array:
+        """Outward unit normals, shape (T, 3) [-]."""
+
+    @property
+    def offsets(self) -> Array:
+        """Of the planes normal . x = offset, shape (T,) [m]."""
+
+
+def distance_to_hull(points: Array, hull: Polytope) -> tuple[Array, Array]:
     """Signed distance and outward normal of points (N, 3) against a convex polytope.
 
     Inside, the largest of the signed distances to the planes of its faces, which is exact;
@@ -38,7 +55,7 @@ def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     return phi, normal
 
 
-def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
+def _distance(points: Array, hull: Polytope) -> tuple[Array, Array]:
     level = levels(points, hull)
     face = level.argmax(axis=1)
     phi = level[np.arange(len(points)), face]
@@ -57,14 +74,14 @@ def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     return phi, normal
 
 
-def levels(points: Array, hull: "ConvexMesh") -> Array:
+def levels(points: Array, hull: Polytope) -> Array:
     """Heights of points (N, 3) above the planes of all triangles, shape (N, T) [m]."""
     x, y, z = points.T[:, :, None]
     level = x * hull.normals[:, 0] + y * hull.normals[:, 1] + z * hull.normals[:, 2] - hull.offsets
     return np.asarray(level)
 
 
-def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
+def nearest_offsets(points: Array, hull: Polytope) -> Array:
     """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
     corners = hull.vertices[hull.triangles]
     best = np.full(len(points), np.inf)

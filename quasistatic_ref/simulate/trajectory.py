@@ -267,7 +267,9 @@ class Trajectory(Plain, HasPage):
             If there is no such body or link, or the scene is missing or another one.
         """
         scene = self._scene(scene)
-        return wrenches.wrench_on(wrenches.of_trajectory(self, self["wrench"]), scene, name)
+        return wrenches.wrench_on(
+            wrenches.contacts_over_steps(self.arrays, self["wrench"]), scene, name
+        )
 
     def forces_on(self, name: str, scene: HasScene | None = None) -> Array:
         """The same sum of :attr:`forces`: force [N] and torque [N m], shape (steps, 6).
@@ -283,7 +285,9 @@ class Trajectory(Plain, HasPage):
             As :meth:`wrench_on`, or as of :attr:`forces`.
         """
         scene = self._scene(scene)
-        return wrenches.wrench_on(wrenches.of_trajectory(self, self.forces), scene, name)
+        return wrenches.wrench_on(
+            wrenches.contacts_over_steps(self.arrays, self.forces), scene, name
+        )
 
     def pair_forces(self) -> dict[str, Array]:
         """Force of each pair on its beta's body, by the pair's name.
@@ -299,7 +303,7 @@ class Trajectory(Plain, HasPage):
         InputError
             As of :attr:`forces`.
         """
-        contacts = wrenches.of_trajectory(self, self.forces)
+        contacts = wrenches.contacts_over_steps(self.arrays, self.forces)
         return wrenches.pair_forces(contacts, self.pair_names)
 
     @property

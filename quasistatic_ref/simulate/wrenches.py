@@ -1,7 +1,7 @@
 """Contact forces, summed over bodies and over pairs, in the world frame."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,9 +10,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.step.data import Array
-
-if TYPE_CHECKING:
-    from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 class ContactsOverSteps(NamedTuple):
@@ -52,11 +49,11 @@ class ContactsOverSteps(NamedTuple):
             raise InputError(problem, field="scene")
 
 
-def of_trajectory(trajectory: "Trajectory", wrench: Array) -> ContactsOverSteps:
-    """The contacts of a trajectory with these wrenches, shape (steps, n_c, 4) [N, N m]."""
-    axes = [trajectory[key] for key in ("d1", "d2", "n")]
-    points = trajectory["alpha"], trajectory["beta"]
-    return ContactsOverSteps(trajectory["q"][:-1], *points, np.stack(axes, axis=2), wrench)
+def contacts_over_steps(arrays: Mapping[str, Array], wrench: Array) -> ContactsOverSteps:
+    """The contacts of a trajectory's arrays with these wrenches, (steps, n_c, 4) [N, N m]."""
+    axes = [arrays[key] for key in ("d1", "d2", "n")]
+    points = arrays["alpha"], arrays["beta"]
+    return ContactsOverSteps(arrays["q"][:-1], *points, np.stack(axes, axis=2), wrench)
 
 
 def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:

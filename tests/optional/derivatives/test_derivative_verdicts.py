@@ -13,8 +13,10 @@ from quasistatic_ref import (
     Sphere,
     System,
     derivatives,
+    load_scenario,
 )
 from quasistatic_ref.optional.derivatives.step import reason
+from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, H, free, verdict
 
@@ -29,6 +31,34 @@ def test_a_box_over_an_edge_is_borne_where_edges_cross():
     assert reason.CROSSING in kinds
     assert len(crossing) == 2
     assert {why.fields for why in crossing} == {("dq_dq",)}
+
+
+LOPSIDED = """<robot name="box"><link name="box"><inertial><origin xyz=".02 .02 0"/>
+<mass value="1"/><inertia ixx="2e-3" iyy="2e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><box size=".1 .1 .1"/></geometry></collision></link></robot>"""
+FLOORS = {
+    "a half-space": {"halfspace": {"normal": [0, 0, 1], "offset": 0}},
+    "a box": {"box": {"size": [0.6, 0.6, 0.1]}, "pose": {"xyz": [0, 0, -0.05]}},
+}
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_a_turn_by_rounding_changes_no_corner_of_a_box_that_lies_flat(floor):
+    """With the middle of an edge in a corner's place, a turn of -1e-6 made a jump of 2.1e-3."""
+    body = {"urdf": LOPSIDED, "base": "floating", "pose": {"xyz": [0, 0, 0.05]}}
+    pair = {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": 4}
+    scene = {"h": 0.01, "steps": 1, "gravity": [0, 0, -9.81], "bodies": {"box": body}}
+    scene |= {"shapes": {"floor": FLOORS[floor]}, "contacts": {"floor": pair}}
+    scenario = load_scenario(scene)
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    found = derivatives(simulator, q, np.zeros(0))
+    assert found.differentiable
+    for turn in np.eye(6)[3:5]:
+        for eps in (1e-6, -1e-6):
+            moved = simulator.step(scenario.system.integrate(q, eps * turn), np.zeros(0)).q
+            change = scenario.system.difference(found.result.q, moved) / eps
+            assert_within(change, found.dq_dq @ turn, 1e-5)
 
 
 KINKS = {
