@@ -105,12 +105,15 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
-    record["findings"] = []
+    record |= {"findings": [], "not_looked_at": ""}
     with if_there():
-        from quasistatic_ref.optional.doctor.checks import scene_findings
+        from quasistatic_ref.optional.doctor import checks
+        from quasistatic_ref.optional.doctor.start import Start
 
-        findings = scene_findings(scenario.simulator(), scenario.system.q_start)
+        start = Start(scenario.simulator(), scenario.system.q_start)
+        findings = checks.findings(checks.OF_SCENE, start)
         record["findings"] = [finding_table(finding) for finding in findings]
+        record["not_looked_at"] = checks.not_looked_at(checks.OF_SCENE, start)
     record["fields"] = named_fields(scenario.path)
     return record
 
@@ -202,6 +205,8 @@ def _print(record: dict[str, Any]) -> None:
         print("\nfindings, before a run:")
     for finding in record.get("findings", []):
         shared.print_wrapped(finding["sentence"], "  ", "- ")
+    if record.get("not_looked_at"):
+        shared.print_wrapped(f"not looked at: {record['not_looked_at']}")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         shared.print_wrapped(sentence, "  ", "- ")

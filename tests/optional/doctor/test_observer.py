@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario, trajectory_read
+from quasistatic_ref.optional.doctor import start
 from quasistatic_ref.simulate.finding import finding_table
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, urdf_of_text
@@ -119,3 +120,21 @@ def test_of_a_scenario_that_comes_along_nothing_grave_is_found(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)
     assert [found.name for found in run.findings] == ["drag"] * (name in DRAGS)
+
+
+def test_what_is_not_looked_at_in_a_large_scene_is_said(tmp_path, cli, monkeypatch):
+    monkeypatch.setattr(start, "SEARCHED", 0)
+    arguments = ["block_push", "--set", "steps=3"]
+    of_scene = "guides, points of faces"
+    line = f"{of_scene}, locked guides, forces of single contacts: the scene is large"
+    assert f"not looked at: {line}" in cli("run", *arguments, "--out", tmp_path).err
+    assert trajectory_read(tmp_path / "block_push.npz").header["not_looked_at"] == line
+    printed = cli("inspect", *arguments).out
+    assert f"not looked at: {of_scene}: the scene is large" in printed
+
+
+def test_a_law_whose_steps_are_not_solved_again_is_said():
+    run = load_scenario("block_push", law="coulomb", steps=2).run(progress=False)
+    assert run.header["not_looked_at"] == (
+        "locked guides, forces of single contacts: steps are not those of the convex law alone"
+    )
