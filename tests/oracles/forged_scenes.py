@@ -3,9 +3,7 @@
 import numpy as np
 
 from quasistatic_ref import Extra
-from quasistatic_ref.lab.scenes.at_random import random_frames
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 
 FACING = np.array(
@@ -17,8 +15,8 @@ FACING = np.array(
 """Frames of two walls that face each other along y; rows d1, d2, n."""
 
 
-def scenes(every=False):
-    """Steps by the kind of their solution and a name; `every` adds larger ones."""
+def scenes():
+    """Steps by the kind of their solution and a name."""
     slides = (4.0, 1.0, -2.943)
     sticks = (1.0, 0.5, -2.943)
     flies = (1.0, 0.0, 1.0)
@@ -29,7 +27,7 @@ def scenes(every=False):
     walls = between_walls()
     held = walls.replace(extra=Extra(("held back",), -np.eye(3)[:1], [-2e-4]))
     apart = contacts_of((-1e-3, -1e-3), FACING, np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
-    found = {
+    return {
         ("exact", "held back by a row of its own"): held.replace(cone="pyramid"),
         ("exact", "sticks, six rows of rank four"): on_floor(sticks),
         ("exact", "touches, but bears nothing"): on_floor((0.0, 0.0, 0.0), mu_v=0.0),
@@ -41,21 +39,6 @@ def scenes(every=False):
         ("none", "slides"): on_floor(slides),
         ("infeasible", "two walls apart"): on_floor(slides).replace(contacts=apart),
     }
-    if every:
-        pinched = pinch_step(5.0, 0.2, 0.5, 0.02, cone="ellipsoid")
-        found |= {
-            ("exact", "flies"): on_floor(flies),
-            ("exact", "slides between walls"): walls.replace(cone="pyramid"),
-            ("exact", "random, product cone"): at_random(0).replace(cone="product"),
-            ("exact", "random"): at_random(1),
-            ("exact in the ellipsoid", "pinch"): pinch_step(5.0, 0.02, 0.5, 0.02, cone="ellipsoid"),
-            ("enclosure", "pinch"): pinched,
-            ("enclosure", "slides between walls"): walls,
-            ("enclosure", "held back by a row of its own"): held,
-            ("residual", "slides between walls"): walls.replace(cone="pyramid"),
-            ("residual", "random"): at_random(2),
-        }
-    return found
 
 
 def between_walls():
@@ -64,16 +47,3 @@ def between_walls():
     J = np.tile(np.eye(4, 3), (3, 1, 1))
     contacts = contacts_of((0.0, 1.0, 1.0), frames, J, 0.5)
     return free_step(0.3 * np.eye(3), (4.0, 1.0, -2.943), contacts, 0.01).replace(cone="ellipsoid")
-
-
-def at_random(seed):
-    """Three random contacts of six, four and six rows on five coordinates, which are pressed on."""
-    rng = np.random.default_rng(seed)
-    J = rng.standard_normal((3, 4, 5))
-    frames = random_frames(rng, 3).swapaxes(1, 2)
-    contacts = contacts_of(
-        1e-4 * rng.random(3), frames, J, rng.uniform(0.1, 1.0, 3), 0.02, (6, 4, 6)
-    )
-    return free_step(
-        np.diag(rng.uniform(0.1, 1.0, 5)), 50.0 * rng.standard_normal(5), contacts, 0.01
-    )
