@@ -95,7 +95,10 @@ class Places:
             gaps += share * margin
 
     def _pair(self, state: Still, touch: MjContact, a: int, b: int) -> ContactPair:
-        sides = [self.shapes.setdefault(g, placed(state, g)) for g in (a, b)]
+        for g in (a, b):
+            if g not in self.shapes:
+                self.shapes[g] = placed(state, g)
+        sides = [self.shapes[g] for g in (a, b)]
         mu = touch.friction
         name = f"{_tree(state, a)}-{_tree(state, b)}({sides[0].name}, {sides[1].name})"
         if touch.dim > 1 and mu[0] != mu[1]:

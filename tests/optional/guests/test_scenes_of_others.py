@@ -9,6 +9,8 @@ import pytest
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests import places
+from quasistatic_ref.optional.guests.places import placed
 from quasistatic_ref.solve.compiled import is_large
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
@@ -166,3 +168,10 @@ def test_a_step_of_many_coordinates_is_solved_without_the_map_of_its_parameters(
     answer = qr.solve_step(step)
     assert answer.certificate.kind == "exact"
     assert answer.forces[:, 2].sum() == pytest.approx(48 * 9.81)
+
+
+def test_a_geom_of_many_pairs_has_one_shape(monkeypatch):
+    counts = []
+    monkeypatch.setattr(places, "placed", lambda state, g: counts.append(g) or placed(state, g))
+    scene(*many(5))
+    assert sorted(counts) == [*range(10)]
