@@ -67,12 +67,12 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
     problem = f"is not {what}"
     with readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
         members = {_name(member, problem): member for member in _checked_sizes(archive)}
-        found = {}
+        arrays = {}
         for name, member in members.items():
             if only in ("", name):
                 with archive.open(member) as file:
-                    found[name] = array_of(file, member.file_size, member.filename)
-        return found
+                    arrays[name] = array_of(file, member.file_size, member.filename)
+        return arrays
 
 
 def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]]]:
@@ -161,8 +161,10 @@ def array_of(file: IO[bytes], size: int, name: str) -> NDArray[Any]:
     shape, _, kind = np.lib.format.read_array_header_1_0(file)
     if kind.hasobject:
         raise ValueError(f"{name} is a pickle, which is never opened")
-    own = math.prod(shape, start=kind.itemsize)  # of Python's own numbers: it does not overflow
-    if min(shape, default=0) < 0 or own != size - file.tell():
+    byte_count = math.prod(
+        shape, start=kind.itemsize
+    )  # of Python's own numbers: it does not overflow
+    if min(shape, default=0) < 0 or byte_count != size - file.tell():
         raise ValueError(f"{name} does not have the size that it says")
     file.seek(0)
     array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)

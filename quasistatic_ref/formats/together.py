@@ -49,5 +49,5 @@ def once(key: Hashable, made: Callable[[], T]) -> T:
     read = _READ.get() or Together()
     if key not in read.kept:
         read.kept[key] = made()
-    found: T = read.kept[key]
-    return found
+    content: T = read.kept[key]
+    return content

@@ -213,15 +213,15 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
 
 def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array:
     n = joint.v.stop - joint.v.start
-    given = stiffnesses.take(name)
-    wrapped = TableReader({name: given}, stiffnesses.where, ScenarioError)
-    if not isinstance(given, list):
+    stiffness = stiffnesses.take(name)
+    wrapped = TableReader({name: stiffness}, stiffnesses.where, ScenarioError)
+    if not isinstance(stiffness, list):
         return wrapped.number(name, above=0.0) * np.eye(n)
-    if given and isinstance(given[0], list):
+    if stiffness and isinstance(stiffness[0], list):
         return wrapped.array(name, (n, n))
     diagonal = wrapped.array(name, (n,))
     if not (diagonal > 0).all():
-        raise stiffnesses.error_about(name, "must be greater than 0 in every entry", given)
+        raise stiffnesses.error_about(name, "must be greater than 0 in every entry", stiffness)
     return np.diag(diagonal)
 
 

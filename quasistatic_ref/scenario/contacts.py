@@ -163,11 +163,11 @@ def _within(k_given: Any, where: str) -> float | None:
 
 
 def _side(table: TableReader, key: str, shapes: Shapes) -> list[PlacedShape]:
-    given = value(table, CONTACT, key)
+    sides = value(table, CONTACT, key)
     placed: list[PlacedShape] = []
-    for name in given if isinstance(given, list) else [given]:
+    for name in sides if isinstance(sides, list) else [sides]:
         if not isinstance(name, str):
-            raise table.error_about(key, "must be a name or a list of names", given)
+            raise table.error_about(key, "must be a name or a list of names", sides)
         if any(c in name for c in "*?["):
             placed += _matching(table, key, name, shapes)
             continue
@@ -185,12 +185,12 @@ def _side(table: TableReader, key: str, shapes: Shapes) -> list[PlacedShape]:
             raise table.error_about(key, f"has no collision shape; {remedy}", name)
         placed += shapes[name]
     if not placed:
-        raise table.error_about(key, "must name at least one shape", given)
+        raise table.error_about(key, "must name at least one shape", sides)
     names = [shape.name for shape in placed]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise table.error_about(
-            key, f"names {twice} twice, so its friction would count twice", given
+            key, f"names {twice} twice, so its friction would count twice", sides
         )
     return placed
 

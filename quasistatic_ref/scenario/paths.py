@@ -71,8 +71,8 @@ def inline_text(table: TableReader, field: str) -> str | None:
     Only of the user's own words: the meshes of a text are looked for in the working folder.
     """
     text = table.peek(field)
-    own = isinstance(text, OwnWord) and text.lstrip().startswith("<")
-    return str(table.take(field)) if own else None
+    is_text = isinstance(text, OwnWord) and text.lstrip().startswith("<")
+    return str(table.take(field)) if is_text else None
 
 
 def shared_folders(path: Path) -> list[Path]:

@@ -50,7 +50,7 @@ def _body(given: Any) -> Any:
     if not isinstance(table, Mapping) or not isinstance(table.get("urdf"), Body):
         return table
     body = table["urdf"]
-    said = {
+    words = {
         "urdf": body.urdf,
         "base": body.base,
         "actuated": body.actuated if body.actuated == "all" else list(body.actuated),
@@ -58,7 +58,7 @@ def _body(given: Any) -> Any:
         "positions": dict(body.positions),
         "package_dirs": [str(folder) for folder in body.package_dirs],
     }
-    return said | {name: value for name, value in table.items() if name != "urdf"}
+    return words | {name: value for name, value in table.items() if name != "urdf"}
 
 
 def _shape(name: str, given: Any) -> Any:

@@ -326,13 +326,13 @@ def motions(results: Sequence[StepResult], n_v: int) -> Array:
 
     Of delta_q count the first n_v coordinates, without private rises.
     """
-    found = []
+    of_contacts = []
     for result in results:
         delta_q = result.solution.delta_q
         if len(delta_q) > n_v:
             delta_q = np.concatenate([delta_q[:n_v], np.zeros(len(delta_q) - n_v)])
-        found.append(result.step.contacts.motion(delta_q))
-    return np.array(found)
+        of_contacts.append(result.step.contacts.motion(delta_q))
+    return np.array(of_contacts)
 
 
 def programs(steps: Sequence[StepData]) -> StepArrays:

@@ -30,11 +30,11 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
     if not isinstance(K_q, Mapping):
         return positive_definite("K_q", _block(K_q, "K_q", system.n_a))
     matrix = np.zeros((system.n_a, system.n_a))
-    for name, given in K_q.items():
-        own = system.named.change(name)
-        if (own >= system.n_a).any():
-            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=given)
-        matrix[np.ix_(own, own)] = _block(given, f"K_q[{name}]", len(own))
+    for name, block in K_q.items():
+        coordinates = system.named.change(name)
+        if (coordinates >= system.n_a).any():
+            raise StepDataError("is not actuated", field=f"K_q[{name}]", value=block)
+        matrix[np.ix_(coordinates, coordinates)] = _block(block, f"K_q[{name}]", len(coordinates))
     for coordinate, stiffness in zip(system.coordinates, np.diag(matrix), strict=False):
         if stiffness == 0:
             raise StepDataError(f"has no stiffness for {coordinate.joint}", field="K_q")

@@ -77,24 +77,24 @@ class JointTrack(Plain):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             return np.array([joint.at(position) for position in positions.tolist()])
         intervals, shares = _interval(self.times, t)
-        found = self.values[intervals].astype(np.float64)
+        at_times = self.values[intervals].astype(np.float64)
         changes = (np.flatnonzero(np.diff(intervals)) + 1).tolist()
         for first, end in pairwise([0, *changes, len(t)]):
             s = shares[first:end]
             if not s.any():
                 continue
-            start = found[first].tolist()
+            start = at_times[first].tolist()
             way = self._ways[intervals[first]]
             # The geodesic of (+): a screw when the base both moves and turns.
             if joint.in_c is None or len(s) < FEW or any(way[joint.lengths :]):
-                found[first:end] = [
+                at_times[first:end] = [
                     joint.moved(start, [x * y for y in way]) if x else start for x in s.tolist()
                 ]
             else:  # all at once: only lengths depend on time
                 moved = joint.moved(start, [cast("float", s) * y if y else 0.0 for y in way])
                 for entry, values in enumerate(moved):
-                    found[first:end, entry] = np.where(s > 0, values, start[entry])
-        return found
+                    at_times[first:end, entry] = np.where(s > 0, values, start[entry])
+        return at_times
 
     @cached_property
     def _ways(self) -> list[list[float]]:

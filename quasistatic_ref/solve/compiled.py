@@ -109,9 +109,9 @@ class CompiledMap:
         places = np.zeros(program.total_param_size + 1, dtype=np.int64)
         before = 0
         for parameter in self.problem.parameters():
-            own = before + np.arange(parameter.size).reshape(parameter.shape)
+            numbers = before + np.arange(parameter.size).reshape(parameter.shape)
             before += parameter.size
-            entries = lower_value(parameter, own).ravel(order="F")
+            entries = lower_value(parameter, numbers).ravel(order="F")
             (known_as,) = lowered.get(parameter.id, [parameter.id])
             if known_as in program.param_id_to_col:
                 first = program.param_id_to_col[known_as]

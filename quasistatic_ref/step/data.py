@@ -211,11 +211,11 @@ class StepData(Plain, HasPage):
         extra = no_rows(n_v) if extra is None else extra
         if not isinstance(contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
-        for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
-            if found != n_v:
+        for key, columns in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
+            if columns != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
-                raise StepDataError(problem, field=key, value=found)
-        given = {
+                raise StepDataError(problem, field=key, value=columns)
+        fields = {
             "contacts": contacts,
             "cone": cone,
             "extra": extra,
@@ -226,7 +226,7 @@ class StepData(Plain, HasPage):
             "tau_u": tau_u,
             "delta_q_bar_a": delta_q_bar_a,
         }
-        for key, value in given.items():
+        for key, value in fields.items():
             object.__setattr__(self, key, value)
         check_and_freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
         check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})

@@ -115,7 +115,7 @@ def _contacts(top: TableReader, n_v: int) -> Contacts:
 
 
 def _contact(one: TableReader, n_v: int) -> dict[str, Any]:
-    found = {
+    fields = {
         "name": one.text("name"),
         "phi": one.number("phi"),
         **{axis: one.array(axis, (3,)) for axis in ("n", "d1", "d2")},
@@ -124,7 +124,7 @@ def _contact(one: TableReader, n_v: int) -> dict[str, Any]:
         "rows": one.integer("rows", choices=(4, 6)),
     }
     one.close()
-    return found
+    return fields
 
 
 def _extra(top: TableReader, n_v: int) -> Extra:

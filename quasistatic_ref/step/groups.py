@@ -135,10 +135,10 @@ def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     ----------
     step : StepData
     """
-    found = groups(step)
-    if len(found) == 1:
-        return [(found[0], step)]
-    return [(group, _group_step(step, group)) for group in found]
+    members = groups(step)
+    if len(members) == 1:
+        return [(members[0], step)]
+    return [(group, _group_step(step, group)) for group in members]
 
 
 def _group_step(step: StepData, group: Group) -> StepData:

@@ -55,10 +55,10 @@ def product(A: Array, B: Array) -> Array:
         return np.asarray(np.add.accumulate(A * B, axis=-1)[..., -1])
     if A.ndim == 1:
         return np.asarray(np.add.accumulate(A[:, None] * B, axis=-2)[..., -1, :])
-    found: Array = A[..., :1] * B[..., None, 0, :]
+    sums: Array = A[..., :1] * B[..., None, 0, :]
     for i in range(1, A.shape[-1]):
-        found += A[..., i : i + 1] * B[..., None, i, :]
-    return found
+        sums += A[..., i : i + 1] * B[..., None, i, :]
+    return sums
 
 
 def rotated(R: Array, points: Array) -> Array:

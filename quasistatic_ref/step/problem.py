@@ -183,9 +183,9 @@ class StepProblem:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
         for name in differences(self.template, step):
             needed = np.asarray(KIND[name](self.template)).tolist()
-            given = np.asarray(KIND[name](step)).tolist()
+            value = np.asarray(KIND[name](step)).tolist()
             message = f"must be {needed!r}; make a problem of this step"
-            raise StepDataError(message, field=name, value=given)
+            raise StepDataError(message, field=name, value=value)
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
