@@ -29,9 +29,8 @@ from quasistatic_ref.simulate.failures import NoFixedPoint
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import Array, finite, read_only
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.friction import slip_norms
 from quasistatic_ref.tolerances import ACCURACY, COULOMB_RESIDUAL, EXTRAPOLATED, GAIN
 
 MOST = 200
@@ -176,7 +175,7 @@ class Iteration:
         self.count += 1
         raised = self.step.replace(contacts=self.step.contacts.raised(s))
         solution = solve_step(raised, self.solver, accuracy=self.accuracy)
-        own = slip_norms(self.step, solution.delta_q)
+        own = slip_norms(self.step.contacts, solution.delta_q, self.step.cone)
         residual = largest(np.abs(own - s))
         longest = largest(longest_slips(self.step, solution.delta_q))
         return Iterate(s, own, residual, residual <= COULOMB_RESIDUAL * longest, solution)
@@ -235,17 +234,6 @@ def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> Coulo
     if not solution.found:
         raise NoFixedPoint(step, solution.s_iterations, solution.s_residual)
     return solution
-
-
-def slip_norms(step: StepData, delta_q: Array) -> Array:
-    """The norm s of each contact's slip, shape (n_c,) [m]: the least gap that its cone asks for."""
-    _, *slips = (J @ delta_q for J in frame_jacobian(step.contacts, step.contacts.J))
-    scaled = step.contacts.mu * np.column_stack(slips)
-    kind = cone(step.cone)
-    if not kind.polyhedral:
-        return np.asarray(np.linalg.norm(scaled, axis=1))
-    # The largest of the rows without the gap: of the pyramid, |mu_v slip_1|, ..., |mu_omega spin|.
-    return np.asarray((scaled @ kind.matrix[:, 1:].T).max(axis=1, initial=0.0))
 
 
 def longest_slips(step: StepData, delta_q: Array) -> Array:

@@ -89,11 +89,14 @@ OF_RUN = (
     *(Check(finds, is_cut_short) for finds in task.OF_TASK),
     Check(guides.locked, is_beyond, "locked guides"),
     Check(sunk.sunk),
+    Check(drag.out_of_balance, is_beyond, "equilibrium"),
     Check(leaps.leaps),
     Check(targets.joints_beyond),
     Check(unsupported.falling),
     Check(solving.backend_failures),
-    Check(drag.drag),
+    Check(drag.corners, is_beyond, "artifacts of the model"),
+    Check(drag.drag, is_beyond),
+    Check(drag.layer, is_beyond),
     Check(unborne.unborne, is_beyond, "forces of single contacts"),
 )
 NO_STEPS = (Check(numbers.no_steps),)

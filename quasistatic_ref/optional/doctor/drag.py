@@ -1,127 +1,173 @@
-"""Drag that is not small against the friction that contacts bear."""
+"""Artifacts of the model where they change what happens: drag, boundary layer, corners.
+
+Each is measured by what it changes in documented steps of a run
+(:mod:`~quasistatic_ref.optional.doctor.compared`). Of bodies that are not in equilibrium nothing
+else is said.
+"""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.optional.doctor.artifacts import Drag, drags, moved
-from quasistatic_ref.optional.doctor.run import Run, wrenches
-from quasistatic_ref.optional.doctor.start import free_bases
+from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.optional.doctor.compared import (
+    COUNTS,
+    SHORT,
+    LookedAt,
+    PairMotion,
+)
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import bodies
+from quasistatic_ref.optional.doctor.telling import length
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.solve.solve import solved
-from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.solve.units import DenseStepInBothUnits, in_natural
-from quasistatic_ref.step.arrays import without_warnings
-from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import ACCURACY, SLOW
 
-ALONG = 0.1
-"""Share of a motion downwards by which a body that settles may move aside [-]."""
-STILL = 1e-9
-"""Motion in a step [m] that is none."""
-ROUNDING = 1e-9
-"""Of the rates at which rows open, over the largest, and of residuals in natural units [-]."""
-SURELY = 0.95
-"""Of the largest share [-], to cover the rounding of another."""
-SLOWER = 16.0
-"""By what M_u is divided, and with it the drag, to see what contacts bear without drag."""
+DISTANCE = "the step shows where to, not how far"
+
+
+def out_of_balance(run: Run) -> Iterator[Finding]:
+    """Free bodies whose loads no forces in the cones of their contacts bear."""
+    for name, missing in run.compared.unbalanced.items():
+        yield Finding(
+            "not in equilibrium",
+            False,
+            f"give {name} what holds it, or do not read how far it moves",
+            f"it is not in equilibrium: {missing} are missing in step {missing.k}; {DISTANCE}",
+            {"missing_N": missing.force, "missing_Nm": missing.torque, "step": missing.k},
+        )
+
+
+def corners(run: Run) -> Iterator[Finding]:
+    """Bodies and pairs that slip in the corners of the pyramid, and not in the ellipsoid."""
+    names = run.compared.held_in_ellipsoid
+    if names:
+        k = min(names.values())
+        is_not = "is not" if len(names) == 1 else "are not"
+        yield Finding(
+            "corners of the cone",
+            False,
+            'set cone = "ellipsoid"',
+            f"{listed([*names])} {is_not} in equilibrium in the {run.simulator.cone} in step {k}, "
+            "but in the ellipsoid, whose friction is the same in all directions",
+            {"step": k},
+        )
+        return
+    for at in run.compared.steps:
+        if not at.slips_inside:
+            continue
+        for i, here, there in _pairs(run, at, at.in_ellipsoid):
+            pair = run.pairs[i]
+            if _slips_more(at, i, here, there):
+                yield Finding(
+                    "corners of the cone",
+                    False,
+                    'set cone = "ellipsoid"',
+                    f"{pair.name} slips by {length(here.way)} in step {at.k}, and in the ellipsoid "
+                    f"by {length(there.way)}",
+                    {"slip_mm": 1e3 * here.way, "ellipsoid_mm": 1e3 * there.way, "step": at.k},
+                )
+                return
 
 
 def drag(run: Run) -> Iterator[Finding]:
-    """The worst step, if its drag exceeds a tenth of the friction of the same step without drag.
+    """The pair whose force or slip changes most where bodies have a sixteenth of their drag."""
+    worst: tuple[float, Finding] | None = None
+    for at in run.compared.steps:
+        for i, here, there in _pairs(run, at, at.without_drag):
+            pair = run.pairs[i]
+            change = _relative(here.normal, there.normal, at.light)
+            slips = _slips_more(at, i, here, there)  # not less: loads move a lighter body farther
+            if not (change > COUNTS or slips):
+                continue
+            does = f"{here.normal:.3g} N, without it {there.normal:.3g} N"
+            if slips:
+                does = f"it slips by {length(here.way)}, without it by {length(there.way)}, under "
+                does += f"{here.normal:.3g} N, without it {there.normal:.3g} N"
+            finding = Finding(
+                "drag",
+                False,
+                "move more slowly, or take a larger h",
+                f"the drag m v / h of the step counts in {pair.name}: {does}, in step {at.k}",
+                {"normal_N": here.normal, "without_drag_N": there.normal, "step": at.k},
+            )
+            amount = 1.0 if slips else change
+            if worst is None or amount > worst[0]:
+                worst = (amount, finding)
+    if worst:
+        yield worst[1]
 
-    Drag increases normal forces, too: a pusher has to overcome it. This raises the friction that
-    contacts can bear, and makes the share too small. So the friction is that of the same step with
-    M_u / 16 and the same loads.
+
+def layer(run: Run) -> Iterator[Finding]:
+    """The pair whose force or slip is most unlike that of Coulomb's law."""
+    worst: tuple[float, Finding] | None = None
+    for at in run.compared.steps:
+        for i, here, there in _pairs(run, at, at.by_coulomb):
+            pair = run.pairs[i]
+            change = _relative(here.normal, there.normal, max(at.light, at.comes_down(pair)))
+            way = _relative_way(at, i, here, there)
+            if max(change, way) <= COUNTS:
+                continue
+            does = f"presses with {here.normal:.3g} N, where Coulomb's law allows "
+            does += f"{there.normal:.3g} N"
+            if way > change:
+                does = f"slips by {1e3 * here.way:.3g} mm, where Coulomb's law allows "
+                does += f"{1e3 * there.way:.3g} mm"
+            finding = Finding(
+                "boundary layer",
+                False,
+                'move more slowly, take a smaller h, or set law = "coulomb"',
+                f"{pair.name} {does}, in step {at.k}: what slides rises by mu_v h v, against what "
+                "presses it",
+                {
+                    "normal_N": here.normal,
+                    "coulomb_N": there.normal,
+                    "slip_mm": 1e3 * here.way,
+                    "coulomb_mm": 1e3 * there.way,
+                    "step": at.k,
+                },
+            )
+            if worst is None or max(change, way) > worst[0]:
+                worst = (max(change, way), finding)
+    if worst:
+        yield worst[1]
+
+
+def _pairs(
+    run: Run, at: LookedAt, changed: list[PairMotion] | None
+) -> Iterator[tuple[int, PairMotion, PairMotion]]:
+    """Pairs whose bodies are in equilibrium: number, what they do in the run, and when changed.
+
+    Those are left out that press with less than a tenth of the largest force of the step: a pair
+    that comes to touch, or ceases to, does so a step earlier or later.
     """
-    shares = run.noted("pushed").copy()
-    shares[: _settled(run)] = np.nan
-    if np.isnan(shares).all() or np.nanmax(shares) <= SLOW / 2:
-        return  # what drag adds to friction is a share of itself
-    k = int(np.nanargmax(shares))
-    found = [x for x in _without_doing(run, k) if x.touched[0]]
-    worst = max(found, key=_share, default=None)
-    share = float(shares[k]) if worst is None else _share(worst)
-    if share <= SLOW:
+    if changed is None:
         return
-    on = "a free body"
-    of = "what its contacts can bear"
-    numbers = {"share": share, "step": k}
-    if worst is not None:
-        drag_N = float(worst.drag[0])
-        bears_N = float(worst.bears[0])
-        on = f"{worst.body}, {drag_N:.3g} N"
-        friction = "friction that its contacts can bear" if worst.rubs[0] else "its weight"
-        of = f"the {bears_N:.3g} N of {friction}"
-        numbers |= {"drag_N": drag_N, "bears_N": bears_N}
-    yield Finding(
-        "drag",
-        False,
-        "move more slowly or take larger steps",
-        f"the spurious drag m v / h on {on}, is {share:.2g} times {of}, in step {k}",
-        numbers,
-    )
+    others = run.compared.unbalanced.keys() | run.compared.held_in_ellipsoid.keys()
+    largest = max((pair.normal for pair in at.as_it_is), default=0.0)
+    for i, (here, there) in enumerate(zip(at.as_it_is, changed, strict=True)):
+        bears = max(here.normal, there.normal) >= COUNTS * largest
+        if bears and not bodies(run.system, run.pairs[i]) & others:
+            yield i, here, there
 
 
-def _settled(run: Run) -> int:
-    """The first step in which a free body moves otherwise than down: none is carried before."""
-    moves = np.full(run.steps, not run.g)
-    for base in free_bases(run.system).values() if run.g else ():
-        moved = np.diff(run["q"][:, base.q][:, :3], axis=0)
-        down = moved @ run.gravity / run.g
-        moves |= np.linalg.norm(moved, axis=1) > (1 + ALONG) * np.maximum(down, 0.0) + STILL
-    return int(moves.argmax()) if moves.any() else run.steps
+def _relative(a: float, b: float, nothing: float) -> float:
+    """Difference of two forces over the larger [-]; 0 where it is `nothing` [N]."""
+    return abs(a - b) / max(a, b) if abs(a - b) > nothing else 0.0
 
 
-def _without_doing(run: Run, k: int) -> list[Drag]:
-    """The drags of step k over what contacts bear without them; none where it is not solved."""
-    if not run.searched:
-        return []
-    step = run.step_data(k)
-    lighter = step.replace(M_u=step.M_u / SLOWER)
-    found = _surely_small(run, k, lighter) if run.simulator.fast else None
-    if found is not None:
-        return found
-    wrench: Array | None = wrenches(lighter)
-    if wrench is None:
-        return []
-    return drags(run.system, [step], [run["delta_q"][k]], wrench[None], run.g)
+def _relative_way(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> float:
+    """Largest difference of slips over the larger [-].
 
-
-def _surely_small(run: Run, k: int, lighter: StepData) -> list[Drag] | None:
-    """Drags of step k that are small whatever the multipliers without drag are; else None.
-
-    Contacts bear mu_v f_n by friction. Where y opens each row without slack at a rate of the mu_v
-    of its contact, the sum of mu_v f_n is y'A'lam / h, and A'lam is unique. A backend's answer will
-    do, if its residuals are small.
+    It is 0 without friction or motion, and for what comes down from its layer.
     """
-    solver = solver_for(lighter, fast=True)
-    both = without_warnings(solver.in_both_units, lighter)
-    if not isinstance(both, DenseStepInBothUnits):
-        return None
-    try:
-        solution = without_warnings(solved, both, solver, ACCURACY, "off")
-    except StepNotSolved:
-        return None
-    residuals = both.natural_residuals(*in_natural(solution.delta_q, solution.lam, both.units))
-    step = run.step_data(k)
-    found = drags(run.system, [step], [run["delta_q"][k]], solution.wrench[None], run.g)
-    small = all(x.rubs[0] and x.share[0] <= SURELY * SLOW for x in found)
-    if step.cone != PYRAMID or not (small and residuals.worst <= ROUNDING):
-        return None
-    form = both.si_form
-    tight = form.A @ solution.delta_q - form.b <= STILL
-    for base in free_bases(run.system).values():
-        mu = np.where(moved(step.contacts, base.v.start), step.contacts.mu_v, 0.0)
-        wanted = np.repeat(mu, step.counts)[tight]
-        y = np.linalg.lstsq(form.A[tight], wanted)[0]
-        if np.abs(form.A[tight] @ y - wanted).max(initial=0.0) > ROUNDING * mu.max():
-            return None
-    return found
+    off = float(np.linalg.norm(a.slip - b.slip, axis=1).max(initial=0.0))
+    if at.run.pairs[i].mu_v == 0 or off <= max(at.shortest[i], 2 * at.floats):
+        return 0.0
+    return off / max(a.way, b.way)
 
 
-def _share(drag: Drag) -> float:
-    """The share of a drag in one step; 0 where there is none."""
-    return float(np.nan_to_num(drag.share[0]))
+def _slips_more(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
+    """Whether a pair with friction slips or spins in the first of two answers alone."""
+    pair = at.run.pairs[i]
+    slips = pair.mu_v > 0 and a.way > at.shortest[i] and b.way < COUNTS * a.way
+    turns = pair.rows == 6 and pair.mu_omega > 0
+    return slips or (turns and a.spin > SHORT and b.spin < COUNTS * a.spin)

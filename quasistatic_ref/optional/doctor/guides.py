@@ -12,6 +12,7 @@ from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
+from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.friction import frame_jacobian
@@ -175,7 +176,7 @@ def locked(run: Run) -> Iterator[Finding]:
     step = run.step_data(k)
     nothing = np.zeros(contacts.n_c)
     smooth = replace(contacts, mu_v=nothing, mu_omega=nothing)
-    without = wrenches(step.replace(contacts=smooth))
+    without = wrenches(step.replace(contacts=smooth, cone=PYRAMID))
     if without is None:
         return
     J_n, *J_rubs = frame_jacobian(contacts, contacts.J)

@@ -13,6 +13,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.optional.doctor.account import pair_accounts
+from quasistatic_ref.optional.doctor.compared import Compared
 from quasistatic_ref.optional.doctor.scene_notes import sides
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.parts import if_there
@@ -20,10 +21,14 @@ from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
+
+ACCURATE = ("clarabel", "daqp")
+"""Backends whose answers have ten digits without a proof."""
 
 
 class Run(Start):
@@ -45,6 +50,12 @@ class Run(Start):
         self._forces: dict[int, ContactForces] = {}
         self._contacts: dict[int, Contacts] = {}
         self._steps: dict[int, StepData] = {}
+        self._solvers: dict[str, Solver] = {}
+
+    @cached_property
+    def compared(self) -> Compared:
+        """Its documented steps, solved again; none if it is not `searched`."""
+        return Compared(self)
 
     @cached_property
     def pair_accounts(self) -> list[PairAccount]:
@@ -83,15 +94,26 @@ class Run(Start):
         return self._contacts[k]
 
     def step_data(self, k: int) -> StepData:
-        """The problem of step k, up to rounding, with the paper's cone for a curved one."""
+        """The problem of step k, up to rounding."""
         if k in self._steps:
             return self._steps[k]
         under = self.noted("tau")[k], self.contacts(k)
         step = self.simulator.step_under(self["q"][k], self["q_bar_a"][k], *under)
-        if not cone(step.cone).polyhedral:
-            step = step.replace(cone=PYRAMID)
         self._steps[k] = step
         return step
+
+    def solver_of(self, step: StepData) -> Solver:
+        """A solver of steps like one of the run, which is kept.
+
+        It is that of the run if its answers are accurate without a proof, else the default.
+        """
+        own = self.simulator.solver
+        if own is not None and own.name in ACCURATE and own.fits(step):
+            return own
+        fast = self.simulator.fast and cone(step.cone).polyhedral
+        if step.cone not in self._solvers or not self._solvers[step.cone].fits(step):
+            self._solvers[step.cone] = solver_for(step, fast=fast)
+        return self._solvers[step.cone]
 
     def forces(self, k: int) -> Array:
         """Forces of single contacts in step k, shape (n_c, 4) [N, N m].
@@ -102,8 +124,11 @@ class Run(Start):
         return np.asarray(self["wrench"][k]) if compliant is None else compliant.wrench
 
     def compliant(self, k: int) -> ContactForces | None:
-        """The forces of step k; None if it is not `searched`, or there is no optional/forces."""
-        if not self.searched:
+        """The forces of step k in a polyhedral cone, where they are rational.
+
+        None if it is not `searched`, or there is no optional/forces.
+        """
+        if not (self.searched and cone(self.simulator.cone).polyhedral):
             return None
         with if_there():
             from quasistatic_ref.optional.forces.forces import contact_forces

@@ -79,6 +79,7 @@ def walls(y):
 
 
 STANDS = [("floor", "box", 0.5, 4)]
+BALL_STANDS = [("floor", "ball", 0.5, 1)]
 IN_SLOT = [*STANDS, ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
 TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""
@@ -329,7 +330,7 @@ found = findings(
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))
 found = findings([rod], [("floor", "rod", 0.5, 1)], push={"rod": (0, 0.05, 0)}, steps=20)
 
-# %% leap: a push of 500 N on 0.1 kg
+# %% not in equilibrium: a push of 500 N on 0.1 kg
 found = findings([box(mass=0.1)], push={"box": (500, 0, 0)}, steps=2)
 
 # %% leap: the first target is half a metre away
@@ -363,8 +364,20 @@ found = findings(
 table = ("table", Box(size=(0.4, 0.4, 0.04)), (0, 0, -0.02))
 found = findings([ball(0.02, xyz=(0.23, 0, 0.02))], [("table", "ball", 0.5, 1)], [table])
 
-# %% drag: a box pulled by twice its friction
+# %% not in equilibrium: a box pulled by twice its friction
 found = findings([box()], push={"box": (10, 0, 0)}, steps=20)
+
+# %% corners of the cone: a box pulled at 45 degrees by less than its friction along d1
+found = findings([box()], push={"box": (3, 3, 0)}, steps=2)
+
+# %% boundary layer: a finger that presses on a belt
+belt, press = motor("belt"), motor("press", "0 0 -1", xyz=(0, 0, 0.1))
+found = findings(
+    [belt, press],
+    [("belt", "press", 0.5, 4)],
+    target=[[5e-3 * k, 0.01] for k in range(1, 6)],
+    steps=5,
+)
 
 # %% drag: a pusher that moves at 0.1 m/s
 finger = motor("finger", xyz=(-0.1, 0, 0.06))
@@ -376,7 +389,7 @@ found = findings(
     K_q=1e5,
 )
 
-# %% drag: a box on ice
+# %% not in equilibrium: a box on ice
 found = findings([box()], [("floor", "box", 0.0, 4)], push={"box": (3, 0, 0)}, steps=10)
 
 # %% failing backend: twelve digits of OSQP, which gives nine

@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import solve_step, trajectory_read
-from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.optional.doctor import drag
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
     drags,
@@ -18,7 +16,6 @@ from quasistatic_ref.optional.doctor.artifacts import (
     largest_share,
     quasi_dynamic_number,
 )
-from quasistatic_ref.optional.doctor.drag import _surely_small
 from quasistatic_ref.tolerances import SLOW
 from tests.closeness import assert_relative
 from tests.helpers import changed, point_on_floor, sphere_on_floor
@@ -98,42 +95,6 @@ def test_the_drag_of_a_falling_body_is_its_weight():
     step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
     found = drag_share(free_body(0.3), solve_step(step), G)
     assert_relative(found, 1.0, ROUNDING)
-
-
-class OneStep:
-    """A run of one step of a ball that moves by 1 um."""
-
-    def __init__(self, step):
-        self.system = free_body(0.3)
-        self.g = G
-        self.step_data = {0: step}.__getitem__
-
-    def __getitem__(self, name):
-        return {"delta_q": np.array([[1e-6, 0, 0, 0, 0, 0]])}[name]
-
-
-@pytest.mark.extra("fast")
-def test_the_share_of_drag_is_not_sure_between_walls_that_may_press_by_any_force():
-    """On the floor the ball's weight alone presses: m x / h^2 over mu_v m g is x / (mu_v g h^2)."""
-    weight = (0, 0, -0.3 * G, 0, 0, 0)
-    on_floor = sphere_on_floor(m=0.3, mu_v=0.5, wrench=weight, h=H)
-    (found,) = _surely_small(OneStep(on_floor), 0, on_floor)
-    assert_relative(found.share, 1e-6 / (0.5 * G * H**2), ROUNDING)
-    frames = np.array([np.eye(3), np.diag([1.0, -1.0, -1.0])])
-    points = -0.04 * frames[:, 2]
-    between = rigid_step(0.3, 2e-4, weight, points, frames, mu_v=0.5, rows=6, h=H)
-    assert _surely_small(OneStep(between), 0, between) is None
-
-
-@pytest.mark.extra("fast")
-def test_an_answer_whose_residuals_are_not_small_says_nothing_of_drag(monkeypatch):
-    """Its multipliers are too large by a millionth."""
-    step = sphere_on_floor(m=0.3, mu_v=0.5, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
-    right = solve_step(step)
-    for factor, is_sure in ((1.0, True), (1.0 + 1e-6, False)):
-        answer = replace(right, lam=factor * right.lam)
-        monkeypatch.setattr(drag, "solved", lambda *_, answer=answer, **__: answer)
-        assert (_surely_small(OneStep(step), 0, step) is not None) == is_sure
 
 
 def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():

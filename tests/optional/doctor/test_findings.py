@@ -5,14 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref import load_scenario, solve_step
-from quasistatic_ref.optional.doctor import drag
-from quasistatic_ref.optional.doctor.artifacts import drags
-from quasistatic_ref.optional.doctor.run import wrenches
-from quasistatic_ref.tolerances import SLOW
-from tests.closeness import assert_relative
 from tests.optional.doctor.mistake_scenes import mistakes
-from tests.tolerances import ROUNDING
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
 FILES = [Path(__file__).with_name(f"{kind}_scenes.py") for kind in ("finding", "healthy")]
@@ -46,42 +39,6 @@ def test_a_scene_is_named_with_its_cause(words, scene):
     for one in found:
         assert one.sentence.startswith(one.remedy)
         assert one.grave is GRAVE[one.name]
-
-
-NUMBERED = [scene for scene in SCENES if scene.startswith(("drag", "uncertain forces"))]
-
-
-@pytest.mark.parametrize("scene", NUMBERED, ids=[scene.splitlines()[0] for scene in NUMBERED])
-def test_floats_leave_to_the_exact_method_what_is_to_be_said(words, scene, monkeypatch):
-    found = []
-    for _ in range(2):
-        names = dict(words)
-        exec(scene.partition("\n")[2], names)
-        found.append([(one.sentence, one.numbers) for one in names["found"]])
-        monkeypatch.setattr(drag, "_surely_small", lambda *_: None)
-    assert found[0] == found[1] != []
-
-
-@pytest.mark.extra("fast")
-def test_what_floats_show_to_be_small_is_so_by_the_exact_method(monkeypatch):
-    """Drag is 7.8 % of friction in the grasp, whose multipliers are not unique."""
-    small = drag._surely_small
-    shares = []
-
-    def watched_drag(run, k, lighter):
-        found = small(run, k, lighter)
-        wrench = wrenches(lighter)[None]
-        exact = drags(run.system, [run.step_data(k)], run["delta_q"][[k]], wrench, run.g)
-        assert not solve_step(lighter, fast=True).certificate.multipliers_unique
-        shares.append([float(one[0].share[0]) for one in (found, exact)])
-        return found
-
-    monkeypatch.setattr(drag, "_surely_small", watched_drag)
-    run = load_scenario("bunny_grasp", ["record=light"], steps=60, fast=True).run(progress=False)
-    assert run.findings == ()
-    ((mine, exact),) = shares
-    assert_relative(mine, exact, ROUNDING)
-    assert SLOW / 2 < exact < SLOW
 
 
 def test_each_finding_of_the_page_has_a_scene():
