@@ -3,20 +3,31 @@
 Random steps are hard to prove: ties, rows that depend on each other, equal groups, loads and gaps
 of sizes from 2^-300 to 2^300. What both speeds say of a step must also hold in fractions, without
 the package. (Not of facets, whose corners the program in few lines rounds otherwise.)
+Of vectors and of the answers of contact-qp, a share is taken that grows with ``--count``; whole
+runs, whose hashes validation/results/run_hashes.md lists, from 2000 on.
 """
 
+import hashlib
+import re
 from fractions import Fraction
 
 import pytest
 
-from quasistatic_ref import StepIllPosed, StepInfeasible, solve_step
+from quasistatic_ref import StepIllPosed, StepInfeasible, load_scenario, solve_step
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.problems.problem import EXACT
+from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solver import solver_for
+from tests.extras import SCENARIOS
+from tests.lab.vectors.committed_cases import cases
 from tests.oracles.degenerate_steps import degenerate_step
 from tests.oracles.random_steps import designed_step, equal_groups
 from tests.oracles.rational_kkt import exact, proved_optimum
 from tests.oracles.solution_truth import nearest_float, program, proof
+from tests.pages import ROOT
 
 CLAIMS = ("active", "multipliers_unique", "differentiable", "smallest_inactive_slack")
 """What of a certificate is unique where the multipliers are; the others always are."""
@@ -37,16 +48,23 @@ def outcome(step, solver):
     return solution, bits(tuple(unique)), claims
 
 
-def check(step, solver):
-    """Compare both speeds, and what they say with the truth."""
+def outcomes(step, solver=None):
+    """What both speeds end with, plain first: the same bits, or errors of one class."""
+    solver = solver or solver_for(step, "daqp", fast=True)
     plain, fast = outcome(step, NONE), outcome(step, solver)
+    assert type(plain) is type(fast)
+    assert isinstance(plain, Exception) or fast[1:] == plain[1:]
+    return plain, fast
+
+
+def check(step, solver=None):
+    """Compare both speeds, and what they say with the truth."""
+    plain, fast = outcomes(step, solver)
     in_fractions = not step.cone.startswith("facets")
     if isinstance(plain, Exception):
-        assert type(plain) is type(fast)
         if in_fractions and isinstance(plain, StepInfeasible):
             assert all(proof(step, exact(one.farkas.exact)) for one in (plain, fast))
         return
-    assert fast[1:] == plain[1:]
     if not in_fractions:
         return
     solution = fast[0]
@@ -63,8 +81,45 @@ def check(step, solver):
 @pytest.mark.parametrize("make", [designed_step, degenerate_step])
 def test_random_steps(make, count):
     for seed in range(100_000, 100_000 + count):
-        step = make(seed)
-        check(step, solver_for(step, "daqp", fast=True))
+        check(make(seed))
+
+
+def kept_of(items, count):
+    """A share of some items: all of them from a count of 2000 on."""
+    return items[:: max(1, 2000 // count)]
+
+
+@pytest.mark.extra("fast")
+def test_programs_of_the_vectors(count):
+    linear = [case.input for case in cases("qp") if "second_order" not in case.input]
+    for program_of_case in kept_of(linear, count):
+        outcomes(step_of(program_of_case))
+
+
+@pytest.mark.extra("fast")
+def test_answers_of_contact_qp(count):
+    """Of those that are proved exactly, of up to 60 coordinates."""
+    members = set_read(problem_set_folder(CONTACT_QP))
+    exact_ones = [one for one in members if one.answer.kind == EXACT and len(one.g) <= 60]
+    for one in kept_of(exact_ones, count):
+        numbers = {"H": one.H.toarray(), "g": one.g, "A": one.A.toarray(), "b": one.b}
+        plain, _ = outcomes(step_of({name: array.tolist() for name, array in numbers.items()}))
+        if one.answer.farkas:
+            assert isinstance(plain, StepInfeasible)
+        else:
+            assert bits(plain[0].delta_q) == bits(one.answer.x + 0.0)
+
+
+@pytest.mark.extra("fast")
+@pytest.mark.parametrize("fast", [False, True])
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_whole_runs_have_their_hashes(name, fast, count):
+    if count < 2000:
+        pytest.skip("whole runs are taken with --count 2000")
+    page = (ROOT / "validation/results/run_hashes.md").read_text("utf-8")
+    known = dict(re.findall(r"^\| (\w+) \| `(\w{64})` \|$", page, re.MULTILINE))
+    run = load_scenario(name, ["record=light"], fast=fast).run(progress=False)
+    assert hashlib.sha256(run["q"].tobytes()).hexdigest() == known[name]
 
 
 @pytest.mark.extra("fast")
