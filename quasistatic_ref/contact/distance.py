@@ -306,16 +306,16 @@ def _crossings(
 ) -> ClosestPoints:
     """Crossings of edges, with the pair's normal, numbered after contacts that fill the number."""
     n = nearest.n[0]
-    found = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
-    count = len(found.number)
+    crossed = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
+    count = len(crossed.number)
     if not count:
         return joined_contacts([])
     return ClosestPoints(
-        phi=dot(found.beta - found.alpha, n),
-        alpha=found.alpha,
-        beta=found.beta,
+        phi=dot(crossed.beta - crossed.alpha, n),
+        alpha=crossed.alpha,
+        beta=crossed.beta,
         n=np.tile(n, (count, 1)),
-        point=pair.corners + pair.n_c + found.number,
+        point=pair.corners + pair.n_c + crossed.number,
         tie=np.full(count, OWN),
     )
 
@@ -350,8 +350,8 @@ def _cloud_on_solid(
     x = moved(relative, points)
     phi, normal = solid.shape.signed_distance(x)
     point = closest(rounded_gaps(phi, pair.resolution), pair.k)
-    found = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
-    return _contacts(solid, cloud, points[point], 0.0, found)._replace(point=point)
+    surface = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
+    return _contacts(solid, cloud, points[point], 0.0, surface)._replace(point=point)
 
 
 def _corners_on_solid(
@@ -362,8 +362,8 @@ def _corners_on_solid(
         return joined_contacts([])
     relative = relative_pose(solid, other)
     x = moved(relative, corners)
-    found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
-    return _contacts(solid, other, corners, radius, found)
+    surface = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
+    return _contacts(solid, other, corners, radius, surface)
 
 
 def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:

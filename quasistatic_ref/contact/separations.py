@@ -117,11 +117,11 @@ def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
 
 def distinct(normals: list[Array]) -> Array:
     """Unit vectors `normals` (3,) [-] without those that are an earlier one again, shape (T, 3)."""
-    found: list[Array] = []
+    kept: list[Array] = []
     for normal in normals:
-        if all(np.abs(normal - other).max() > SAME_NORMAL for other in found):
-            found.append(normal)
-    return np.array(found)
+        if all(np.abs(normal - other).max() > SAME_NORMAL for other in kept):
+            kept.append(normal)
+    return np.array(kept)
 
 
 def mean_direction(normals: Array) -> Array:

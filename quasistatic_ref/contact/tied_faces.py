@@ -97,7 +97,7 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
     near = OVER_FACE * shape.extent + within
     undecided = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
     phi = phi.copy()
-    own = normal
+    before = normal
     normal = normal.copy()
     block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
     for start in range(0, len(undecided), block):
@@ -108,7 +108,7 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         on_edge = _over(shape, x[edge], gap, np.broadcast_to(n, (len(edge), 3)), near)
         phi[edge[on_edge]] = gap[on_edge]
         normal[edge[on_edge]] = n
-    tie[dot(own, normal) < 1 - SAME_NORMAL] = OF_PAIR
+    tie[dot(before, normal) < 1 - SAME_NORMAL] = OF_PAIR
     return Surface(phi, normal, tie)
 
 
@@ -123,9 +123,9 @@ def _facing(
     face, rivals = faces_apart(heights, normals, within)
     chosen = np.arange(len(x)), face
     height = heights[chosen]
-    own = normals[chosen]
-    over = _over(shape, x, height, own, OVER_FACE * shape.extent + within) & ~rivals.any(axis=1)
-    return over, np.where(over, height, phi), np.where(over[:, None], own, normal)
+    facing = normals[chosen]
+    over = _over(shape, x, height, facing, OVER_FACE * shape.extent + within) & ~rivals.any(axis=1)
+    return over, np.where(over, height, phi), np.where(over[:, None], facing, normal)
 
 
 def _over(shape: Shape, x: Array, height: Array, normal: Array, near: float) -> Mask:
@@ -168,18 +168,18 @@ def cloud_surface(
         If the cloud is as deep along two of the normals that a point has.
     """
     tie = np.full(len(x), OWN)
-    own = Surface(phi, normal, tie)
+    surface = Surface(phi, normal, tie)
     within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)
     if not near.size:
-        return own
+        return surface
     heights, normals = solid.shape.faces(x[near])
     if not heights.size:
-        return own
+        return surface
     highest, rivals = faces_apart(heights, normals, within)
     undecided = np.flatnonzero(rivals.any(axis=1))
     if not len(undecided):
-        return own
+        return surface
     normal = normal.copy()
     decided: dict[bytes, tuple[Array, int]] = {}
     for i in undecided.tolist():

@@ -133,14 +133,14 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
     joints : sequence of Joint
     q : ndarray, shape (n_q,)
     """
-    found = q + 0.0
+    entries = q + 0.0
     for joint in joints:
         if joint.unit:
-            unit = found[joint.unit_part]
+            unit = entries[joint.unit_part]
             size = length(unit)
             if size > 0 and abs(size - 1) > UNIT_ROUNDING:
                 unit /= size
-    return found
+    return entries
 
 
 def _entries(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:

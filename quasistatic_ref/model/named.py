@@ -72,18 +72,18 @@ class Named:
         placed = q.copy()
         for name, given in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
-            own = self.q(name if joint is None else joint.name)
+            places = self.q(name if joint is None else joint.name)
             unit = None if joint is None else joint.unit
             if joint is not None and unit == QUATERNION and isinstance(given, Mapping):
-                placed[own] = _pose(joint, name, given, placed[own])
+                placed[places] = _pose(joint, name, given, placed[places])
                 continue
             entries = np.atleast_1d(checked_numbers(given, name, ModelError))
-            if unit == COSINE_SINE and len(entries) == len(own) - 1:
+            if unit == COSINE_SINE and len(entries) == len(places) - 1:
                 entries = np.array([*entries[:-1], *cos_sin(float(entries[-1]))])
-            if entries.shape != own.shape:
-                wanted = "a number" if len(own) == 1 else f"{len(own)} numbers"
+            if entries.shape != places.shape:
+                wanted = "a number" if len(places) == 1 else f"{len(places)} numbers"
                 raise ModelError(f"must be {wanted}", field=name, value=given)
-            placed[own] = entries
+            placed[places] = entries
         return placed
 
 

@@ -343,8 +343,8 @@ class System:
         ModelError
             If there is no such name, or q has other entries.
         """
-        own = self.named.q(name)
-        return _taken(q, own, {self.n_q, self.n_q_a}, name)
+        places = self.named.q(name)
+        return _taken(q, places, {self.n_q, self.n_q_a}, name)
 
     def change_of(self, delta_q: ArrayLike, name: str) -> Array:
         """What delta_q, or a generalised force, shape (..., n_v), holds of a name; as :meth:`of`.

@@ -215,10 +215,10 @@ def _anchor(body: Body) -> pin.SE3:
 
 def _check_joint_names(body: Body, urdf: Urdf) -> None:
     kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != FIXED}
-    own = {name for name, joint in kinds.items() if joint.mimic is None}
-    scalar = {name for name in own if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
+    free = {name for name, joint in kinds.items() if joint.mimic is None}
+    scalar = {name for name in free if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
     moves = urdf.base != FIXED
-    known = own | {BASE} if moves else own
+    known = free | {BASE} if moves else free
     actuated = () if body.actuated == "all" else body.actuated
     for key, names, allowed in (
         ("actuated", actuated, known),
@@ -262,8 +262,8 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
         if joint.unit is None:
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])
-            said = lower <= upper and written.bounded
-            joint = replace(joint, limits=(lower, upper) if said else None)
+            bounded = lower <= upper and written.bounded
+            joint = replace(joint, limits=(lower, upper) if bounded else None)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
 

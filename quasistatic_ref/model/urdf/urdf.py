@@ -131,8 +131,8 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
 def urdf_model(text: str, base: str) -> pin.Model:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
-    readable, names, own = _readable(text)
-    model = _with_own_joints(pin.buildModelFromXML(readable, *root, mimic=True), own)
+    readable, names, kinds = _readable(text)
+    model = _with_own_joints(pin.buildModelFromXML(readable, *root, mimic=True), kinds)
     for number in range(1, model.njoints):
         model.names[number] = names.get(model.names[number], model.names[number])
     for frame in model.frames:
@@ -156,14 +156,14 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
     if not any(word in text for word in ("mimic", *OWN)):  # which saves the time of most
         return text, {}, {}
     robot = ElementTree.fromstring(text)
-    own = {}
+    kinds = {}
     for joint in robot.findall("joint"):
         kind = OWN.get(joint.attrib["type"])
         if kind is not None:
-            own[joint.attrib["name"]] = kind
+            kinds[joint.attrib["name"]] = kind
             joint.set("type", "floating")
-    if own and robot.find("joint/mimic") is not None:
-        raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(own)}]")
+    if kinds and robot.find("joint/mimic") is not None:
+        raise ModelError("cannot stand in a file with mimic joints", field=f"joint[{min(kinds)}]")
     order = visiting_order(robot)
     names = {f"{number:04}": name for number, name in enumerate(order)}
     numbers = {name: number for number, name in names.items()}
@@ -173,7 +173,7 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
             mimic.set(
                 "joint", numbers.get(mimic.get("joint", ""), "")
             )  # a fixed joint's may be none
-    return ElementTree.tostring(robot, encoding="unicode"), names, own
+    return ElementTree.tostring(robot, encoding="unicode"), names, kinds
 
 
 def _with_own_joints(model: pin.Model, own: dict[str, type[TwistJoint]]) -> pin.Model:

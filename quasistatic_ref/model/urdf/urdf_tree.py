@@ -138,14 +138,14 @@ def visiting_order(robot: Element) -> list[str]:
     moving = {name: joint for name, joint in joints.items() if joint.get("type") != "fixed"}
     for name, joint in moving.items():
         for mimic in joint.findall("mimic"):
-            own = _movers(name, parent, mover)
+            followers = _movers(name, parent, mover)
             leaders = _movers(mimic.attrib["joint"], parent, mover)
-            for after, before in zip(own, leaders, strict=False):
+            for after, before in zip(followers, leaders, strict=False):
                 if after != before:
                     waits[after].add(before)
                     break
             else:
-                if len(own) < len(leaders):
+                if len(followers) < len(leaders):
                     problem = "is a joint that this one moves; let that one mimic this one"
                     of = mimic.attrib["joint"]
                     raise ModelError(problem, field=f"joint[{name}].mimic", value=of)
@@ -173,10 +173,10 @@ def _end(joint: Element, end: str) -> str:
 
 def _movers(name: str, parent: Mapping[str, str], mover: Mapping[str, str]) -> list[str]:
     """The joints from the root to a joint."""
-    found = [name]
-    while above := mover.get(parent[found[0]]):
-        found.insert(0, above)
-    return found
+    chain = [name]
+    while above := mover.get(parent[chain[0]]):
+        chain.insert(0, above)
+    return chain
 
 
 def link_poses(

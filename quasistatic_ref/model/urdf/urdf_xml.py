@@ -188,8 +188,8 @@ class Tag:
             If one that is not read looks like a misprint.
         """
         tags = [child.tag for child in self.element]
-        given = [name for name in self.element.attrib if not name.startswith("xmlns")]
-        ignored = self._unknown(given, attributes, 0.8) + self._unknown(tags, read, 0.8)
+        names = [name for name in self.element.attrib if not name.startswith("xmlns")]
+        ignored = self._unknown(names, attributes, 0.8) + self._unknown(tags, read, 0.8)
         return list(dict.fromkeys(ignored))
 
     def _unknown(self, names: Sequence[str], known: Sequence[str], alike: float) -> list[str]:
