@@ -15,10 +15,12 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 
+from tests.extras import marked_parameters
+
 FOLDER = Path(__file__).parents[1] / "docs" / "notebooks"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 LARGEST = 300_000  # bytes
-NEEDS = {"one_contact": "ipywidgets"}
+ALL = marked_parameters([script.stem for script in SCRIPTS], {"one_contact": "notebooks"})
 
 
 def cells(script):
@@ -32,19 +34,17 @@ def cells(script):
             yield "code", source
 
 
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
-def test_a_script_runs(script, monkeypatch):
-    if script.stem in NEEDS:
-        pytest.importorskip(NEEDS[script.stem])
+@pytest.mark.parametrize("name", ALL)
+def test_a_script_runs(name, monkeypatch):
     monkeypatch.setattr(plt, "show", lambda: plt.close("all"))
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", category=DeprecationWarning)  # of ipywidgets
-        runpy.run_path(str(script))
+        runpy.run_path(str(FOLDER / f"{name}.py"))
     plt.close("all")
 
 
+@pytest.mark.extra("notebooks")
 def test_one_contact_needs_no_robot_library():
-    pytest.importorskip(NEEDS["one_contact"])
     blocked = 'import runpy, sys; sys.modules["pinocchio"] = sys.modules["coal"] = None; '
     run = f"{blocked}runpy.run_path({str(FOLDER / 'one_contact.py')!r})"
     done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True)

@@ -14,7 +14,9 @@ ROOT = Path(__file__).parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
     "optional-dependencies"
 ]
-SKIPS = re.compile(r"pytest\.skip\(|mark\.skip|collect_ignore|importorskip\((?!.*reason=needs\()")
+SKIPS = re.compile(
+    r"pytest\.skip\((?!.*--count)|mark\.skip|collect_ignore|importorskip\((?!.*reason=needs\()"
+)
 CONFTEST = """
 from tests import conftest
 from tests.conftest import *
@@ -36,7 +38,7 @@ def test_that_has_what_it_needs():
 """
 
 
-def test_nothing_is_skipped_but_for_want_of_an_extra():
+def test_nothing_is_skipped_but_for_want_of_an_extra_or_of_a_count():
     sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != Path(__file__).name]
     found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
     assert found == {"conftest.py"}, "it skips by the marker"
