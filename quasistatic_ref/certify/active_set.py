@@ -21,11 +21,12 @@ before they are branched on.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from flint import ctx, fmpq
+from flint import fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
 from quasistatic_ref.certify.form import PRECISION, ExactForm, fraction
 from quasistatic_ref.certify.minimiser import Minimiser
+from quasistatic_ref.precision import working_precision
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +184,7 @@ def _vanishes_before(minimiser: Minimiser, u: Minimiser | list[fmpq], j: int, k:
     """Return whether l_j / -u_j < l_k / -u_k, both u being negative."""
     l_ball = minimiser.balls.y
     u_ball = u.balls.y if isinstance(u, Minimiser) else u
-    with ctx.workprec(PRECISION):
+    with working_precision(PRECISION):
         difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
     if not difference.contains(0):
         return bool(difference < 0)

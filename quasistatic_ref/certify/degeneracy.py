@@ -18,11 +18,12 @@ keep the dependence (all numbers of one contact), not along those that break it.
 from collections.abc import Sequence
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpz
+from flint import arb, arb_mat, fmpz
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import EXACT, ExactForm, MatrixForm, exact_matrix
+from quasistatic_ref.precision import working_precision
 
 
 def degeneracy(
@@ -76,7 +77,7 @@ def feasible(
     """
     n = form.n
     held = form.exact_rows(working)
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         opposite = [[-a for a in row] for row in held]
     sides = zip([*held, *opposite, *bounded], [*[0] * (2 * len(held)), *least], strict=True)
     feasibility = MatrixForm(

@@ -8,13 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import arb_mat, ctx, fmpq, fmpz
+from flint import arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Indices, StepData
 
@@ -111,7 +112,7 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
     common = fmpq(1)
     for y_i in y:
         common *= (y_i * common).q
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         row = arb_mat(1, form.m, [(y_i * common).p for y_i in y])
         if any(not v.is_zero() for v in (row * form.A).entries()):
             return "A'y is not zero"

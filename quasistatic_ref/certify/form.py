@@ -26,10 +26,11 @@ from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq, fmpz
+from flint import arb, arb_mat, fmpq, fmpz
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group, split
@@ -156,7 +157,7 @@ class ExactForm(ABC):
     @cached_property
     def free(self) -> arb_mat:
         """The minimiser without rows, in balls, shape (n, 1)."""
-        with ctx.workprec(PRECISION):
+        with working_precision(PRECISION):
             return self.H_inverse * self.g
 
     @cached_property
@@ -265,13 +266,13 @@ class StepForm(ExactForm):
             loads[2, :, 0] = step.extra.cost[1][c]
         springs, self.H, self.H_inverse = _hessian(parts.tobytes(), self.n, step.h)
         shift, force, pull = map(exact_matrix, loads)
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             self.g = springs * shift + (force * self.h + pull) * self.h  # Eq. (1), times h^2
 
     def motion(self, c: int) -> arb_mat:
         """Gap, slips and spin of a contact as rows [a, c], friction included: shape (4, n + 1)."""
         turn, J = self.motion_factors(c)
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             return turn * J
 
     def motion_factors(self, c: int) -> tuple[arb_mat, arb_mat]:
@@ -282,7 +283,7 @@ class StepForm(ExactForm):
             J = np.zeros((5, self.n + 1))
             J[:4, :-1] = self._J[c]
             J[4, -1] = self._phi[c]
-            with ctx.workprec(EXACT):
+            with working_precision(EXACT):
                 d1, d2 = [mu_1 * v for v in d1], [mu_2 * v for v in d2]
                 turn = [*n, 0, 1, *d1, 0, 0, *d2, 0, 0, 0, 0, 0, mu_w, 0]
                 self._factors[c] = arb_mat(4, 5, turn), exact_matrix(J)
@@ -294,7 +295,7 @@ class StepForm(ExactForm):
         if c >= len(self._phi):
             return [arb(v) for v in self._own[c - len(self._phi)].tolist()]
         if c not in self._rows:
-            with ctx.workprec(EXACT):
+            with working_precision(EXACT):
                 self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
         return self._rows[c][kind]
 
@@ -382,7 +383,7 @@ def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:
 def _hessian(parts: bytes, n: int, h: float) -> tuple[arb_mat, arb_mat, arb_mat]:
     """h^2 K_q; H = h^2 K_q + M_u + h H of a cost; and the inverse of H in balls."""
     K_q, M_u, of_cost = map(exact_matrix, np.frombuffer(parts).reshape(3, n, n))
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         springs = K_q * (arb(h) * h)
         H = springs + M_u + of_cost * arb(h)
     return springs, H, inverse(H)
@@ -400,7 +401,7 @@ def inverse(H: arb_mat) -> arb_mat:
     """The inverse, in balls, of an exact matrix that is positive definite."""
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
-        with ctx.workprec(precision):
+        with working_precision(precision):
             try:
                 return H.inv()
             except ZeroDivisionError:

@@ -17,7 +17,7 @@ from functools import cached_property
 from typing import TypeAlias, cast
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz_mat
+from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
 
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.form import (
@@ -31,6 +31,7 @@ from quasistatic_ref.certify.form import (
     whole_numbers,
 )
 from quasistatic_ref.certify.rounding import nearest, nearest_in
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, Indices
 
 
@@ -86,7 +87,7 @@ def ball_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     rows = form.exact_rows(working)
     A = columns(rows, slice(0, form.n))
     c = columns(rows, slice(form.n, form.n + 1))
-    with ctx.workprec(PRECISION):
+    with working_precision(PRECISION):
         pull = form.H_inverse * A.transpose()
         y = (A * pull).solve(-(A * form.free + c))
         x = form.free + pull * y
@@ -100,7 +101,7 @@ def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     k = len(working)
     rows = form.exact_rows(working)
     H_g = zip(form.H.tolist(), form.g.entries(), strict=True)
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         balance = [[*H_v, *(-a[v] for a in rows), g_v] for v, (H_v, g_v) in enumerate(H_g)]
         closed = [[*a[:n], *[arb(0)] * k, -a[n]] for a in rows]
     equations = [whole_numbers(equation) for equation in [*balance, *closed]]
@@ -110,7 +111,7 @@ def fraction_solution(form: ExactForm, working: Sequence[int]) -> Solution:
     entries = [arb(v) for v in numerators.entries()]
     x = arb_mat(n, 1, entries[:n])
     z = arb_mat(n + 1, 1, [*entries[:n], denominator])
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         net = form.H * x - form.g * arb(denominator)
     return Solution(z, entries[n:], net, arb(denominator))
 
@@ -145,7 +146,7 @@ class Minimiser:
             return ball_solution(self.form, self.working)
         except ZeroDivisionError:
             exact = self.fractions
-        with ctx.workprec(PRECISION):
+        with working_precision(PRECISION):
             share = 1 / exact.denominator
             y = [v * share for v in exact.y]
             return Solution(exact.z * share, y, exact.net * share, arb(1))
@@ -200,27 +201,27 @@ class Minimiser:
     def slack_signs(self) -> dict[int, int]:
         """The exact signs of the slacks of all open rows that W does not imply."""
         rows = sorted({*self.open_rows} - {*self.implied_rows})
-        with ctx.workprec(PRECISION):
+        with working_precision(PRECISION):
             balls = zip(rows, self.form.slacks(rows, self.balls.z), strict=True)
         return {
             i: _sign(ball if ball > 0 or ball < 0 else self._exact_slack(i)) for i, ball in balls
         }
 
     def _exact_slack(self, i: int) -> arb:
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             (slack,) = self.form.slacks([i], self.fractions.z)
         return slack
 
     def below(self, i: int, j: int) -> bool:
         """Whether the slack of row i is smaller than that of row j, decided exactly."""
-        with ctx.workprec(PRECISION):
+        with working_precision(PRECISION):
             one, other = self.form.slacks([i, j], self.balls.z)
             difference = one - other
         if not (difference > 0 or difference < 0):
             *W, row_i, row_j = self.form.integers([*self.working, i, j])
             if implied(W, [[v - w for v, w in zip(row_i, row_j, strict=True)]])[0]:
                 return False
-            with ctx.workprec(EXACT):
+            with working_precision(EXACT):
                 difference = self._exact_slack(i) - self._exact_slack(j)
         return bool(difference < 0)
 
@@ -241,14 +242,14 @@ class Minimiser:
 
         From their balls; where a ball holds numbers of different rounding, from the fractions.
         """
-        with ctx.workprec(PRECISION):
+        with working_precision(PRECISION):
             balls = numbers(self.balls)
             balls = balls if unit is None else [ball / unit for ball in balls]
             values = [nearest_in(ball) for ball in balls]
         if None not in values:
             return np.array(values, dtype=np.float64)
         exact = self.fractions
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             below = exact.denominator if unit is None else exact.denominator * unit
             return rounded_quotients(numbers(exact), below)
 

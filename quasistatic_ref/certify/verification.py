@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import curved_cone
@@ -29,6 +29,7 @@ from quasistatic_ref.certify.minimiser import (
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.parts import needing
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, groups
 
@@ -100,7 +101,7 @@ def verify(
             exact = fraction_solution(form, working_rows)
         except ZeroDivisionError:
             return Verdict(False, "the rows of the working set are not independent")
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             slack = form.slacks(range(form.m), exact.z)  # times the denominator
             times_h = exact.denominator * form.h
         delta_q_exact[group.coordinates] = rounded_quotients(exact.x, exact.denominator)

@@ -7,7 +7,9 @@ of 128 bits decide nearly always; a larger precision decides the rest.
 
 import math
 
-from flint import arb, ctx
+from flint import arb
+
+from quasistatic_ref.precision import working_precision
 
 PRECISION = 128
 """Bits: a number is so near to the middle between two float64 numbers once in 2^70."""
@@ -21,7 +23,7 @@ def cos_sin(angle: float) -> tuple[float, float]:
     """Cosine and sine [-] of an angle [rad]; NaN of an infinite one."""
     precision = PRECISION
     while precision <= MOST:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             sine, cosine = arb(angle).sin_cos()
             s = float(sine.lower())
             c = float(cosine.lower())
@@ -35,7 +37,7 @@ def angle_of(y: float, x: float) -> float:
     """The angle of the vector (x, y), in [-pi, pi] [rad]; 0 of the zero vector."""
     precision = PRECISION
     while precision <= MOST:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             ball = arb.atan2(arb(y), arb(x))
             angle = float(ball.lower())
             if angle == float(ball.upper()):

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from flint import arb_mat, ctx
+from flint import arb_mat
 
 from quasistatic_ref import Extra, StepInfeasible
 from quasistatic_ref.certify.active_set import dual_active_set
@@ -16,6 +16,7 @@ from quasistatic_ref.certify.minimiser import Minimiser, implied_rows
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.precision import working_precision
 from tests.oracles.random_steps import any_step, mixed_step
 from tests.oracles.rational_kkt import proved_optimum
 from tests.oracles.solution_truth import program
@@ -25,7 +26,7 @@ LEAST = 5e-324
 
 def exact_slacks(form, x):
     """All slacks at a float64 x, without rounding."""
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         z = exact_matrix(np.append(x, 1.0)[:, None])
         return (arb_mat(form.exact_rows(range(form.m))) * z).entries()
 
@@ -61,7 +62,7 @@ def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
             slack, error = form.float_slacks(x, np.abs(x) + 1e-290)
         for s, e, exact in zip(slack, error, exact_slacks(form, x), strict=True):
             if np.isfinite(s) and np.isfinite(e):
-                with ctx.workprec(EXACT):
+                with working_precision(EXACT):
                     assert abs(exact - float(s)) <= float(e)
             if s > e:
                 claims += 1
@@ -81,7 +82,7 @@ def test_bounds_cover_what_x_itself_is_off_by():
         _, error = form.float_slacks(x, most)
         # half of the least float64, and half of a last place
         off = np.maximum(2.0**-53 * np.abs(x), LEAST)
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             moved = exact_matrix(np.abs(J[0, 2])[None] / 2**60) * exact_matrix(off[:, None])
             assert 2**59 * moved[0, 0] <= float(error.min())
 

@@ -6,7 +6,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from quasistatic_ref.certify.rounding import (
     nearest,
@@ -14,6 +14,7 @@ from quasistatic_ref.certify.rounding import (
     nearest_in,
 )
 from quasistatic_ref.cli.decimals import decimal_string
+from quasistatic_ref.precision import working_precision
 
 LEAST = F(5e-324)
 ULP = F(2) ** -52
@@ -53,7 +54,7 @@ def test_nearest_is_no_farther_than_its_neighbours():
 
 
 def test_ball_is_rounded_only_where_all_its_numbers_agree():
-    with ctx.workprec(200):
+    with working_precision(200):
         third = arb(1) / 3
         assert nearest_in(third) == 1 / 3
         assert nearest_in(third - third) is None  # a hidden zero
@@ -67,7 +68,7 @@ def test_ball_is_rounded_only_where_all_its_numbers_agree():
 
 def test_ball_across_a_half_way_point_has_no_float64():
     """Half-way below 1 is 1 - 2^-54, above it 1 + 2^-53; the midpoint itself rounds to 1."""
-    with ctx.workprec(200):
+    with working_precision(200):
         radius = arb(1) / 3 - arb(1) / 3
         half_way = [1 - arb(2) ** -54, 1 + arb(2) ** -53]
         across = [v + radius for v in half_way]
@@ -75,7 +76,7 @@ def test_ball_across_a_half_way_point_has_no_float64():
 
 
 def test_ball_that_underflows_is_written_without_sign():
-    with ctx.workprec(200):
+    with working_precision(200):
         rounded = nearest_in(-(arb(2) ** -1100) / 3)
     assert rounded == 0.0
     assert math.copysign(1.0, rounded) == 1.0

@@ -7,7 +7,7 @@ from quasistatic_ref.model.joints import BASES, JOINTS
 
 # The core, in this order: a folder imports only from folders before it, and from itself.
 CORE = (
-    ("formats", "errors", "tolerances", "parts"),
+    ("formats", "errors", "tolerances", "parts", "precision"),
     ("step",),
     ("certify",),
     ("solve",),
@@ -103,6 +103,7 @@ WALLS = {
     "daqp": ("optional/fast", "lab/study/accepted.py"),
     # Exact and ball arithmetic: the judge, and the vectors that others are judged by. And angles.
     "flint": (
+        "precision.py",
         "certify",
         "model/angles.py",
         "optional/coulomb",

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from quasistatic_ref import solve_step
 from quasistatic_ref.certify.form import StepForm
@@ -19,6 +19,7 @@ from quasistatic_ref.optional.gap import (
     free_energy,
     nearest_above,
 )
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_form import fraction
 from tests.oracles.random_steps import any_step, mixed_step
@@ -134,7 +135,7 @@ def test_a_gap_rounded_up_is_never_below_what_it_is(value):
 
 
 def test_nearest_above_is_above():
-    with ctx.workprec(200):
+    with working_precision(200):
         assert Fraction(nearest_above(arb(1) / 3)) > Fraction(1, 3)
         assert nearest_above(arb(0)) == 0.0
         assert nearest_above(arb.pos_inf()) == math.inf

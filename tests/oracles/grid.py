@@ -5,9 +5,10 @@ such numbers are exact, so that every comparison has an answer.
 """
 
 import numpy as np
-from flint import ctx, fmpq
+from flint import fmpq
 
 from quasistatic_ref.lab.vectors.exact.precision import number, rational_near
+from quasistatic_ref.precision import working_precision as with_bits
 
 BITS = 320
 """Places behind the binary point."""
@@ -26,4 +27,4 @@ on_grid = np.frompyfunc(_on_grid, 1, 1)
 
 def working_precision():
     """The precision in which balls are made before they are moved to the grid: a context."""
-    return ctx.workprec(BITS + 96)
+    return with_bits(BITS + 96)

@@ -12,13 +12,14 @@ decided in rational numbers: by convexity nothing else has to be checked.
 
 from collections.abc import Sequence
 
-from flint import ctx, fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
 from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.optional.gap import fractions, rational
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 
 
@@ -70,7 +71,7 @@ def apex_refutation(
         solution = fraction_solution(form, working)
     except ZeroDivisionError:
         return "the rows of the working set are not independent"
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         slack = solution.in_fractions(form.slacks(range(form.m), solution.z))
     pull = solution.in_fractions(solution.net.entries())
     impulse = _balanced(form, working, fractions(lam), [v / fraction(form.h) for v in pull])

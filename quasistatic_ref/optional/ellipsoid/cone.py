@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from flint import ctx, fmpq
+from flint import fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import CurvedCone
@@ -31,6 +31,7 @@ from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.optional.gap import duality_gap, fractions
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import ELLIPSOID, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
@@ -222,7 +223,7 @@ def _not_enclosed(
     found = checked_pair(step)
     if found is None:
         return [], "no displacement strictly inside of all cones was found"
-    with ctx.workprec(BITS):
+    with working_precision(BITS):
         error = enclosed_error(form, found, delta_q)
         claimed = claims.error_bound
     reason = wrong_claim("active", active, ())

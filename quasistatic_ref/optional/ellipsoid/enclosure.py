@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
@@ -28,6 +28,7 @@ from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, 
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
 from quasistatic_ref.optional.gap import duality_gap, fractions, inner, nearest_above, square_root
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import ENCLOSED
 
@@ -140,7 +141,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     unloaded = _at_apex(step, form, np.zeros(form.m))
     if unloaded is not None:
         return unloaded
-    with ctx.workprec(BITS):
+    with working_precision(BITS):
         frame = scaled_blocks(step, form)
         found = (_enclosed(step, frame, *guess) for guess in guesses(frame, start))
         return next(filter(None, found), None)
@@ -156,7 +157,7 @@ def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
     if not negligible(form, exact.point, gap):
         return None
     delta_q = rounded_quotients(exact.x, exact.denominator)
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         net = rounded_quotients(exact.net.entries(), exact.denominator * form.h)
     return Enclosure(delta_q, lam, net, working, 0.0, rounded_up(gap))
 
@@ -194,7 +195,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     bits : int
         Precision, five times as many as the gap has.
     """
-    with ctx.workprec(bits):
+    with working_precision(bits):
         frame = scaled_blocks(step, StepForm(step))
         pair = interior_point(frame.problem, gap)
         return None if pair is None else checked(frame, pair)

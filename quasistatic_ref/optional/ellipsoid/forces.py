@@ -14,7 +14,7 @@ Newton's method makes the right side 1e-60 of the step's energy.
 from typing import Final
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.form import StepForm
@@ -27,6 +27,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 )
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from quasistatic_ref.optional.gap import square_root
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 
 P_OF_WRENCH: Final = [2, 0, 1, 3]
@@ -65,7 +66,7 @@ def compliant_forces(
     delta_q, wrench = near
     own = np.zeros(len(step.extra.b))
     start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
-    with ctx.workprec(BITS):
+    with working_precision(BITS):
         frame = scaled_blocks(step, form, compliance)
         for pair, _ in guesses(frame, start):
             found = checked(frame, pair)

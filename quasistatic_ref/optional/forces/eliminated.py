@@ -9,7 +9,7 @@ from math import lcm
 from typing import Final
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.failures import StepInfeasible
@@ -17,6 +17,7 @@ from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.form import EXACT, MatrixForm, Row, StepForm, columns
 from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.optional.forces.faces import Rows, face, nearest_face
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by
@@ -77,7 +78,7 @@ class EliminatedStep:
         scale = lcm(*(f.denominator for f in on))
         conditions: list[Row] = []
         scaled_s: list[Row] = []
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             # H x - g = h B'p with p = s / c, times h c and the scale
             push = arb_mat(n, n + 1)
             for f, z_j, mu in zip(on, self.z, scaled_by(step.contacts).tolist(), strict=True):
@@ -116,7 +117,7 @@ class EliminatedStep:
     def numbers(self, found: Candidate) -> tuple[Array, Array]:
         """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
         minimiser = found.minimiser
-        with ctx.workprec(EXACT):
+        with working_precision(EXACT):
             unit = self.compliance * found.scale
         p = minimiser.rounded(lambda solution: (found.s * solution.z).entries(), unit)
         return p.reshape(-1, 4), minimiser.rounded(lambda solution: solution.x)
@@ -166,7 +167,7 @@ def eliminated_optimum(
             return program.numbers(found)
         point = found.minimiser.fractions.z
         for j in wrong:
-            with ctx.workprec(EXACT):
+            with working_precision(EXACT):
                 z = program.z[j] * point
             faces[j] = nearest_face(step.cone, int(step.counts[j]), z)
     return None

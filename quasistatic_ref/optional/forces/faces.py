@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from flint import arb_mat, ctx, fmpq_mat
+from flint import arb_mat, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.form import EXACT, MatrixForm, exact_matrix, fraction
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
@@ -94,7 +95,7 @@ def nearest_face(name: str, count: int, z: arb_mat) -> Rows:
         Independent rows, in increasing order; their multipliers are positive.
     """
     C = exact_matrix(rows_of(name, count))
-    with ctx.workprec(EXACT):
+    with working_precision(EXACT):
         constants = (C * z).entries()
     rows = [[*row, c] for row, c in zip(C.tolist(), constants, strict=True)]
     end = dual_active_set(MatrixForm(exact_matrix(np.eye(4)), arb_mat(4, 1), arb_mat(rows)))

@@ -26,7 +26,7 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.contact_forces import ContactForces
@@ -40,6 +40,7 @@ from quasistatic_ref.optional.forces.eliminated import eliminated_optimum
 from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import cone_rows
 from quasistatic_ref.optional.forces.of_group import NOTHING_MOVES, group_compliance
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, frame_jacobian, scaled_by
@@ -191,7 +192,7 @@ def compliant_form(step: StepData, compliance: float) -> MatrixForm:
     gives[: step.offsets[-1]] = cone_rows(step)
     every = zip(form.exact_rows(range(step.m)), exact_matrix(gives).tolist(), strict=True)
     rows = [[*row[:n], *of_s, row[n]] for row, of_s in every]
-    with ctx.workprec(EXACT):  # Eq. (13) with the energy |s|^2 / (2c), times h c
+    with working_precision(EXACT):  # Eq. (13) with the energy |s|^2 / (2c), times h c
         H = exact_matrix(np.eye(n + lengths)) * (form.h * form.h)
         for i, row in enumerate((form.H * arb(compliance)).tolist()):
             for j, v in enumerate(row):

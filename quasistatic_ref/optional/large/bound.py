@@ -17,12 +17,13 @@ digits. The exact method shows all of them.
 import math
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.form import PRECISION, StepForm, exact_matrix
 from quasistatic_ref.optional.gap import inner, nearest_above, square_root
 from quasistatic_ref.optional.large.opening import opening
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -47,7 +48,7 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> float:
     if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
         return math.inf
     form = StepForm(step)
-    with ctx.workprec(PRECISION):
+    with working_precision(PRECISION):
         x = exact_matrix(delta_q[:, None])
         y = exact_matrix(np.maximum(lam, 0.0)[:, None]) * form.h
         moved = _feasible(step, form, x)

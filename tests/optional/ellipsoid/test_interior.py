@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import (
@@ -16,6 +16,7 @@ from quasistatic_ref.optional.ellipsoid.newton import (
     contact_states,
     newton_pair,
 )
+from quasistatic_ref.precision import working_precision
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
@@ -59,7 +60,7 @@ def test_both_methods_project_on_cones(states, give):
     x = y + g
     problem = projection_problem(g, b, give)
     off = np.tile([2.0**-20, 0.0, 2.0**-21], len(states))
-    with ctx.workprec(640):
+    with working_precision(640):
         cold = interior_point(problem, arb(2) ** -60)
         near = Pair(column(x + off), column(y + off))
         found = contact_states(problem, near)
@@ -95,7 +96,7 @@ def test_a_cone_that_gives_way_is_pressed_by_twice_what_moves_out_of_it():
     )
     y = np.array([1.0, 3.0, 0.0, 0.0])
     d = float(INWARDS)
-    with ctx.workprec(640):
+    with working_precision(640):
         moved = _inwards(problem, Pair(column([0]), column(y)), [STICKS, SLIDES])
         lifts = floats(moved.y - column(y))
     assert_relative(floats(moved.x), d, ROUNDING)

@@ -4,7 +4,7 @@ from fractions import Fraction
 from math import inf
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.certify.rounding import nearest_in
@@ -17,6 +17,7 @@ from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error
 from quasistatic_ref.optional.gap import square_root
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import StepData
 
 GAP = arb(2) ** -280
@@ -41,7 +42,7 @@ def enclosed_optimum(step: StepData) -> Expected:
     found = checked_pair(step, GAP, BITS)
     if found is None:
         raise InputError("has no displacement strictly inside of all cones", field="second_order")
-    with ctx.workprec(BITS):
+    with working_precision(BITS):
         inverse = form.H.inv()
         # Where no cone bears load, the gap is a ball about zero.
         radius = [square_root(2 * found.gap * inverse[v, v]).upper() for v in range(form.n)]
@@ -53,7 +54,7 @@ def enclosed_optimum(step: StepData) -> Expected:
         }
         lam = [float(v / form.h) + 0.0 for v in found.y]
         output = {name: [_nearest(v) for v in values] for name, values in balls.items()}
-    with ctx.workprec(PROVED):  # what `verify` proves, in the precision that it works in
+    with working_precision(PROVED):  # what `verify` proves, in the precision that it works in
         again = checked_pair(step)
         error = inf if again is None else enclosed_error(form, again, np.array(output["delta_q"]))
     x_off, net_off, slack_off = (LOOSER * bound for bound in floors(form))

@@ -15,12 +15,13 @@ from math import inf, isqrt, nextafter
 from typing import Any, TypeAlias
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.lab.program import number as kinds
 from quasistatic_ref.lab.vectors.trees import mapped
+from quasistatic_ref.precision import working_precision
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""
@@ -160,7 +161,7 @@ def rounded_results(function: Callable[[], Any]) -> tuple[Any, Any]:
     """
     precision = PRECISION
     while precision <= HIGHEST:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             try:
                 tree = function()
                 return mapped(tree, _each(_nearest)), mapped(tree, _each(_decimal))

@@ -13,12 +13,13 @@ data at fixed x and :math:`\lambda`, (R36):
 from typing import NamedTuple
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.form import exact_matrix
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import impulses
@@ -157,7 +158,7 @@ def _weighted_solution(H: Array, A: Array, found: Barrier, pushed: Array, moved:
         return pushed.copy()
     precision = LEAST_BITS
     while precision <= MOST_BITS:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             rows = exact_matrix(A)
             slack, lam = (list(map(arb, v.tolist())) for v in (found.slack, found.lam))
             weighted = rows.transpose() * _diagonal(
