@@ -48,11 +48,19 @@ def checked_numbers(value: object, name: str, error: type[InputError] = StepData
         return value
     try:
         array = np.array(value)
-        if array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0):
+        numbers = array.dtype.kind in "fiu" or (array.dtype.kind == "O" and array.size == 0)
+        if numbers and not _has_truth(value):
             return array.astype(np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
     raise error("must be numbers, in lists of equal length", field=name, value=value)
+
+
+def _has_truth(value: object) -> bool:
+    """Whether True or False is in nested lists: next to numbers NumPy takes them for 1 and 0."""
+    if isinstance(value, list | tuple):
+        return any(map(_has_truth, value))
+    return isinstance(value, bool | np.bool_)
 
 
 def finite(x: Array) -> bool:

@@ -21,3 +21,9 @@ def test_an_empty_array_of_objects_holds_no_number_that_is_none():
     assert checked_numbers(np.array([], dtype=object), "x").dtype == np.float64
     with pytest.raises(StepDataError, match="must be numbers"):
         checked_numbers([Fraction(1, 2)], "x")
+
+
+@pytest.mark.parametrize("value", [True, [True], [0.5, True], [[1.0, 0.0], [0.0, False]]])
+def test_true_is_no_number(value):
+    with pytest.raises(StepDataError, match="x: must be numbers"):
+        checked_numbers(value, "x")

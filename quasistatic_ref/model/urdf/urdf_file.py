@@ -226,7 +226,10 @@ def inertia_defect(inertia: Array) -> Defect | None:
     written = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()
     order = "(ixx iyy izz ixy ixz iyz)"
     if not principal[0] > 0:
-        return "inertia", f"must be positive definite {order}", written
+        problem = f"must be positive definite {order}"
+        if principal[0] >= -INERTIA_TRIANGLE * abs(principal[2]):
+            problem += "; a rod, a disk and a point mass have a thickness: write the moments of it"
+        return "inertia", problem, written
     if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE):
         problem = "is impossible: the largest principal moment exceeds the sum of the others"
         return "inertia", f"{problem} {order}", written

@@ -36,8 +36,8 @@ def unborne(run: Run) -> Iterator[Finding]:
         yield Finding(
             "uncertain forces",
             False,
-            "read sums of forces only, or take a larger h or a softer K_q",
-            f"the last bit of a gap, {bit:.1e} m, may change forces of single contacts by "
+            "read the sum of forces of each pair in the place of single ones, or take a softer K_q",
+            f"rounding of a gap, by {bit:.1e} m, may change forces of single contacts by "
             f"{noise:.1e} of the load of their group",
             {"noise": noise},
         )

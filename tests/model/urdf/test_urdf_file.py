@@ -53,6 +53,13 @@ def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
     assert defect[1:] == ("must be positive definite (ixx iyy izz ixy ixz iyz)", written)
 
 
+@pytest.mark.parametrize("moments", [(0.0, 0.0, 0.0), (1e-3, 1e-3, 0.0), (0.0, 0.0, 1e-3)])
+def test_of_a_rod_a_point_mass_or_a_puck_it_is_said_what_to_write(moments):
+    defect = inertia_defect(np.diag(moments))
+    assert defect is not None
+    assert defect[1].endswith("have a thickness: write the moments of it")
+
+
 def point_mass(centre):
     return inertial("1", ("0",) * 3, f'<origin xyz="{centre}"/>')
 

@@ -9,6 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
 from quasistatic_ref.optional.show.figures.moments import (
@@ -75,6 +77,11 @@ def draw_scene(
     legend : bool
         Whether to write above the axes what is what, and the scale of forces.
 
+    Raises
+    ------
+    InputError
+        If the view or a part is none of these.
+
     Examples
     --------
     >>> from matplotlib.figure import Figure
@@ -84,6 +91,10 @@ def draw_scene(
     >>> axes.get_xlabel()
     'x [mm]'
     """
+    for part in parts:
+        if part not in PARTS:
+            problem = f"must be some of {listed(sorted(PARTS))}"
+            raise InputError(problem, field="parts", value=part)
     box = extent(of)
     if around is not None:
         box = around[0] + around[1] * SIGNS
@@ -165,8 +176,19 @@ def _draw_contact(
 
 
 def camera_of(view: str | Camera) -> Camera:
-    """The camera of a view: one of ``PLANES`` by its name, or that which is given."""
-    return PLANES[view] if isinstance(view, str) else view
+    """The camera of a view: one of ``PLANES`` by its name, or that which is given.
+
+    Raises
+    ------
+    InputError
+        If the name is none of these.
+    """
+    if not isinstance(view, str):
+        return view
+    if view not in PLANES:
+        problem = f"must be a Camera or one of {listed(sorted(PLANES))}"
+        raise InputError(problem, field="view", value=view)
+    return PLANES[view]
 
 
 def force_scale(

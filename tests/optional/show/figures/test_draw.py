@@ -194,3 +194,14 @@ def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch
     with pytest.raises(InputError, match=r"must end in \.gif or \.mp4"):
         animate(*incline, tmp_path / "blocks.png")
     assert animate(*incline, tmp_path / "blocks", fps=4).name == "blocks.gif"
+
+
+@pytest.mark.parametrize(
+    ("words", "field"), [({"view": "zx"}, "view"), ({"parts": ["force"]}, "parts")]
+)
+def test_a_view_or_a_part_that_does_not_exist_is_named(words, field):
+    scenario = load_scenario("block_push", steps=1)
+    of = moment(scenario, scenario.run(progress=False), 0)
+    with pytest.raises(InputError, match=f"{field}: must be"):
+        draw_scene(plt.figure().subplots(), of, **words)
+    plt.close("all")
