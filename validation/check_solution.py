@@ -73,9 +73,8 @@ def step_read(record):
 
 def contact_read(record, n_v):
     """A contact, with its fields in the order in which they are hashed."""
-    shapes = {"phi": (), "n": (3,), "d1": (3,), "d2": (3,), "J": (4, n_v), "mu_v": ()}
-    shapes["mu_omega"] = ()
-    numbers = {name: array(record, name, *shape) for name, shape in shapes.items()}
+    size = {"phi": (), "n": (3,), "d1": (3,), "d2": (3,), "J": (4, n_v), "mu_v": (), "mu_omega": ()}
+    numbers = {name: array(record, name, *shape) for name, shape in size.items()}
     need(record["rows"] in (4, 6), "rows is neither 4 nor 6")
     return {"name": record["name"], **numbers, "rows": record["rows"]}
 
@@ -107,10 +106,7 @@ def definite(S):
     """Whether a symmetric matrix is positive definite: all pivots of elimination are positive."""
     while S and S[0][0] > 0:
         first, *rest = S
-        S = [
-            [v - row[0] / first[0] * w for v, w in zip(row[1:], first[1:], strict=True)]
-            for row in rest
-        ]
+        S = [[v - r[0] / first[0] * w for v, w in zip(r[1:], first[1:], strict=True)] for r in rest]
     return not S
 
 
@@ -141,21 +137,21 @@ def turn(k, K):
 
 
 def cone_rows(cone, rows):
-    """(1, p, q, r) of each row J_n + p mu_v J_1 + q mu_v J_2 + r mu_omega J_w of a contact."""
+    """(p, q, 1, r) of each row p mu_v J_1 + q mu_v J_2 + J_n + r mu_omega J_w of a contact."""
     K = next((K for K in range(4, 1025, 2) if cone == f"facets-{K}"), None)
     need(cone != "ellipsoid", "the cone is the ellipsoid, and only cones with rows are judged here")
     need(K or cone in ("pyramid", "product", "frictionless"), f"the cone {cone!r} is unknown")
     sides = [turn(k, K) for k in range(K)] if K else SQUARE
     spins = (1, -1) if rows == 6 else ()
     if cone == "frictionless":
-        return [[1, 0, 0, 0]]
+        return [[0, 0, 1, 0]]
     if cone == "product":
-        return [[1, *side, spin] for spin in spins or (0,) for side in sides]
-    return [[1, *side, 0] for side in sides] + [[1, 0, 0, spin] for spin in spins]  # Eqs. (5)-(7)
+        return [[*side, 1, spin] for spin in spins or (0,) for side in sides]
+    return [[*side, 1, 0] for side in sides] + [[0, 0, 1, spin] for spin in spins]  # Eqs. (5)-(7)
 
 
 def problem(step):
-    """H, g, A and b of Eqs. (13) and (8), and of each contact its rows' (1, p, q, r), times mu."""
+    """H, g, A and b of Eqs. (13) and (8), and of each contact its rows' (p, q, 1, r), times mu."""
     h, n_a, n_u = fractions(step["h"]), step["n_a"], step["n_u"]
     K_q, M_u = fractions(step["K_q"]), fractions(step["M_u"])
     H = [[h * v for v in row] + [Fraction(0)] * n_u for row in K_q]
@@ -166,9 +162,9 @@ def problem(step):
     A, b, weights = [], [], []
     for contact in step["contacts"]:
         J = list(zip(*fractions(contact["J"]), strict=True))  # its columns
-        axes = [fractions(contact[axis]) for axis in ("n", "d1", "d2")]
-        in_frame = [[*along(axes, column[:3]), column[3]] for column in J]  # (J_n, J_1, J_2, J_w)
-        mu = fractions([1, contact["mu_v"], contact["mu_v"], contact["mu_omega"]])
+        axes = [fractions(contact[axis]) for axis in ("d1", "d2", "n")]
+        in_frame = [[*along(axes, column[:3]), column[3]] for column in J]  # (J_1, J_2, J_n, J_w)
+        mu = fractions([contact["mu_v"], contact["mu_v"], 1, contact["mu_omega"]])
         rows = fractions(cone_rows(step["cone"], contact["rows"]))
         weights.append([[m * v for m, v in zip(mu, row, strict=True)] for row in rows])
         A += [along(in_frame, row) for row in weights[-1]]  # Eq. (8)
@@ -184,14 +180,7 @@ def infeasible(A, b, y):
     """Whether y proves that no x has A x >= b: y >= 0, A'y = 0 and b'y > 0."""
     need(all(set(v) <= set("0123456789/") for v in y), "farkas has no fractions, or negative ones")
     y = fractions(y)
-    balance = [dot(column, y) for column in zip(*A, strict=True)]
-    return not any(balance) and dot(b, y) > 0
-
-
-def wrench(rows, lam, h):
-    """(f_d1, f_d2, f_n, tau_n) of a contact from the multipliers of its rows."""
-    f_n, f_1, f_2, tau = (rounded(dot(column, lam) / h) for column in zip(*rows, strict=True))
-    return [f_1, f_2, f_n, tau]
+    return not any(dot(column, y) for column in zip(*A, strict=True)) and dot(b, y) > 0
 
 
 def verdicts(step, solution):
@@ -228,7 +217,10 @@ def verdicts(step, solution):
     yield "Eq. (10)", all(v >= 0 for v in slack)
     yield "Eq. (11), positive on active", all(v > 0 for v in lam_W)
     yield "Eq. (12), zero elsewhere", not any(every[i] for i in idle)
-    forces = [wrench(*c, Fraction(step["h"])) for c in zip(weights, fractions(lam), strict=True)]
+    forces = [
+        [rounded(dot(column, impulses) / Fraction(step["h"])) for column in zip(*rows, strict=True)]
+        for rows, impulses in zip(weights, fractions(lam), strict=True)
+    ]
     yield "wrench", array(solution, "wrench", len(weights), 4) == forces
     flags = claims["multipliers_unique"], claims["differentiable"]
     true = flags == (True, True) or any(slack[i] == 0 for i in idle)  # then flags are not judged
