@@ -73,6 +73,7 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
     if "refused" in outcome:
         refusal = fence.refusal(outcome["refused"])
         if "allocate memory" in outcome["refused"]:
+            refusal.field = refusal.field or "size.memory"
             refusal.problem = (
                 f"needs more than the {MEMORY / 2**30:g} GiB that this package lets MuJoCo have; "
                 "ask for less"

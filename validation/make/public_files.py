@@ -1,0 +1,269 @@
+"""The files of public packages: what loads here and elsewhere, and where the numbers differ.
+
+    python -m validation.make.public_files
+
+Packages are downloaded, at the versions below, into a temporary folder; nothing is installed. Each
+URDF is read by pinocchio too, each MJCF scene by MuJoCo, each mesh by trimesh, each PCD by pypcd4
+and each LAS by laspy. Writes validation/results/public_files.md. ``--count N`` takes at most N
+files of each kind of a package, spread evenly over them.
+"""
+
+import multiprocessing
+import subprocess
+import sys
+import tarfile
+import xml.etree.ElementTree as ET
+from collections import Counter
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from zipfile import ZipFile
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref import ModelError, System
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.readers.clouds import seen_points
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull
+from quasistatic_ref.optional.guests.compiler import compiled_model
+from quasistatic_ref.optional.guests.scene import mujoco_scenario
+from validation.tools.scripts import RESULTS, script_options
+
+WHEELS = (
+    "example-robot-data==6.0.0",
+    "pybullet==3.2.7",
+    "drake==1.51.1",
+    "dm-control==1.0.50",
+    "gymnasium-robotics==1.4.2",
+    "metaworld==3.1.1",
+)
+SOURCES = ("pypcd4==1.5.1", "laspy==2.7.0")
+"""Packages whose files are those of their tests."""
+MESHES = (".stl", ".obj", ".dae", ".glb", ".3mf", ".off", ".ply")
+CLOSE = 1e-6
+"""Relative difference of numbers that are the same."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one file.
+
+    Parameters
+    ----------
+    package, file, kind : str
+    refused : str
+        Why it does not load here; empty where it does.
+    peer : str
+        The same of the other package.
+    differs : str
+        Which numbers of both differ.
+    """
+
+    package: str
+    file: str
+    kind: str
+    refused: str
+    peer: str
+    differs: str
+
+
+def sentence(error: Exception) -> str:
+    """An error as one line, without folders."""
+    if isinstance(error, ModelError | InputError):
+        error.file = None
+    return " ".join(str(error).split())[:160].replace("|", "/") or type(error).__name__
+
+
+def of_urdf(path: Path) -> dict[str, float]:
+    """Limits of joints and the whole mass [m, rad, kg]."""
+    system = System([Body("b", path, actuated="all")])
+    found = {}
+    for joint in system.joints:
+        if joint.limits is not None:
+            name = joint.name.partition("/")[2]
+            found |= {f"{name} lower": joint.limits[0], f"{name} upper": joint.limits[1]}
+    return found | {"mass": float(system.masses.sum())}
+
+
+def of_pinocchio(path: Path) -> dict[str, float]:
+    """The same, of joints with one coordinate."""
+    import pinocchio as pin
+
+    model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
+    found = {}
+    for name, joint in zip(model.names, model.joints, strict=True):
+        if joint.nq == 1:
+            ends = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
+            found |= {f"{name} lower": ends[0], f"{name} upper": ends[1]}
+    return found | {"mass": sum(inertia.mass for inertia in model.inertias)}
+
+
+def of_mesh(path: Path) -> dict[str, float]:
+    """Its ends [m] and the number of corners of its hull."""
+    mesh = loaded_mesh(path)
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    volume = mesh_hull(path, np.ones(3)).volume
+    return dict(zip("abcdef", [*low, *high], strict=True)) | {"hull": volume}
+
+
+def of_trimesh(path: Path) -> dict[str, float]:
+    """The same."""
+    import trimesh
+
+    scene = trimesh.load_scene(path, process=False)
+    if path.suffix.lower() == ".dae" and scene.units is not None:
+        scene.apply_scale(trimesh.units.unit_conversion(scene.units, "meters"))
+    low, high = scene.bounds
+    volume = scene.convex_hull.volume
+    return dict(zip("abcdef", [*low, *high], strict=True)) | {"hull": float(volume)}
+
+
+def of_cloud(path: Path) -> dict[str, float]:
+    """The number of its points, and their mean [m]."""
+    return of_points(seen_points(path)[0])
+
+
+def of_points(points: np.ndarray) -> dict[str, float]:
+    """The same, without points that are not numbers."""
+    points = points[np.isfinite(points).all(axis=1)].astype(np.float64)
+    return {"points": len(points)} | dict(zip("xyz", points.mean(axis=0), strict=True))
+
+
+def of_pcd(path: Path) -> dict[str, float]:
+    """The same by pypcd4."""
+    import pypcd4
+
+    return of_points(pypcd4.PointCloud.from_path(path).numpy(("x", "y", "z")))
+
+
+def of_las(path: Path) -> dict[str, float]:
+    """The same by laspy."""
+    import laspy
+
+    return of_points(np.asarray(laspy.read(path).xyz))
+
+
+def of_mjcf(path: Path) -> dict[str, float]:
+    """Coordinates and geoms of a scene that runs."""
+    model = compiled_model(path, [path.parents[2]])
+    mujoco_scenario(model, steps=1).run(progress=False)
+    return {"nv": model.nv, "ngeom": model.ngeom}
+
+
+def of_mujoco(path: Path) -> dict[str, float]:
+    """The same of MuJoCo's own compiler."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_path(str(path))
+    return {"nv": model.nv, "ngeom": model.ngeom}
+
+
+Reader = Callable[[Path], dict[str, float]]
+READERS: dict[str, tuple[Reader, Reader]] = {
+    "URDF": (of_urdf, of_pinocchio),
+    "MJCF": (of_mjcf, of_mujoco),
+    "mesh": (of_mesh, of_trimesh),
+    "PCD": (of_cloud, of_pcd),
+    "LAS": (of_cloud, of_las),
+}
+
+
+def kind_of(path: Path) -> str:
+    """The kind of a file, or nothing of one that is none of these."""
+    suffix = path.suffix.lower()
+    if suffix == ".xml":
+        try:
+            root = ET.parse(path).getroot()
+        except ET.ParseError:
+            return ""
+        whole = root.tag == "mujoco" and root.find("worldbody") is not None
+        return "MJCF" if whole else ""
+    kinds = {".urdf": "URDF", ".pcd": "PCD", ".las": "LAS"}
+    return "mesh" if suffix in MESHES else kinds.get(suffix, "")
+
+
+def tried(reader: Reader, path: Path) -> tuple[dict[str, float], str]:
+    """What a reader makes of a file, or why it makes nothing."""
+    try:
+        return reader(path), ""
+    except Exception as error:  # each package raises its own kinds of errors
+        return {}, sentence(error)
+
+
+def outcome(package: str, name: str, path: Path, kind: str) -> Outcome:
+    """One file, here and elsewhere."""
+    (here, refused), (there, peer) = (tried(reader, path) for reader in READERS[kind])
+    differ = [
+        f"{key}: {here[key]:.9g}, {there[key]:.9g}"
+        for key in here.keys() & there.keys()
+        if not np.isclose(here[key], there[key], rtol=CLOSE, atol=CLOSE**2)
+    ]
+    return Outcome(package, name, kind, refused, peer, "; ".join(sorted(differ)[:3]))
+
+
+def downloaded(folder: Path) -> Iterator[tuple[str, Path]]:
+    """Each package, and the folder of its files."""
+    for package in (*WHEELS, *SOURCES):
+        own = folder / package.partition("==")[0]
+        how = ["--no-binary", own.name] if package in SOURCES else []
+        command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", *how]
+        subprocess.run([*command, "--dest", str(own), package], check=True)
+        (archive,) = own.iterdir()
+        if archive.suffix == ".whl":
+            with ZipFile(archive) as files:
+                files.extractall(own)
+        else:
+            with tarfile.open(archive) as files:
+                files.extractall(own, filter="data")
+        yield package, own
+
+
+def page(outcomes: list[Outcome]) -> str:
+    """Counts, and a row for each file that is refused or differs."""
+    lines = ["| package | kind | files | load here | load elsewhere | only elsewhere | differ |"]
+    lines += ["|---|---|---|---|---|---|---|"]
+    groups = Counter((one.package, one.kind) for one in outcomes)
+    for (package, kind), count in sorted(groups.items()):
+        own = [one for one in outcomes if (one.package, one.kind) == (package, kind)]
+        counts = [
+            sum(not one.refused for one in own),
+            sum(not one.peer for one in own),
+            sum(bool(one.refused) and not one.peer for one in own),
+            sum(bool(one.differs) for one in own),
+        ]
+        lines.append(f"| {package} | {kind} | {count} | {' | '.join(map(str, counts))} |")
+    lines += ["", "| file | here | elsewhere |", "|---|---|---|"]
+    for one in sorted(outcomes, key=lambda one: (one.kind, one.package, one.file)):
+        if one.refused or one.differs:
+            here = one.refused or f"differs: {one.differs}"
+            lines.append(f"| {one.package.partition('=')[0]}: {one.file} | {here} | "
+                         f"{one.peer or 'loads'} |")  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Read each file of each package."""
+    count = script_options(__doc__, count=int).count
+    workers: Any = multiprocessing.get_context("spawn")
+    with TemporaryDirectory() as temporary, ProcessPoolExecutor(2, workers) as pool:
+        asked = []
+        for package, folder in downloaded(Path(temporary)):
+            files: dict[str, list[Path]] = {}
+            for path in sorted(folder.rglob("*")):
+                if path.is_file() and (kind := kind_of(path)):
+                    files.setdefault(kind, []).append(path)
+            for kind, paths in files.items():
+                for path in paths[:: -(-len(paths) // (count or len(paths)))]:
+                    name = str(path.relative_to(folder))
+                    asked.append(pool.submit(outcome, package, name, path, kind))
+        outcomes = [one.result() for one in tqdm(asked)]
+    (RESULTS / "public_files.md").write_text(page(outcomes), "utf-8")
+
+
+if __name__ == "__main__":
+    main()
