@@ -1,4 +1,8 @@
-"""Figures of docs/reality.md from its results: ``python -m validation.make.reality_figures``."""
+"""Figures that take long, or come from results: ``python -m validation.make.page_figures``.
+
+Those of docs/reality.md come from its results. The others are drawn by their modules in
+docs/drawings/. Figures that take seconds are drawn when the site is built.
+"""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -9,7 +13,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from docs.drawings import which_cone_is_real
+from docs.drawings import (
+    both_laws,
+    cone_surfaces,
+    gradient_of_a_push,
+    metres,
+    pinch_threshold,
+    plan_a_push,
+    solver_digits,
+    what_smoothing_does,
+    where_no_gradient_is,
+    which_cone_is_real,
+)
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
 from validation.tools.scripts import RESULTS, script_options
@@ -57,21 +72,6 @@ def identified_ratios(record: Record) -> Figure:
     return figure
 
 
-def lost_shares(record: Record) -> Figure:
-    """The share of dissipation that each cone loses on measured loads and motions, each pair."""
-    figure, (axes,) = panels(4.6, 2.4)
-    cones = list(next(iter(record.values()))["cones"])
-    for row, cone in enumerate(cones):
-        lost = 100 * np.array([entry["cones"][cone]["misfit"] for entry in record.values()])
-        _marks(axes, lost, np.full(len(lost), row), "o", 4, "a pair" if row == 0 else "")
-        axes.plot([lost.mean()] * 2, [row - 0.3, row + 0.3], color="black", linewidth=scaled(1.6),
-                  label="mean" if row == 0 else "")  # fmt: skip
-    _name_rows(axes, cones)
-    axes.set_xlim(left=0)
-    label_axes(axes, "share of the dissipation that is lost [%]")
-    return figure
-
-
 def errors_by_pair(record: Record) -> Figure:
     """Errors of each pair with intervals: this package, and the published simulator."""
     figure, both = panels(6.3, 4.8, columns=2)
@@ -96,14 +96,22 @@ def result(name: str) -> Any:
 
 def main() -> None:
     """Draw all."""
-    options = script_options(__doc__, out=Path("reality_figures"))
+    options = script_options(__doc__, out=Path("page_figures"))
     identified = result("reality_identified")
     with figure_style():
         figures = {
             "reality_pushes": which_cone_is_real.figure(),
             "reality_identified": identified_ratios(identified),
-            "reality_loads": lost_shares(identified),
             "reality_errors": errors_by_pair(result("reality")),
+            "both_laws": both_laws.figure(),
+            "cone_surfaces": cone_surfaces.figure(),
+            "gradient_of_a_push": gradient_of_a_push.figure(),
+            "metres": metres.figure(),
+            "pinch_threshold": pinch_threshold.figure(),
+            "plan_a_push": plan_a_push.figure(),
+            "solver_digits": solver_digits.figure(),
+            "what_smoothing_does": what_smoothing_does.figure(),
+            "where_no_gradient_is": where_no_gradient_is.figure(),
         }
     for name, figure in figures.items():
         figure_written(figure, options.out, name)

@@ -1,0 +1,84 @@
+"""What metres do to a solver: the error of its answer in m, rad and kg, and in natural units.
+
+CVXPY's own ``solve`` gets the paper's program in SI units, and ends "optimal".
+``StepProblem.solve`` asks the same solver in natural units.
+"""
+
+import warnings
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.digits import correct_digits
+from quasistatic_ref.lab.figures.labels import label_axes, legend_below
+from quasistatic_ref.lab.figures.line_styles import COLOURS, MARKS
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.compiled import CANON
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.problem import StepProblem
+
+SCENES = ("sphere_spin", "two_finger_pinch", "bunny_grasp")
+SOLVERS = ("clarabel", "osqp", "piqp", "daqp", "scs")
+STEP = 11
+"""Which step of each scene is solved."""
+LEAST = 1e-16
+"""Errors that are drawn as this one: float64 has no more digits."""
+UNITS = ("metres", "natural units")
+
+
+@cache
+def step_of(scene: str) -> StepData:
+    """A step of a scene."""
+    return load_scenario(scene, steps=STEP + 1).run(progress=False).step_data(STEP)
+
+
+def error(step: StepData, delta_q: Array) -> float:
+    """||x - x*||_H over the length of the step [-], of an answer of shape (n_v,)."""
+    return float(10.0 ** -correct_digits(step, delta_q, solve_step(step).delta_q))
+
+
+@cache
+def errors(scene: str, solver: str) -> tuple[float, float]:
+    """Errors of a solver's answers in metres and in natural units [-]."""
+    step = step_of(scene)
+    page = StepProblem(step)
+    page.set_parameters(step)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that a solution may be inaccurate
+        page.problem.solve(solver=solver.upper(), canon_backend=CANON)
+    in_metres = error(step, page.delta_q.value)
+    return in_metres, error(step, page.solve(solver))
+
+
+def figure(
+    ax: Any = None, *, scenes: Sequence[str] = SCENES, solvers: Sequence[str] = SOLVERS
+) -> Figure:
+    """Errors of each solver, on a step of each scene.
+
+    Parameters
+    ----------
+    ax : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    scenes, solvers : sequence of str
+    """
+    page, (axes,) = panels(4.4, 3.9, within=ax)
+    x = np.arange(len(solvers))
+    for j, scene in enumerate(scenes):
+        each = np.maximum([errors(scene, solver) for solver in solvers], LEAST)
+        for k, unit in enumerate(UNITS):
+            axes.plot(
+                x + 0.2 * (j - 1), each[:, k], linestyle="none", marker=MARKS[j],
+                markersize=scaled(5.5), color=COLOURS[k], markeredgecolor="black",
+                markeredgewidth=0.5, label=f"{scene}, {unit}",
+            )  # fmt: skip
+    axes.set_yscale("log")
+    axes.set_xticks(x, solvers)
+    axes.grid(visible=False, axis="x")
+    label = 'solver, with which CVXPY ends "optimal"'
+    label_axes(axes, label, "error over the length of the step [-]", key=False)
+    legend_below([axes], axes.get_legend_handles_labels()[0], f"step {STEP} of each scene")
+    return page
