@@ -53,7 +53,7 @@ def code_of(file, name, first=None, ends=None, last=None):
         start = next(k for k, line in enumerate(lines) if first in line)
         stop = next(k for k, line in enumerate(lines) if k >= start and last in line)
         lines = lines[start : stop + (ends == "to")]
-    return "```python\n" + textwrap.dedent("\n".join(lines)) + "\n```\n"
+    return "```python\n" + textwrap.dedent("\n".join(lines)).rstrip() + "\n```\n"
 
 
 def written(text, shown):
