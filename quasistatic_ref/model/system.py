@@ -344,14 +344,14 @@ class System:
             If there is no such name, or q has other entries.
         """
         places = self.named.q(name)
-        return _taken(q, places, {self.n_q, self.n_q_a}, name)
+        return _taken(q, places, {self.n_q, self.n_q_a}, "q", name)
 
     def change_of(self, delta_q: ArrayLike, name: str) -> Array:
         """What delta_q, or a generalised force, shape (..., n_v), holds of a name; as :meth:`of`.
 
         Its single entries are coordinates, such as ``block/base.rz`` [m, rad; N, N m].
         """
-        return _taken(delta_q, self.named.change(name), {self.n_v}, name)
+        return _taken(delta_q, self.named.change(name), {self.n_v}, "delta_q", name)
 
     def placed(self, values: Values, q: ArrayLike | None = None) -> Array:
         """Configuration with named positions and poses, shape (n_q,).
@@ -447,15 +447,17 @@ def _change(joints: Sequence[Joint], here: list[float], there: list[float]) -> A
     return np.array(change)
 
 
-def _taken(x: ArrayLike, own: Indices, lengths: set[int], name: str) -> Array:
+def _taken(x: ArrayLike, own: Indices, lengths: set[int], field: str, name: str) -> Array:
     """Entries of the last axis of an array, without that axis if there is one entry."""
     if not isinstance(x, np.ndarray | list | tuple):
-        problem = "must be numbers, one configuration or all of a trajectory, run.q"
-        raise ModelError(problem, field="q", value=x)
-    x = checked_numbers(x, "q", ModelError)
+        problem = f'must be numbers, of one step or of all of a run, run["{field}"]'
+        raise ModelError(problem, field=field, value=x)
+    x = checked_numbers(x, field, ModelError)
     if x.ndim == 0 or x.shape[-1] not in lengths or own.max() >= x.shape[-1]:
         wanted = " or ".join(map(str, sorted(lengths)))
         problem = f"cannot hold {name}: the last axis must have {wanted} entries"
-        raise ModelError(problem, field="q", value=x.shape)
+        if field == "delta_q" and x.ndim and x.shape[-1] > max(lengths):
+            problem += f"; further ones are rises of friction: take delta_q[..., :{wanted}]"
+        raise ModelError(problem, field=field, value=x.shape)
     taken = x.take(own, axis=-1)
     return taken[..., 0] if len(own) == 1 else taken

@@ -50,6 +50,16 @@ def test_a_trajectory_and_targets_have_the_same_names():
         SYSTEM.of(q, "blok.z")
 
 
+def test_a_change_of_another_length_is_called_what_it_is():
+    n_v = SYSTEM.n_v
+    with pytest.raises(ModelError, match=rf"^delta_q: .*take delta_q\[..., :{n_v}\]"):
+        SYSTEM.change_of(np.zeros((2, n_v + 1)), "block")  # with a rise
+    with pytest.raises(ModelError, match=rf"^delta_q: .* have {n_v} entries \(got"):
+        SYSTEM.change_of(np.zeros(n_v - 1), "block")
+    with pytest.raises(ModelError, match=r"^delta_q: must be numbers.*run\[\"delta_q\"\]"):
+        SYSTEM.change_of(None, "block")
+
+
 def test_named_values_are_where_kinematics_puts_the_links():
     q = SYSTEM.placed({
         "block": {"xyz": (1, 2, 3), "rpy": RPY}, "puck": (4, 5, 0.7), "wheel/axle": 2.5,

@@ -129,7 +129,12 @@ def check_derivable(simulator: Simulator) -> None:
         problem = f'must be "{CONVEX}" for derivatives, which are those of one convex step'
         raise InputError(problem, field="law", value=simulator.law)
     if simulator.extension is not None:
-        raise InputError("has no derivative: its rows may be any function of q", field="extension")
+        # A scenario's extension names the fields of bodies that it is made of.
+        field = getattr(simulator.extension, "fields", ("extension",))[0]
+        why = "its rows may be any function of q"
+        if field != "extension":
+            why = "derivatives are of contacts alone; leave it out of the tables of bodies"
+        raise InputError(f"has no derivative: {why}", field=field)
 
 
 def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float) -> StepResult:

@@ -36,6 +36,17 @@ class OfScenario(Plain):
     limits: JointLimits
     own: ExtensionOfQ | None = None
 
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """What it is made of: fields of the tables of bodies, and ``extension``."""
+        parts = {
+            "joint_friction": len(self.rises.coordinates),
+            "support": len(self.rises.contacts),
+            "joint_limits": len(self.limits),
+            "extension": self.own is not None,
+        }
+        return tuple(name for name, part in parts.items() if part)
+
     def beside(self, own: ExtensionOfQ | None) -> "OfScenario":
         """The same together with an extension of a user's own."""
         return replace(self, own=own)

@@ -7,8 +7,10 @@ import pytest
 from quasistatic_ref import (
     Extension,
     InputError,
+    ModelError,
     StepData,
     StepDataError,
+    derivatives,
     load_scenario,
     solve_step,
     trajectory_read,
@@ -57,6 +59,7 @@ steps = 4
 urdf = "drawer.urdf"
 joint_friction = { slide = 3.0 }
 """
+STOPPED = DRAWN.replace("joint_friction = { slide = 3.0 }", 'joint_limits = "urdf"')
 PUSHED = """format = "quasistatic-ref/scenario"
 version = 1
 h = 0.01
@@ -187,6 +190,32 @@ def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     angle = H**2 * (0.2 - mu_omega * m * G) / (inertia + 1e-6 * m * mu_omega**2)
     found = step(free, 0.0, 0.0, 0.2).delta_q
     assert_relative(found[:3], angle * turn, ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("text", "field"),
+    [
+        (PUSHED, "support"),
+        (DRAWN, "joint_friction"),
+        (
+            DRAWN.replace("joint_friction = { slide = 3.0 }", 'joint_limits = "urdf"'),
+            "joint_limits",
+        ),
+    ],
+)
+def test_derivatives_name_the_field_that_has_none(tmp_path, text, field):
+    scenario = scene(tmp_path, text)
+    targets = np.zeros(scenario.system.n_a)
+    with pytest.raises(InputError, match=f"^{field}: has no derivative.* tables of bodies"):
+        derivatives(scenario.simulator(), scenario.system.q_start, targets)
+
+
+def test_an_answer_with_a_support_is_read_by_the_names_of_bodies(tmp_path):
+    scenario = scene(tmp_path, PUSHED)
+    answer = step(scenario, 4.0, -2.0, 0.0).delta_q
+    with pytest.raises(ModelError, match=r"^delta_q: .*take delta_q\[..., :3\]"):
+        scenario.system.change_of(answer, "l")
+    assert scenario.system.change_of(answer[:3], "l").tolist() == answer[:3].tolist()
 
 
 @pytest.mark.parametrize("seed", range(8))
