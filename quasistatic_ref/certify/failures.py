@@ -1,5 +1,7 @@
 """A step without an answer that can be trusted: unsolved, proved to have none, or ill-posed."""
 
+import numpy as np
+
 from quasistatic_ref.certify.farkas import FarkasVector
 from quasistatic_ref.certify.residuals import Residuals
 from quasistatic_ref.errors import QuasistaticError
@@ -78,9 +80,11 @@ class StepInfeasible(StepNotSolved):
     def __init__(self, step: StepData, farkas: FarkasVector) -> None:
         super().__init__("exact", "infeasible", step, 0.0)
         self.farkas = farkas
+        remedy = "widen these gaps, or make one of the bodies compliant"
+        if np.count_nonzero(farkas.y) == 1:
+            remedy = "its coefficients are all zero, so that nothing moves it: leave it out"
         self.args = (
-            f"the step has no solution: {farkas.in_words} (proved without rounding); "
-            "widen these gaps, or make one of the bodies compliant",
+            f"the step has no solution: {farkas.in_words} (proved without rounding); {remedy}",
         )
 
 

@@ -77,6 +77,10 @@ def verify(
     """
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
+    lengths = {"delta_q": (delta_q, step.n_v), "lam": (lam, step.m)}
+    for name, (x, length) in lengths.items():
+        if x is not None and np.shape(x) != (length,):
+            return Verdict(False, f"{name} has shape {np.shape(x)}; the step wants ({length},)")
     if claims is not None and claims.kind == "residual":
         with needing('a certificate of kind "residual"'):
             from quasistatic_ref.optional.large.judged import bound_verdict

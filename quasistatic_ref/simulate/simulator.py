@@ -241,7 +241,7 @@ class Simulator(Settings, Shown):
         return _remade, (type(self), self.settings() | given)
 
     @by_one_thread
-    def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
+    def step(self, q: Array, q_bar_a: Array, force: Array | float | None = 0.0) -> StepResult:
         """One step from q towards the target q_bar_a.
 
         Parameters
@@ -307,7 +307,7 @@ class Simulator(Settings, Shown):
         self,
         q: Array,
         q_bar_a: Array,
-        force: Array | float,
+        force: Array | float | None,
         points: ClosestPoints,
         kinematics: Kinematics,
     ) -> StepData:
@@ -335,7 +335,7 @@ class Simulator(Settings, Shown):
             cone=self.cone,
         )
 
-    def generalised_force(self, q: Array, force: Array | float) -> Array:
+    def generalised_force(self, q: Array, force: Array | float | None) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         force = checked_force(self.system, force)
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force

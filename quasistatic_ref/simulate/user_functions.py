@@ -121,12 +121,12 @@ def force_function(system: System, force: Force | None) -> Checked:
     if callable(force):
         function = with_all_arguments(force, "force")
         return _returning(function, lambda tau: tau, (system.n_v,), "force")
-    constant = checked_force(system, 0.0 if force is None else force) + np.zeros(system.n_v)
+    constant = checked_force(system, force) + np.zeros(system.n_v)
     return lambda t, q, last: constant
 
 
-def checked_force(system: System, force: ArrayLike) -> Array:
-    """A generalised force, shape (n_v,) or () [N, N m].
+def checked_force(system: System, force: ArrayLike | None) -> Array:
+    """A generalised force, shape (n_v,) or () [N, N m]; zero where None.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def checked_force(system: System, force: ArrayLike) -> Array:
     wanted = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
     if isinstance(force, Mapping):
         raise StepDataError(wanted, field="force", value=force)
-    tau = checked_numbers(force, "force")
+    tau = checked_numbers(0.0 if force is None else force, "force")
     if tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0):
         raise StepDataError(wanted, field="force", value=tau.shape)
     return tau

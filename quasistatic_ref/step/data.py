@@ -205,12 +205,16 @@ class StepData(Plain, HasPage):
         extra: Extra | None = None,
     ) -> None:
         cone_of(cone)  # refuses a name that it does not know
-        n_a = np.size(tau_a)
-        n_u = np.size(tau_u)
-        n_v = n_a + n_u
-        extra = no_rows(n_v) if extra is None else extra
         if not isinstance(contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
+        # Of three that have one length, two outvote the third, which is then refused by its name.
+        of_a = {"K_q": K_q, "tau_a": tau_a, "delta_q_bar_a": delta_q_bar_a}
+        n_a = sorted(_length(value, key) for key, value in of_a.items())[1]
+        of_u = {"M_u": M_u, "tau_u": tau_u}
+        lengths = [_length(value, key) for key, value in of_u.items()]
+        n_u = sorted([*lengths, contacts.n_v - n_a])[1]
+        n_v = n_a + n_u
+        extra = no_rows(n_v) if extra is None else extra
         for key, columns in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if columns != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
@@ -312,6 +316,12 @@ class StepData(Plain, HasPage):
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
+
+
+def _length(value: ArrayLike, name: str) -> int:
+    """Number of entries of a vector, of rows of a matrix [-]."""
+    array = checked_numbers(value, name)
+    return len(array) if array.ndim else 1
 
 
 @lru_cache(maxsize=64)

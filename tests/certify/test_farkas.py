@@ -6,7 +6,16 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, StepData, StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref import (
+    Extra,
+    StepData,
+    StepIllPosed,
+    StepInfeasible,
+    StepNotSolved,
+    load_scenario,
+    solve_step,
+    verify,
+)
 from quasistatic_ref.certify.exact import relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
@@ -169,3 +178,23 @@ def test_length_is_relative_to_the_largest_of_the_loads(target, tau_a, tau_u):
     largest = np.sqrt(2) * max(target, tau_a, tau_u)
     delta_q = np.array([5.0, 0.0])
     assert relative_length(step, delta_q) == pytest.approx(np.sqrt(2) * 5 / largest, rel=1e-12)
+
+
+def test_a_row_of_zeros_is_to_be_left_out():
+    step = load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    nothing = Extra(("nothing",), np.zeros((1, 6)), [1e-3])
+    with pytest.raises(StepInfeasible, match=r"\(nothing\) .* are all zero, .*: leave it out$"):
+        solve_step(step.replace(extra=nothing))
+    walls = Extra(("up", "down"), np.eye(6)[2] * [[1], [-1]], [1e-3, 1e-3])
+    with pytest.raises(StepInfeasible, match="widen these gaps"):
+        solve_step(step.replace(extra=walls))
+
+
+@pytest.mark.parametrize("active", [(), ((0, 0),)])
+def test_an_answer_of_another_length_is_called_that(active):
+    step = load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    solution = solve_step(step)
+    short = verify(step, solution.delta_q[:-1], active)
+    assert short.reason == "delta_q has shape (5,); the step wants (6,)"
+    long = verify(step, solution.delta_q, active, np.zeros(step.m + 1))
+    assert long.reason == f"lam has shape ({step.m + 1},); the step wants ({step.m},)"

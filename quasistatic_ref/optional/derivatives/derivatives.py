@@ -42,7 +42,7 @@ def derivatives(
     simulator: Simulator,
     q: Array,
     q_bar_a: Array,
-    force: Array | float = 0.0,
+    force: Array | float | None = 0.0,
     towards: Mapping[str, Array | float] | None = None,
     nearly: float = NEARLY,
 ) -> Derivatives:
@@ -137,7 +137,9 @@ def check_derivable(simulator: Simulator) -> None:
         raise InputError(f"has no derivative: {why}", field=field)
 
 
-def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float) -> StepResult:
+def _certified(
+    simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float | None
+) -> StepResult:
     """The step with its exact optimum, whatever the simulator certifies."""
     result = simulator.step(q, q_bar_a, force)
     if result.solution.certificate.kind == "exact":

@@ -30,7 +30,7 @@ def check_kappa(kappa: float) -> None:
 
 
 def smoothed(
-    simulator: Simulator, q: Array, q_bar_a: Array, kappa: float, force: Array | float = 0.0
+    simulator: Simulator, q: Array, q_bar_a: Array, kappa: float, force: Array | float | None = 0.0
 ) -> Derivatives:
     """The step with barriers in place of rows, and its derivatives.
 

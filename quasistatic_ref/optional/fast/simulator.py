@@ -162,7 +162,7 @@ class FastSimulator(Simulator):
         return FastSimulator, (self.simulator,)
 
     @by_one_thread
-    def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
+    def step(self, q: Array, q_bar_a: Array, force: Array | float | None = 0.0) -> StepResult:
         """One step, as of a Simulator."""
         if self.by_c:
             try:
@@ -175,7 +175,7 @@ class FastSimulator(Simulator):
             say(f"compiled code forms another step than the core (please report it); {INSTEAD}")
         return self.simulator.step(q, q_bar_a, force)
 
-    def _step(self, q: Array, q_bar_a: Array, force: Array | float) -> StepResult | None:
+    def _step(self, q: Array, q_bar_a: Array, force: Array | float | None) -> StepResult | None:
         """The step; None if it is the first, and not that of the plain path."""
         lap = Stopwatch()
         change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
