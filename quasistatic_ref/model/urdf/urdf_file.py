@@ -1,6 +1,7 @@
 """What a URDF file says, checked on its own, before any library has read it."""
 
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -75,6 +76,8 @@ class FileLink:
         The name of each, where its ``collision`` has one.
     defect : Defect or None
         Why no rigid body has this inertia; an error where an un-actuated joint moves the link.
+    digit : float
+        A unit of the last digit of its moments, as printed [kg m^2].
     """
 
     name: str
@@ -84,6 +87,7 @@ class FileLink:
     collisions: tuple[tuple[FileShape, Array, Array], ...]
     defect: Defect | None = None
     named: tuple[str | None, ...] = ()
+    digit: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +185,7 @@ def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
     name = Tag(element, "link").text("name")
     link = Tag(element, f"link[{name}]")
     ignored += link.ignored("inertial", "collision", attributes=("name",))
-    mass, com, inertia, defect = _inertial(link, ignored)
+    mass, com, inertia, defect, digit = _inertial(link, ignored)
     collisions = []
     named = []
     for number, each in enumerate(element.findall("collision")):
@@ -197,14 +201,14 @@ def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
         collisions.append((shape, R, t))
         named.append(each.get("name"))
     ignored += link.unread
-    return FileLink(name, mass, com, inertia, tuple(collisions), defect, tuple(named))
+    return FileLink(name, mass, com, inertia, tuple(collisions), defect, tuple(named), digit)
 
 
-def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None]:
-    """Mass [kg], centre of mass (3,) [m], inertia (3, 3) [kg m^2] along the link's axes."""
+def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None, float]:
+    """Mass [kg], centre of mass (3,) [m], inertia (3, 3) [kg m^2] along the link's axes; digit."""
     inertial = link.perhaps("inertial")
     if inertial is None:
-        return 0.0, np.zeros(3), np.zeros((3, 3)), None
+        return 0.0, np.zeros(3), np.zeros((3, 3)), None, 0.0
     ignored += inertial.ignored("origin", "mass", "inertia")
     R, com = inertial.frame()
     mass = inertial.child("mass", "value").number("value")
@@ -214,23 +218,33 @@ def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defec
     moments = inertial.child("inertia", *names)
     xx, yy, zz, xy, xz, yz = (moments.number(name) for name in names)
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    defect = inertia_defect(inertia)
+    printed = [Decimal(moments.text(name).strip()) for name in ("ixx", "iyy", "izz")]
+    digit = min((10.0 ** int(x.as_tuple().exponent) for x in printed if x), default=0.0)
+    defect = inertia_defect(inertia, digit)
     if not mass > 0:
         defect = ("mass", "must be greater than 0", mass)
-    return mass, com, product(product(R, inertia), R.T), defect
+    return mass, com, product(product(R, inertia), R.T), defect, digit
 
 
-def inertia_defect(inertia: Array) -> Defect | None:
-    """What makes an inertia (3, 3) about a centre of mass that of no body, or None."""
+def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
+    """What makes an inertia (3, 3) about a centre of mass that of no body, or None.
+
+    The largest moment may exceed the sum of the others by rounding: by a unit of the last printed
+    digit [kg m^2], up to a tenth of it.
+    """
     principal = np.linalg.eigvalsh(inertia)
     written = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()
     order = "(ixx iyy izz ixy ixz iyz)"
     if not principal[0] > 0:
         problem = f"must be positive definite {order}"
         if principal[0] >= -INERTIA_TRIANGLE * abs(principal[2]):
-            problem += "; a rod, a disk and a point mass have a thickness: write the moments of it"
+            problem += (
+                "; with a radius r write m r^2/2 about the axis of a rod or disk, m r^2/4 about "
+                "the diameters of a disk, 2 m r^2/5 for a point mass"
+            )
         return "inertia", problem, written
-    if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE):
+    rounding = min(digit, principal[2] / 10) * (1 + INERTIA_TRIANGLE)
+    if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE) + rounding:
         problem = "is impossible: the largest principal moment exceeds the sum of the others"
         return "inertia", f"{problem} {order}", written
     return None

@@ -81,7 +81,7 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
                     "actuator at that joint (actuated)"
                 )
                 raise ModelError(problem, field=f"link[{first}].inertial")
-            defect = inertia_defect(composite.inertia)
+            defect = inertia_defect(composite.inertia, max(link.digit for link in welded))
             if defect is not None:
                 faulty = [(name, of_link) for name, of_link in defects if of_link is not None]
                 name, (field, problem, value) = faulty[0] if faulty else (first, defect)

@@ -57,7 +57,7 @@ def test_an_inertia_of_no_body_is_given_in_the_order_of_its_attributes():
 def test_of_a_rod_a_point_mass_or_a_puck_it_is_said_what_to_write(moments):
     defect = inertia_defect(np.diag(moments))
     assert defect is not None
-    assert defect[1].endswith("have a thickness: write the moments of it")
+    assert "with a radius r write m r^2/2 about the axis of a rod or disk" in defect[1]
 
 
 def point_mass(centre):
@@ -89,6 +89,25 @@ def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body():
         assert defect is not None
         assert "largest principal moment" in defect[1]
     assert inertia_defect(np.diag([1.0, 1.0, 2 * (1 + INERTIA_TRIANGLE)])) is None
+
+
+@pytest.mark.parametrize(
+    ("moments", "impossible"),
+    [
+        (("0.012", "0.034", "0.047"), False),  # a unit of the last digit
+        (("0.012", "0.034", "0.048"), True),
+        (("1.2e-5", "3.49e-4", "3.62e-4"), False),
+        (("1.20e-5", "3.490e-4", "3.62e-4"), True),  # of the finest of them
+        (("1", "1", "3"), True),
+    ],
+)
+def test_rounding_of_the_last_printed_digit_makes_no_moments_impossible(moments, impossible):
+    text = robot(link("a", inertial=inertial("1", moments)))
+    if impossible:
+        with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: is impossible"):
+            loaded_urdf(text, base="floating")
+    else:
+        assert loaded_urdf(text, base="floating").links == ("a",)
 
 
 @pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
