@@ -97,8 +97,12 @@ def drag(run: Run) -> Iterator[Finding]:
 
 
 def layer(run: Run) -> Iterator[Finding]:
-    """The pair whose force or slip is most unlike that of Coulomb's law."""
+    """The pair whose force or slip is most unlike that of Coulomb's law.
+
+    Steps in which that law reaches no fixed point are counted, and say nothing.
+    """
     worst: tuple[float, Finding] | None = None
+    unsettled = sum(at.by_coulomb is None for at in run.compared.steps)
     for at in run.compared.steps:
         for i, here, there in _pairs(run, at, at.by_coulomb):
             pair = run.pairs[i]
@@ -122,6 +126,7 @@ def layer(run: Run) -> Iterator[Finding]:
                     "coulomb_N": there.normal,
                     "slip_mm": 1e3 * here.way,
                     "coulomb_mm": 1e3 * there.way,
+                    "steps_without_fixed_point": unsettled,
                     "step": at.k,
                 },
             )

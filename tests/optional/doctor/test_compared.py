@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import load_scenario
+from quasistatic_ref.optional.doctor.compared import LookedAt
 from tests.optional.doctor.urdfs import ball, block, slides
 
 FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
@@ -49,6 +50,19 @@ def test_what_a_spring_presses_presses_harder_while_it_slides(h):
     )
     np.testing.assert_allclose(finding.numbers["coulomb_N"], 5.0, rtol=0.01)
     assert f"{finding.numbers['normal_N']:.3g} N" in finding.cause
+
+
+def test_a_step_in_which_coulombs_law_settles_nothing_is_counted(monkeypatch):
+    (finding,) = found(wiper(0.01))
+    assert finding.numbers["steps_without_fixed_point"] == 0
+    step = finding.numbers["step"]
+    coulomb = LookedAt._coulomb
+    monkeypatch.setattr(
+        LookedAt, "_coulomb", lambda at, data: None if at.k == step else coulomb(at, data)
+    )
+    (finding,) = found(wiper(0.01))
+    assert finding.numbers["steps_without_fixed_point"] == 1
+    assert finding.numbers["step"] != step
 
 
 @pytest.mark.parametrize(("speed", "says"), [(4e-4, False), (0.05, True)])
