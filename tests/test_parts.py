@@ -51,7 +51,7 @@ def test_a_missing_part_is_one_sentence_and_a_mistaken_name_is_no_missing_part(w
     with pytest.raises(ModuleNotFoundError, match=r"optional\.show\.tabel"), if_there():
         from quasistatic_ref.optional.show.tabel import data_frame
     with pytest.raises(ModuleNotFoundError, match="no_package_of_this_name"), if_there():
-        import no_package_of_this_name  # noqa: F401
+        import no_package_of_this_name  # noqa: F401 it does not exist
     without("show")
     reached = []
     with if_there():

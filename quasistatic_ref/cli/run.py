@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
         check_table_path(file, option)
     if options.strict:
         with needing("--strict"):
-            from quasistatic_ref.optional.doctor import checks  # noqa: F401
+            from quasistatic_ref.optional.doctor import checks  # noqa: F401 only whether it is there
     failure: RunFailed | None = None
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet)

@@ -32,7 +32,7 @@ def check_law(law: str, certify: str) -> None:
         raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
     if law == COULOMB:
         with needing(COULOMB_LAW):
-            from quasistatic_ref.optional.coulomb import fixed_point  # noqa: F401
+            from quasistatic_ref.optional.coulomb import fixed_point  # noqa: F401 only whether it is there
         if certify != "full":
             problem = (
                 f'needs certify = "full", not "{certify}": the iteration ends where exact steps '

@@ -98,7 +98,7 @@ class Recorder:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         if record == "forces":
             with needing('record = "forces"'):
-                from quasistatic_ref.optional.forces import forces  # noqa: F401
+                from quasistatic_ref.optional.forces import forces  # noqa: F401 only whether it is there
         self.simulator = simulator
         self.scene = simulator.scene
         self.system = simulator.system

@@ -253,7 +253,7 @@ def backend(name: str) -> Backend:
     """
     if str(name).startswith(QPSOLVERS):
         with needing(name):
-            from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401
+            from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401 only whether it is there
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
     known = backend_names()
@@ -340,7 +340,7 @@ def check_certify(name: str | None, certify: str) -> None:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
     if certify == "residual":
         with needing(RESIDUAL):
-            from quasistatic_ref.optional.large import bound  # noqa: F401
+            from quasistatic_ref.optional.large import bound  # noqa: F401 only whether it is there
     if name == NONE and certify != CERTIFY[0]:
         problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)
