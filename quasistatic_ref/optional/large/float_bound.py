@@ -6,6 +6,10 @@ formed: with r = H x - g - A'y, s = A x - b and y >= 0, if s + t A v >= 0, then
 .. math:: \|x - x^*\|_H \le t \|v\|_H
           + \sqrt{(\|r\|_{H^{-1}} + t \|v\|_H)^2 + 2 y^T s + 2 t\, y^T A v}.
 
+Proof: x' is feasible, so that ||x' - x*||_H^2 / 2 + f(x*) - d(y) <= f(x') - d(y), which is
+||r + t H v||_{H^-1}^2 / 2 + y'(s + t A v); and ||x - x'||_H = t ||v||_H. The right side thus bounds
+(||x - x*||_H^2 + 2 (f(x*) - d(y)))^(1/2), too.
+
 H, g, A and b are those of the exact step. How far float64 may be from them, and from their products
 with x, v and y, is what :mod:`~quasistatic_ref.optional.large.sizes` bounds. Every operation
 below is rounded outwards.
