@@ -12,5 +12,5 @@ def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, cli):
         outputs = {c.id: plain(LAYERS[layer](c.input | change)) for c in cases(layer)}
         answer_file(tmp_path, layer, outputs, implementation="mine")
     answer = cli("vectors", "check", tmp_path, "--layer", "rows", "--layer", "wrench", status=1)
-    shown, _ = printed_blocks(PAGE.read_text("utf-8"))
+    (shown,) = printed_blocks(PAGE.read_text("utf-8"))
     assert flat(answer.out + answer.err) == flat(shown)
