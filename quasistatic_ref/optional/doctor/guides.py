@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
+from quasistatic_ref.optional.doctor.borne import borne
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
@@ -49,10 +50,12 @@ class Guide(NamedTuple):
 def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     """Contacts whose gap no coordinate opens, and contacts of a body between what stands.
 
-    Between are contacts on two or three sides, whose normals are such that sum w n = 0 with w > 0:
-    for a slip x along all of them sum w (phi - mu |x|) >= 0.
+    Between are contacts on two or three sides, whose normals are such that sum w n = 0 with w > 0,
+    and sum w n'J = 0, lever arms included, so that no turn opens them: for a slip x along all of
+    them sum w (phi - mu |x|) >= 0.
     """
-    J_n, J_1, J_2, J_w = np.abs(frame_jacobian(contacts, contacts.J))
+    signed = np.asarray(frame_jacobian(contacts, contacts.J))
+    J_n, J_1, J_2, J_w = np.abs(signed)
     J_t = np.hypot(J_1, J_2)
     rounding = TINY * np.maximum(J_t, J_n).max(axis=1, keepdims=True, initial=1.0)
     slides = J_t > rounding
@@ -77,9 +80,14 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     n = np.where(standing[:, :1], contacts.n, -contacts.n)
     for link in np.unique(body[near & ~fixed]).tolist():
         for sides, w in _between(n, np.flatnonzero(near & ~fixed & (body == link))):
-            nearest = [side[clearance[side].argmin()] for side in sides]
             own = np.concatenate(sides)
-            together = float(w @ clearance[nearest]), float(w @ mu_v[nearest])
+            reach = np.hypot(J_t, J_n)[own].max(axis=0)  # of each coordinate
+            share = _squeeze(
+                signed[0, own] / np.where(reach > 0, reach, 1.0), sides, w, clearance[own]
+            )
+            if share is None:
+                continue
+            together = float(share @ clearance[own]), float(share @ mu_v[own])
             yield Guide(tuple(own.tolist()), slides[own].any(axis=0), *together, False)
 
 
@@ -102,11 +110,30 @@ def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...],
             yield tuple(contacts[side == k] for k in choices[i]), weights[i] / weights[i].max()
 
 
+def _squeeze(J_n: Array, sides: tuple[Indices, ...], w: Array, clearance: Array) -> Array | None:
+    """Forces by which sides squeeze a body without moving it, that have the least sum w phi.
+
+    J_n, shape (n, n_v), holds rows of the contacts of all sides, one side after another. The forces
+    of a side have the sum w of it [-]. None where they turn the body: then it is no guide.
+    """
+    from scipy.optimize import linprog  # takes as long as a short run
+
+    of_side = np.repeat(np.eye(len(sides)), [len(side) for side in sides], axis=1)
+    answer = linprog(
+        clearance / max(clearance.max(), REPEATED),
+        A_ub=np.vstack([J_n.T, -J_n.T]),
+        b_ub=np.full(2 * J_n.shape[1], len(sides) * SAME_NORMAL),
+        A_eq=of_side,
+        b_eq=w,
+    )
+    return None if answer.x is None else np.asarray(answer.x)
+
+
 def guided(start: Start) -> Iterator[Finding]:
     """Contacts at the start that let a body crawl at most, once for each table and joint."""
     if start.points is None:
         return
-    contacts = start.simulator.geometry.contacts(start.points, start.kinematics)
+    contacts = start.contacts_at_start
     said: set[tuple[str, ...]] = set()
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)
@@ -132,7 +159,7 @@ def guided(start: Start) -> Iterator[Finding]:
         yield Finding(
             "guided friction",
             True,
-            _remedy(start, guide),
+            _remedy(start, guide, start.q_start, contacts),
             cause,
             {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
         )
@@ -143,11 +170,17 @@ def _joints(start: Start, guide: Guide) -> list[str]:
     return list(dict.fromkeys(coordinates[i].joint for i in np.flatnonzero(guide.moved)))
 
 
-def _remedy(start: Start, guide: Guide) -> str:
+def _remedy(start: Start, guide: Guide, q: Array, contacts: Contacts) -> str:
     names = [start.simulator.layout.names[j] for j in guide.contacts]
     tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
     joint = start.system.joint(_joints(start, guide)[0])
     if joint.free:
+        mu_v = contacts.mu_v.copy()
+        mu_v[list(guide.contacts)] = 0.0
+        name = joint.name.partition("/")[0]
+        without = replace(contacts, mu_v=mu_v)
+        if borne(start, q, contacts, name) and not borne(start, q, without, name):
+            return f"let a spring (K_q) press one side of {tables}, whose friction holds {name}"
         return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
     instead = "support" if isinstance(joint, Planar) else "joint_friction"
     return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
@@ -200,7 +233,7 @@ def locked(run: Run) -> Iterator[Finding]:
         yield Finding(
             "locked guide",
             True,
-            _remedy(run, guide),
+            _remedy(run, guide, run["q"][k], contacts),
             f"{coordinate.name} does not move under {abs(force[i]):.3g} {unit} in step {k}, where "
             f"its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
             f"{wrench[j, 2]:.3g} N, because a contact that slides has to rise and it cannot",

@@ -8,6 +8,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.optional.doctor.borne import borne
 from quasistatic_ref.optional.doctor.falls import fall, held
 from quasistatic_ref.optional.doctor.start import (
     Start,
@@ -27,11 +28,13 @@ BEARING = 0.1
 
 
 def gravity(start: Start) -> Iterator[Finding]:
-    """A body that starts on the world where gravity does not press it there."""
+    """A body that starts on the world where neither gravity presses nor friction holds it."""
     for name, own in _contacts(start):
         near = [x for x in own if x[1] <= SUNK * least(x[0])]
         world = [x for x in near if "world" in bodies(start.system, x[0])]
-        if world and len(world) == len(near) and max(up for *_, up in near) < BEARING:
+        if not world or len(world) < len(near) or max(up for *_, up in near) >= BEARING:
+            continue
+        if not (start.small and borne(start, start.q_start, start.contacts_at_start, name)):
             pair, _, up = world[0]
             x, y, z = start.gravity
             yield Finding(

@@ -15,6 +15,7 @@ from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.extension import NO_RISES
 
@@ -54,6 +55,12 @@ class Start:
             return self.simulator.closest_points(self.kinematics)
         except ContactError:
             return None
+
+    @cached_property
+    def contacts_at_start(self) -> Contacts:
+        """The contacts where `points` are."""
+        assert self.points is not None
+        return self.simulator.geometry.contacts(self.points, self.kinematics)
 
     @cached_property
     def raised(self) -> Indices:
