@@ -8,6 +8,7 @@ form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
@@ -256,6 +257,8 @@ def backend(name: str) -> Backend:
             from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401 only whether it is there
     elif is_function(name):
         return Backend(name, "a function", lambda _: ({},), cvxpy=False)
+    elif name in REQUIRED and find_spec(name):
+        return BACKENDS[name]  # CVXPY is not asked: its import takes longer than a short run
     known = backend_names()
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None and isinstance(name, str) and name in others_installed():

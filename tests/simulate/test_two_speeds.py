@@ -52,6 +52,21 @@ def test_the_plain_path_asks_for_nothing_of_fast():
     assert not any(name.startswith("quasistatic_ref.optional.fast") for name in imported)
 
 
+FAST = """
+import sys, quasistatic_ref as qr
+run = qr.load_scenario("bunny_grasp", steps=2, fast=True).run(progress=False)
+assert run.header["backend"] == "daqp"
+large = ("cvxpy", "jax", "matplotlib", "pandas", "trimesh")
+print(*(name for name in large if name in sys.modules))
+"""
+
+
+@pytest.mark.extra("fast")
+def test_a_fast_run_imports_no_large_package_that_it_does_not_use():
+    done = subprocess.run([sys.executable, "-c", FAST], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
+
+
 @pytest.mark.parametrize("fast", [False, True])
 def test_a_fall_of_3000_km_ends_on_the_floor(fast):
     """In a step of 1000 s, h^2 g = 9.8e6 m: no contact that fills a number stops it before."""

@@ -94,7 +94,9 @@ def test_an_unknown_name_suggests_the_nearest_and_lists_the_known(name, near):
 
 
 def test_a_known_backend_that_is_not_installed_is_refused(monkeypatch):
-    monkeypatch.setattr("quasistatic_ref.solve.backends.installed_backends", lambda: ["osqp"])
+    table = "quasistatic_ref.solve.backends"
+    monkeypatch.setattr(f"{table}.find_spec", lambda name: None)
+    monkeypatch.setattr(f"{table}.installed_backends", lambda: ["osqp"])
     with pytest.raises(BackendError, match="not installed; pip install clarabel; installed here"):
         backend("clarabel")
 
