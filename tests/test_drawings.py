@@ -22,8 +22,8 @@ from docs.drawings import (
     two_moving_bodies,
     which_cone_is_real,
 )
+from quasistatic_ref.lab.claims.paper.boundary_layer import FITTED
 from quasistatic_ref.optional.show.figures import figure_style
-from quasistatic_ref.tolerances import FITTED
 from tests.closeness import assert_close, assert_relative
 from tests.tolerances import ROUNDING, SCENARIO, THRESHOLD
 

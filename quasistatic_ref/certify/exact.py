@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 
@@ -32,7 +33,13 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, group_steps, groups
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.tolerances import ILL_POSED
+
+ILL_POSED: Final = 1e6
+"""Longest certified step: its length in the H norm over the largest of four lengths [-]. Three are
+the lengths of the unconstrained steps that the targets, tau_a and tau_u would each cause alone; the
+fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the norm of H^-1.
+
+Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
 MIDDLE = 1e-100, 1e100
 """Numbers whose products of three are in the range of float64."""

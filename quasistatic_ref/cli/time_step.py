@@ -1,12 +1,16 @@
 """What a scenario says about its time step h: a rule of thumb, before anything runs."""
 
 import math
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.step.arrays import Array, Indices
-from quasistatic_ref.tolerances import SLOW
+
+SLOW: Final = 0.1
+"""Largest share of the friction that contacts can bear [-] which the spurious drag may take without
+a warning: forces on moving bodies are then wrong by a tenth of that friction."""
 
 
 def time_step_record(scenario: Scenario) -> dict[str, float | None]:

@@ -24,7 +24,7 @@ Two solids:
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -39,14 +39,12 @@ from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
-from quasistatic_ref.tolerances import (
-    FILLED,
-    ON_RIM,
-    REPEATED,
-    SAME_NORMAL,
-    SPANNED,
-    UPRIGHT,
-)
+from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
+
+SPANNED: Final = 1e-6
+"""How far out of the convex hull of other contacts a closest pair may be, relative to the smaller
+shape [-], for its rows to follow from theirs: on surfaces that are nearly parallel closest points
+are not known better."""
 
 
 class ClosestPoints(NamedTuple):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 
@@ -15,7 +16,13 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.tolerances import RANKED
+
+RANKED: Final = 1e-9
+"""Fraction of the size of a pair's smaller shape to whose nearest multiple distances are rounded
+before contacts rank by them [-].
+
+Distances of what lies still change by some 1e-17 m from step to step, by 1e-16 of places; a contact
+that is left out for another of the same rank is at most that much nearer."""
 
 
 @dataclass(frozen=True, eq=False)

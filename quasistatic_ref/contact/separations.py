@@ -4,6 +4,8 @@ Where it is one of several, the solids touch, and it is between them, or the ste
 docs/conventions.md states the rule.
 """
 
+from typing import Final
+
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
@@ -14,7 +16,16 @@ from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, 
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, norm, product, total
-from quasistatic_ref.tolerances import SAME_NORMAL, TIED_FACES, TOUCHING_FACES
+from quasistatic_ref.tolerances import SAME_NORMAL
+
+TIED_FACES: Final = 1e-12
+"""Difference of heights over two faces, or of the gaps along two normals, relative to sizes and
+places, at which they count as equal [-]. Places are right to 1e-16, and a body that rests on
+another stays where it is to about that."""
+
+TOUCHING_FACES: Final = 1e-9
+"""Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
+between them. Deeper, the push-out along it would part them along neither."""
 
 OWN, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
 """How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""

@@ -5,7 +5,7 @@ it is, and not as the absence of the right one.
 """
 
 from collections.abc import Collection, Sequence
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -15,7 +15,12 @@ from quasistatic_ref.formats.quoting import known_names, nearest_name
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.scenario_table import TABLES
-from quasistatic_ref.tolerances import LARGE, WELDED
+from quasistatic_ref.tolerances import LARGE
+
+WELDED: Final = 1e-12
+"""Largest relative velocity, per unit of any coordinate [-], of two links that count as one.
+
+Chains of rotations leave 1e-15 a link; a joint between them moves one of them by 1."""
 
 NAMED = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""

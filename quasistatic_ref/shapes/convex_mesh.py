@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 from coal import CollisionGeometry
@@ -15,7 +16,10 @@ from quasistatic_ref.shapes.hull import distance_to_hull, levels
 from quasistatic_ref.shapes.shape import Shape, coal_polytope, lengths
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import dot, product
-from quasistatic_ref.tolerances import CONVEX_EXCESS
+
+CONVEX_EXCESS: Final = 1e-3
+"""Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
+counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
 
 BLOCK = 1 << 22
 """Points times planes handled at once: some tens of megabytes."""

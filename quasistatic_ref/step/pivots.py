@@ -17,12 +17,25 @@ of S are at least those of L L', which are the squares of L's diagonal.
 
 import math
 from functools import lru_cache
+from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
+
+SYMMETRIC: Final = 1e-12
+"""Largest |S - S'| relative to the largest entry of a stiffness or mass matrix.
+
+Rounding in a mass matrix leaves 1e-16; anything above 1e-12 is another matrix. What is smaller
+is removed: the lower triangle counts."""
+
+DEFINITE: Final = 1e-14
+"""Smallest pivot of a stiffness or mass matrix relative to its diagonal entry, which has the same
+unit; decided without rounding (step/pivots.py).
+
+Cholesky of a singular matrix leaves rounding of 1e-16 for a pivot; a matrix this near to one has
+a condition number above 1e14, and its inverse no correct digit."""
 
 U = 2.0**-53
 """Largest relative error of one operation."""

@@ -16,11 +16,10 @@ from quasistatic_ref import (
     solve_step,
     verify,
 )
-from quasistatic_ref.certify.exact import relative_length, step_optimum
+from quasistatic_ref.certify.exact import ILL_POSED, relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.tolerances import ILL_POSED
 
 
 def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):

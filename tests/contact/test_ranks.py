@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 import quasistatic_ref as qr
 from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
 from quasistatic_ref.contact.distance import closest_points, rounded_gaps
-from quasistatic_ref.tolerances import RANKED
+from quasistatic_ref.contact.pairs import RANKED
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 
 Z = np.array([0.0, 0.0, 1.0])

@@ -8,6 +8,8 @@ from quasistatic_ref import Box, Capsule, ContactError, PointCloud, Sphere
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OWN,
+    TIED_FACES,
+    TOUCHING_FACES,
     distinct,
     gaps,
     pair_normal,
@@ -17,7 +19,7 @@ from quasistatic_ref.contact.separations import (
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.tolerances import SAME_NORMAL, TIED_FACES, TOUCHING_FACES
+from quasistatic_ref.tolerances import SAME_NORMAL
 from tests.closeness import assert_within
 from tests.tolerances import CLOSED_FORM
 

@@ -16,7 +16,8 @@ from quasistatic_ref import (
     Sphere,
     convex_hull,
 )
-from quasistatic_ref.tolerances import ORTHONORMAL, SHORT
+from quasistatic_ref.shapes.frozen import SHORT
+from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 

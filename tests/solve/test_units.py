@@ -9,6 +9,7 @@ from quasistatic_ref import Extra, StepDataError, standard_form
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.units import (
+    FAR,
     SMALLEST,
     DenseStepInBothUnits,
     Units,
@@ -20,7 +21,6 @@ from quasistatic_ref.solve.units import (
     units_from,
     within_reach,
 )
-from quasistatic_ref.tolerances import FAR
 from tests.closeness import assert_relative
 from tests.helpers import (
     free_displacement,

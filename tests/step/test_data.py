@@ -6,7 +6,8 @@ import pytest
 from quasistatic_ref import Contacts, Extra, StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts, repeated
 from quasistatic_ref.step.data import differences
-from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
+from quasistatic_ref.step.pivots import SYMMETRIC
+from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.helpers import changed, random_step
 
 STEP = random_step(np.random.default_rng(7), n_a=2, n_u=3, rows=(6, 4))

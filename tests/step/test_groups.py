@@ -11,12 +11,11 @@ from quasistatic_ref import (
     contact_forces,
     load_scenario,
 )
-from quasistatic_ref.certify.exact import step_optimum
+from quasistatic_ref.certify.exact import ILL_POSED, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.step.groups import group_steps, groups
-from quasistatic_ref.tolerances import ILL_POSED
 from tests.oracles.grouped import faults, random_case
 
 

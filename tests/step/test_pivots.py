@@ -8,8 +8,7 @@ from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.solve.units import float_inverse
 from quasistatic_ref.step import pivots
-from quasistatic_ref.step.pivots import exact_factor, positive_pivots
-from quasistatic_ref.tolerances import DEFINITE
+from quasistatic_ref.step.pivots import DEFINITE, exact_factor, positive_pivots
 from tests.oracles.attacked_steps import positive_definite, singular
 from tests.tolerances import ROUNDING
 

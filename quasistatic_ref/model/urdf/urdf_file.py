@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
+from typing import Final
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -16,7 +17,11 @@ from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import product
-from quasistatic_ref.tolerances import INERTIA_TRIANGLE
+
+INERTIA_TRIANGLE: Final = 1e-6
+"""How far the largest principal moment of inertia may exceed the sum of the other two, relative.
+
+A flat plate has equality; six printed digits break it by up to 1e-6."""
 
 _MOVING = tuple(JOINTS)
 MOST_LINKS = 1000

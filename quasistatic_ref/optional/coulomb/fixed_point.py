@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,7 +31,20 @@ from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import Array, finite, read_only
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import slip_norms
-from quasistatic_ref.tolerances import ACCURACY, COULOMB_RESIDUAL, EXTRAPOLATED, GAIN
+from quasistatic_ref.tolerances import ACCURACY
+
+COULOMB_RESIDUAL: Final = 1e-12
+"""Largest difference of s from that of the next iterate, relative to the longest motion of a
+contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
+
+GAIN: Final = 0.01
+"""Residual of s over that of the iterate before [-] up to which an extrapolated iterate is kept.
+Kept at 0.5, extrapolation ended at local minima of the residual in 29 of 600 random planar steps of
+one to four contacts; at 0.01 in none of 500."""
+
+EXTRAPOLATED: Final = 1e-10
+"""Least singular value, relative to the largest [-], of the changes of residuals that s is
+extrapolated from: they are right to 1e-16 of s, and what is left of smaller ones is rounding."""
 
 MOST = 200
 """Iterates after which no fixed point is expected."""

@@ -14,7 +14,7 @@ nothing, until its size is about one; every number below is relative to that siz
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import coal
 import numpy as np
@@ -29,7 +29,19 @@ from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.shape import coal_polytope
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import PROVED_NORMAL, SUPPORT_DEFECT, WITNESS
+
+WITNESS: Final = 1e-10
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""
+
+PROVED_NORMAL: Final = 1e-6
+"""Largest disagreement of a convex pair's closest points with its distance and normal, relative to
+that distance [-]: the normal is right to about as much [rad]. Below 1e-14 of the pair's size it is
+rounding."""
+
+SUPPORT_DEFECT: Final = 1e-9
+"""Difference between coal's distance and the gap along its normal, relative to the shapes' size, at
+which its answer is taken at once [-]. What is right to rounding is at 1e-12 and below."""
 
 ACCURACIES = (1e-10, 1e-8, 1e-6)
 """Tolerances of coal, tried in turn: the tighter ones sometimes end without an answer."""

@@ -6,12 +6,18 @@ bears is inside of both cones: its gap, slips and spin are zero in whatever fram
 without load whose motion is inside of both.
 """
 
+from typing import Final
+
 import numpy as np
 from scipy.optimize import nnls
 
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import INSIDE, TIED
+from quasistatic_ref.tolerances import TIED
+
+INSIDE: Final = 1e-6
+"""A load or a motion that is at least this far inside of a cone, relative to its own size [-],
+stays inside when the normal of the cone turns by TIED and float64 rounds."""
 
 
 def stays(step: StepData, x: Array, touching: Touching, j: int) -> bool:

@@ -4,6 +4,7 @@ import multiprocessing
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache
+from typing import Final
 
 import numpy as np
 
@@ -35,7 +36,10 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import labels
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from quasistatic_ref.tolerances import DENSE_BELOW
+
+DENSE_BELOW: Final = 600_000
+"""Entries of J, 4 n_c n_v, of the largest group of bodies below which `fast` asks DAQP, whose
+matrices are dense, where no backend is named."""
 
 SURELY = 1 - 2.0**-40
 """Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.parts import needing
@@ -19,7 +20,12 @@ from quasistatic_ref.solve.units import (
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import groups
-from quasistatic_ref.tolerances import BOUNDED
+
+BOUNDED: Final = 1e-6
+"""Largest bound of an answer's error, computed in float64 [-], that is kept as it is.
+
+Of an exact answer float64 gives a bound of about 1e-7. A bound above 1e-6 is computed again in
+balls, which give 1e-8."""
 
 DAQP = "daqp"
 

@@ -17,6 +17,8 @@ the largest of its contact, and a contact at the axis of a hinge as the one that
 makes c smaller. :func:`counted` passes from the one to the other without a jump.
 """
 
+from typing import Final
+
 import numpy as np
 
 from quasistatic_ref.certify.norm import energy_norm
@@ -25,7 +27,19 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.groups import labels
-from quasistatic_ref.tolerances import COMPLIANCE, HARDLY_MOVES
+
+COMPLIANCE: Final = 2e-9
+"""Compliance of a group's contacts over the least mobility of what they touch [-].
+
+A body that rests on its contacts loses so much of its weight, the lowest of 20 like it 100 times as
+much (R43): less than 1e-6. A last bit of phi, 1e-17 m, changes the forces of a body that bears its
+weight by 1e-5 of it at h = 10 ms, and by 1e-3 at 1 ms."""
+
+HARDLY_MOVES: Final = 1e-3
+"""Mobility of a side along a principal direction, relative to its largest [-], below which loads
+along it count less and less as loads of the side: at the square of this not at all. A free body has
+1 / m at least, and more than 1000 times as much only where it is 30 times as far from its centre as
+its mass is."""
 
 NOTHING_MOVES = 1e-9
 """c [m/N] of contacts between what stands: they bear nothing, whatever it is."""

@@ -9,10 +9,10 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf import urdf_file as urdf_file_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
+from quasistatic_ref.model.urdf.urdf_file import INERTIA_TRIANGLE, inertia_defect, urdf_file
 from quasistatic_ref.model.urdf.urdf_shapes import same_pose
 from quasistatic_ref.model.urdf.urdf_xml import DEEPEST, Tag, xml_root
-from quasistatic_ref.tolerances import INERTIA_TRIANGLE, LOADED
+from quasistatic_ref.tolerances import LOADED
 from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 
 

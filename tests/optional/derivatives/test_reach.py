@@ -5,10 +5,10 @@ import pytest
 
 from quasistatic_ref import PointCloud, derivatives, smoothed
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.optional.derivatives.step.touching import touching_rows
+from quasistatic_ref.optional.derivatives.step.touching import BEARING, touching_rows
 from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import BEARING, NEARLY
+from quasistatic_ref.tolerances import NEARLY
 from tests.closeness import assert_relative
 from tests.lab.vectors.committed_cases import cases
 from tests.optional.derivatives.free_bodies import (

@@ -20,11 +20,10 @@ from quasistatic_ref import (
     convex_hull,
 )
 from quasistatic_ref.contact.distance import closest_points, pair_closest_points
-from quasistatic_ref.contact.separations import OF_CLOUD
+from quasistatic_ref.contact.separations import OF_CLOUD, TIED_FACES
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast import closest as in_c
 from quasistatic_ref.optional.fast.closest import solid_size
-from quasistatic_ref.tolerances import TIED_FACES
 from tests.contact.still import pair, placed_shape, standing_links
 from tests.oracles.posed_pairs import PosedPairs
 

@@ -1,5 +1,7 @@
 """Figure 3: the boundary layer of a spun sphere, and its two laws."""
 
+from typing import Final
+
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
@@ -7,7 +9,9 @@ from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate,
 from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import FITTED
+
+FITTED: Final = 0.02
+"""Largest difference of a fitted exponent from the exponent of the law it is to show."""
 
 STEP_SIZES = np.geomspace(1e-3, 3e-2, 7)
 FRACTION = 1.0, 10.0

@@ -14,13 +14,19 @@ derivative, but one on each side.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 from scipy.optimize import nnls
 
 from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing, unit_rows
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
+from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, SPLIT
+
+INDEPENDENT: Final = 3e-4
+"""Least singular value of rows of length one that are independent where a derivative is computed
+[-]. Displacements are right to 1e-16 divided by it, and derivatives to 1e-16 divided by its square:
+to 1e-9."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ No single lam is needed, and a lam of few rows would reach zero too early.
 """
 
 from functools import cached_property
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.optimize import linprog, nnls
@@ -19,7 +19,15 @@ from scipy.optimize import linprog, nnls
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
 from quasistatic_ref.optional.derivatives.step.touching import unit_rows
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import AHEAD, DEPENDENT, FACET, NEARLY, SPLIT
+from quasistatic_ref.tolerances import DEPENDENT, NEARLY, SPLIT
+
+AHEAD: Final = 1e-6
+"""Change of a force, relative to it, up to which rows are tried to bear it on [-]: a million times
+the rounding that would hide that it leaves their cone."""
+
+FACET: Final = 1e-8
+"""Product of a row of length one and the unit normal of a facet at which the row lies on it [-]:
+a hundred times what HiGHS leaves."""
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 """The least that HiGHS takes."""

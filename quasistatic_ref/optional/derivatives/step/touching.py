@@ -7,6 +7,7 @@ the step.
 """
 
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 from scipy.optimize import nnls
@@ -16,7 +17,20 @@ from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian, impulses, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
-from quasistatic_ref.tolerances import BEARING, DEPENDENT, FILLED, SHARE, SPLIT, TOUCHING
+from quasistatic_ref.tolerances import DEPENDENT, FILLED, SPLIT
+
+TOUCHING: Final = 1e-14
+"""Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a
+derivative is computed [-]: some fifty roundings of 2e-16."""
+
+BEARING: Final = 1e-11
+"""Multiplier of a row at which it counts as none where a derivative is computed: the displacement
+that it causes over that of the step, in the H norm [-]. That is the rounding of places, 1e-16 m,
+over a step of 1e-5 m."""
+
+SHARE: Final = 1e-3
+"""Of what all rows exert, what a row is tried to bear [-]: so much more than rounding that what
+misses is known to nine digits, and so little that the other rows are those that bear."""
 
 SHARES = 20
 """Most shares that a row is tried to bear; one or two are usual."""

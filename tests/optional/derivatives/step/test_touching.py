@@ -8,8 +8,15 @@ import pytest
 from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     Equations,
 )
-from quasistatic_ref.optional.derivatives.step.touching import _most, bearing, touching_rows
-from quasistatic_ref.tolerances import BEARING, FILLED, SHARE, SPLIT, TOUCHING
+from quasistatic_ref.optional.derivatives.step.touching import (
+    BEARING,
+    SHARE,
+    TOUCHING,
+    _most,
+    bearing,
+    touching_rows,
+)
+from quasistatic_ref.tolerances import FILLED, SPLIT
 from tests.closeness import assert_close
 from tests.helpers import changed, point_on_floor
 from tests.tolerances import ROUNDING
