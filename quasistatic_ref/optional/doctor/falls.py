@@ -1,14 +1,17 @@
 """How far a body may fall before it touches, and whether something else holds it."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from quasistatic_ref.contact.distance import in_world
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.start import Start, body, free_bases
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Extra
 from quasistatic_ref.tolerances import NEAR
 
 ROUNDS = 100
@@ -71,36 +74,52 @@ def _of_points(solid: ShapeInWorld, points: Array, way: Array) -> float:
     return float(far.min())
 
 
-def held(start: Start) -> set[str]:
-    """Free bodies that rows of an extension hold, as welds, connects and taut tendons do.
+def held(start: Start, loose: Collection[str]) -> set[str]:
+    """Those of some free bodies that rows of an extension hold, as welds and taut tendons do.
 
-    Such a row keeps a body from falling by more than NEAR, and joins it to the world, to what is
-    actuated, or to another body that is held.
+    A body is held if it cannot sink by NEAR: not even while other bodies that are `loose`, and
+    links on sliding joints without an actuator, are shifted along with it. Then a chain of rows
+    joins it to the world, to what is actuated, or to a body that lies on something.
+
+    Parameters
+    ----------
+    start : Start
+    loose : collection of str
+        Free bodies that no contact bears.
     """
     extension = start.simulator.extension
     rows = None if extension is None else extension(start.q_start).rows
-    if rows is None or not start.g:
+    if rows is None or not len(rows.A) or not start.g or not loose:
         return set()
     system = start.system
-    columns = {
-        name: np.array([i for i, c in enumerate(system.coordinates) if c.joint == base.name])
-        for name, base in free_bases(system).items()
-    }
-    joins: list[tuple[str, set[str], bool]] = []
-    for name, own in columns.items():
-        down = np.zeros(system.n_v)
-        link = next(i for i, of in enumerate(system.links) if of.startswith(f"{name}/"))
-        motion = np.concatenate([start.gravity / start.g, np.zeros(3)])
-        down[own] = np.linalg.lstsq(start.kinematics.J[link][:, own], motion, rcond=None)[0]
-        falls = rows.A @ down
-        holds = (falls < 0) & (-rows.b <= -NEAR * falls)
-        for row in rows.A[holds]:
-            moves = set(np.flatnonzero(row).tolist()) - set(own.tolist())
-            others = {other for other, at in columns.items() if moves & set(at.tolist())} - {name}
-            joins.append((name, others, not others or min(moves, default=0) < system.n_a))
-    borne: set[str] = set()
-    while more := {name for name, others, fixed in joins if fixed or others & borne} - borne:
-        borne |= more
-        joins += [(other, {name}, False) for name, others, _ in joins for other in others]
-        joins = [one for one in joins if one[0] not in borne]
-    return borne
+    bases = free_bases(system)
+    resting = {base.name for name, base in bases.items() if name not in loose}
+    shifts = [
+        i
+        for joint in system.joints
+        if not joint.actuated and joint.name not in resting
+        for i in range(joint.v.start, joint.v.start + joint.lengths)
+    ]
+    return {name for name in loose if _sinks(start, rows, shifts, bases[name]) <= NEAR}
+
+
+def _sinks(start: Start, rows: Extra, shifts: list[int], base: Joint) -> float:
+    """How far rows let a body sink, at most 2 NEAR, while all `shifts` are free [m]."""
+    from scipy.optimize import linprog  # takes as long as a short run
+
+    system = start.system
+    name = base.name.removesuffix("/base")
+    link = next(i for i, of in enumerate(system.links) if of.startswith(f"{name}/"))
+    columns = slice(base.v.start, base.v.start + base.lengths)
+    way = start.gravity / start.g
+    down = np.zeros(system.n_v)
+    down[columns] = np.linalg.lstsq(start.kinematics.J[link][:3, columns], way, rcond=None)[0]
+    others = [i for i in shifts if not columns.start <= i < columns.stop]
+    motion = np.column_stack([down, np.eye(system.n_v)[:, others]])  # in units of NEAR
+    best = linprog(
+        [-1.0, *np.zeros(len(others))],
+        A_ub=-rows.A @ motion,
+        b_ub=-np.minimum(rows.b, 0.0) / NEAR,  # a row that is violated lets nothing sink
+        bounds=[(0.0, 2.0), *[(None, None)] * len(others)],
+    )
+    return np.inf if best.x is None else NEAR * float(best.x[0])

@@ -98,12 +98,15 @@ def penetration(start: Start) -> Iterator[Finding]:
 
 def _falling(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float]]]]:
     """Bodies that touch nothing and that nothing holds: their pairs, and how far they fall [m]."""
-    borne = held(start)
-    for name, own in _contacts(start):
-        apart = all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
-        if name not in borne and apart:
-            with suppress(ContactError):  # of a pose that no step has
-                yield name, [(pair, fall(start, pair, name)) for pair, *_ in own]
+    loose = {
+        name: own
+        for name, own in _contacts(start)
+        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
+    }
+    borne = held(start, loose)
+    for name in [x for x in loose if x not in borne]:
+        with suppress(ContactError):  # of a pose that no step has
+            yield name, [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
 
 
 def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:

@@ -16,7 +16,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import BEYOND, LAGS, SLIPPED, STALLED, SUNK
+from quasistatic_ref.tolerances import BEYOND, FILLED, LAGS, SLIPPED, STALLED, SUNK
 
 OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
@@ -269,13 +269,20 @@ def idle(run: Run) -> Iterator[Finding]:
         i = min(pairs, key=lambda i: float(task.accounts[i].phi.min()))
         near = task.accounts[i]
         k = int(near.phi.argmin())
+        least = float(near.phi[k])
+        if least >= FILLED:
+            apart = "none comes near enough to have a distance"
+            numbers: dict[str, float] = {}
+        else:
+            apart = f"the nearest, {near.name}, is {length(least)} apart at "
+            apart += f"{task.trajectory['t'][k]:.2f} s"
+            numbers = {"least_distance_mm": 1e3 * least, "step": k}
         yield Finding(
             "idle contacts",
             True,
             f"check where {task.held(i)} stands and how far {task.holder(i)} moves",
-            f"no pair of contacts.{table} ever touches; the nearest, {near.name}, is "
-            f"{length(near.phi[k])} apart at {task.trajectory['t'][k]:.2f} s",
-            {"least_distance_mm": 1e3 * float(near.phi[k]), "step": k},
+            f"no pair of contacts.{table} ever touches; {apart}",
+            numbers,
         )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from quasistatic_ref.simulate.account import Account, Drive, Motion, PairAccount, Stop
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import FILLED
 
 PRINTED = 4
 """Lines of a kind in a short table."""
@@ -66,10 +67,9 @@ def _of_drive(drive: Drive) -> dict[str, float]:
 
 
 def _of_pair(pair: PairAccount, t: Array, h: float) -> dict[str, float]:
-    numbers = {
-        "least_distance_m": float(pair.phi.min()),
-        "touches_s": h * float(pair.touches.sum()),
-    }
+    least = float(pair.phi.min())
+    numbers = {} if least >= FILLED else {"least_distance_m": least}  # else it is a filler's
+    numbers["touches_s"] = h * float(pair.touches.sum())
     if pair.touches.any():
         touching = t[pair.touches]
         numbers["first_touch_s"] = float(touching[0])

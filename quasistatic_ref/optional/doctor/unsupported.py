@@ -4,21 +4,25 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.optional.doctor.falls import held
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start, bodies, body, free_bases, joining
+from quasistatic_ref.optional.doctor.start import Start, bodies, free_bases, joining
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS, FILLED
 
 
 def alone(start: Start) -> set[str]:
-    """Free bodies that no chain of contact tables joins to what stands."""
-    free = {*free_bases(start.system)}
-    borne = {body(start.system, link) for link in range(len(start.system.links))} - free
+    """Free bodies that no chain of contact tables, welds or tendons joins to what stands."""
+    left = {*free_bases(start.system)}
     joined = [bodies(start.system, pair) for pair in start.pairs]
-    for _ in free:  # a chain is no longer
-        borne |= {name for pair in joined if pair & borne for name in pair}
-    return free - borne
+    while left:
+        borne = {name for pair in joined if pair - left for name in pair & left}
+        borne = borne or held(start, left)
+        if not borne:
+            break
+        left -= borne
+    return left
 
 
 def unsupported(start: Start) -> Iterator[Finding]:
@@ -39,7 +43,7 @@ def unsupported(start: Start) -> Iterator[Finding]:
 
 
 def falling(run: Run) -> Iterator[Finding]:
-    """Free bodies that nothing touches in the last step, and that move down in it."""
+    """Free bodies that nothing touches or holds in the last step, and that move down in it."""
     if not run.g:
         return
     system = run.system
@@ -47,14 +51,17 @@ def falling(run: Run) -> Iterator[Finding]:
     most = run.h**2 * run.g
     touched = [bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
     said = alone(run)
+    sinking = {}
     for name, base in free_bases(system).items():
-        if name in said:
-            continue
         own = np.array([name in names for names in touched], dtype=bool)
         force = np.abs(run["wrench"][:, own, 2]).max(axis=1, initial=0.0)
         drop = np.diff(run["q"][:, base.q][:, :3] @ down)
         falls = (force <= BEARS * system.mass(name) * run.g) & (drop > most / 2)
         if falls[-1]:
+            sinking[name] = own, drop, falls
+    borne = held(run, sinking)
+    for name, (own, drop, falls) in sinking.items():
+        if name not in said and name not in borne:
             first = int(len(falls) - np.argmin(falls[::-1])) if not falls.all() else 0
             fallen = float(drop[first:].sum())
             yield Finding(
@@ -70,9 +77,9 @@ def falling(run: Run) -> Iterator[Finding]:
 def _remedy(own: Array, run: Run, first: int) -> str:
     if first:
         return "hold it more firmly or longer, or put something below it"
-    k = int(np.abs(run["phi"][0, own]).argmin())
-    gap = 1e3 * float(run["phi"][0, own][k])
-    beyond = gap >= 1e3 * FILLED  # farther away than what has a distance
+    gaps = run["phi"][0, own]  # none of a body that is only joined to one that touches
+    gap = float(gaps[np.abs(gaps).argmin()]) if gaps.size else FILLED
+    beyond = gap >= FILLED  # farther away than what has a distance
     return "start it on what should bear it" + (
-        "" if beyond else f", {gap:.4g} mm away at the start"
+        "" if beyond else f", {1e3 * gap:.4g} mm away at the start"
     )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
+from quasistatic_ref.optional.doctor.account import account_of
 from quasistatic_ref.optional.doctor.falls import fall
 from quasistatic_ref.optional.doctor.start import Start
 
@@ -51,6 +52,52 @@ def test_bodies_that_are_held_do_not_start_in_the_air(ties, falling):
 
 def test_a_slack_rope_holds_nothing():
     assert "lamp" in in_the_air(ROPE, hook=0.5)
+
+
+SLIDE = """<body name="arm" pos="0 0 0.5"><joint name="arm" type="slide" axis="0 0 1"/>
+<geom name="arm" type="box" size="0.02 0.02 0.02" mass="0.1"/></body>"""
+BOX = """<body name="box" pos="0 0 {z}"><freejoint/>
+<geom name="box" type="box" size="0.1 0.1 0.1" mass="1"/></body>"""
+SERVO = '<actuator><position name="arm" joint="arm" kp="100"/></actuator>'
+FALLS = {"starts in the air", "free fall", "unsupported body"}
+
+
+@pytest.mark.parametrize(
+    ("other", "name", "servo", "falling"),
+    [
+        (SLIDE, "arm", SERVO, {}),  # it sags by 29 mm with the lamp
+        (SLIDE, "arm", "", {"lamp"}),  # which slides down with it
+        (BOX.format(z=0.1), "box", "", {}),
+        (BOX.format(z=0.5), "box", "", {"lamp", "box"}),
+    ],
+    ids=["actuated link", "loose slide", "standing box", "falling box"],
+)
+@pytest.mark.parametrize("touches", [True, False], ids=["", "no pairs"])
+def test_what_a_lamp_is_welded_to_bears_it_or_falls_with_it(other, name, servo, falling, touches):
+    bits = "" if touches else 'contype="0" conaffinity="0"'
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>{other}
+        <body name="lamp" pos="0.3 0 0.3"><freejoint/>
+        <geom name="lamp" type="sphere" size="0.05" mass="0.2" {bits}/></body></worldbody>
+        <equality><weld body1="lamp" body2="{name}"/></equality>{servo}</mujoco>"""
+    )
+    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=3",)).run(progress=False)
+    said = " ".join(one.sentence for one in run.findings if one.name in FALLS)
+    assert {body for body in ("lamp", "box") if body in said} == {*falling}
+
+
+@pytest.mark.parametrize(
+    ("at", "distance"), [(0.3, None), (0.05, pytest.approx(0.0, abs=1e-9))], ids=["far", "touching"]
+)
+def test_a_filler_is_no_distance(at, distance):
+    model = mujoco.MjModel.from_xml_string(
+        LAMP.format(hook=0.6, ties="").replace("0 0 0.3", f"0 0 {at}")
+    )
+    run = qr.mujoco_scenario(model, h=0.01, settings=("steps=1",)).run(progress=False)
+    (numbers,) = [
+        each for name, each in account_of(run).numbers["pairs"].items() if "floor, lamp" in name
+    ]
+    assert numbers.get("least_distance_m") == distance
 
 
 def scene(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
