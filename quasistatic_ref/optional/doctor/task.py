@@ -10,7 +10,7 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.scene_notes import side
-from quasistatic_ref.optional.doctor.start import joining
+from quasistatic_ref.optional.doctor.start import bodies, joining
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -22,6 +22,8 @@ OPPOSITE = -0.5
 """Cosine of two normals that grip [-]."""
 TWISTED = 0.1
 """Share of its torsion that a grip which turns away takes at least [-]."""
+TURNED = 0.1
+"""Turn of what a grip carries that counts as lost [rad]."""
 HELD = 1e-12
 """What interpolation between equal waypoints leaves [m, rad, -]."""
 TRIAL = 50
@@ -89,6 +91,11 @@ class Task:
     def idle(self, table: str) -> bool:
         """Whether no pair of a table ever touched."""
         return not any(self.accounts[i].touches.any() for i in self.tables[table])
+
+    def mu_omega(self, i: int) -> float:
+        """Coefficient of torsion of a pair [m]; 0 of one without torsion."""
+        pair = self.pairs[i]
+        return pair.mu_omega if pair.rows == 6 else 0.0
 
     def size(self, i: int) -> float:
         """Extent of the smaller shape of a pair [m]."""
@@ -291,8 +298,7 @@ def lost(run: Run) -> Iterator[Finding]:
     task = Task(run)
     for table, pairs in task.tables.items():
         every = {i: slip for i in pairs if (slip := task.accounts[i].slip) is not None}
-        long = any(slip.sum() > SLIPPED * task.size(i) for i, slip in every.items())
-        if not (task.finished and long):  # with and without a grip
+        if not (task.finished and _slips(task, pairs)):  # with and without a grip
             continue
         slips = {i: np.where(task.grips[table], slip, 0.0) for i, slip in every.items()}
         worst = max(slips, key=lambda i: float(slips[i].sum()) / task.size(i))
@@ -300,16 +306,11 @@ def lost(run: Run) -> Iterator[Finding]:
         if way <= SLIPPED * task.size(worst):
             continue
         k = int(slips[worst].argmax())
-        on = np.array([name in {task.accounts[i].name for i in pairs} for name in
-                       task.trajectory.pair_names])  # fmt: skip
-        forces = task.run.forces(k)[on]
-        pressed = float(forces[:, 2].sum())
+        pressed, torque = _load(task, pairs, k)
         bears = task.pairs[worst].mu_v * pressed
         body = task.held(worst)
         weight = task.system.mass(body.partition("/")[0]) * task.run.g
-        mu_omega = task.pairs[worst].mu_omega if task.pairs[worst].rows == 6 else 0.0
-        turning = mu_omega * pressed
-        torque = float(np.abs(forces[:, 3]).sum())
+        turning = task.mu_omega(worst) * pressed
         if weight < bears and torque > TWISTED * turning > 0:
             yield Finding(
                 "lost grip",
@@ -330,6 +331,57 @@ def lost(run: Run) -> Iterator[Finding]:
             f"friction bears {bears:.3g} N, and {body} weighs {weight:.3g} N",
             {"slip_mm": 1e3 * way, "bears_N": bears, "weight_N": weight, "step": k},
         )
+
+
+def turned(run: Run) -> Iterator[Finding]:
+    """Grips in which what they alone carry turns by much, without much slip."""
+    task = Task(run)
+    for table, pairs in task.tables.items():
+        every = {i: turn for i in pairs if (turn := task.accounts[i].turn) is not None}
+        if not task.finished or not every:
+            continue
+        turns = {i: np.where(task.grips[table], turn, 0.0) for i, turn in every.items()}
+        worst = max(turns, key=lambda i: float(turns[i].sum()))
+        angle = float(turns[worst].sum())
+        k = int(turns[worst].argmax())
+        if angle <= TURNED or _slips(task, pairs) or not _carries(task, table, worst, k):
+            continue
+        pressed, torque = _load(task, pairs, k)
+        turning = task.mu_omega(worst) * pressed
+        if torque > TWISTED * turning > 0:
+            body = task.held(worst)
+            yield Finding(
+                "lost grip",
+                True,
+                f"raise mu_omega of contacts.{table}, or hold {body} nearer to its centre of mass",
+                f"{body} turns by {amount(angle, 'rad')} in {task.holder(worst)}; at "
+                f"{task.trajectory['t'][k]:.2f} s torsion takes {torque:.3g} of the {turning:.3g} "
+                f"N m that the grip could bear alone",
+                {"turn_rad": angle, "torque_Nm": torque, "bears_Nm": turning, "step": k},
+            )
+
+
+def _slips(task: Task, pairs: list[int]) -> bool:
+    """Whether a pair of a table slips by much in all."""
+    slips = {i: slip for i in pairs if (slip := task.accounts[i].slip) is not None}
+    return any(slip.sum() > SLIPPED * task.size(i) for i, slip in slips.items())
+
+
+def _carries(task: Task, table: str, worst: int, k: int) -> bool:
+    """Whether nothing but a table touches the body of one of its pairs in step k."""
+    held = task.held(worst).partition("/")[0]
+    others = (i for i, account in enumerate(task.accounts) if account.table != table)
+    return not any(
+        task.accounts[i].touches[k] and held in bodies(task.system, task.pairs[i]) for i in others
+    )
+
+
+def _load(task: Task, pairs: list[int], k: int) -> tuple[float, float]:
+    """What a table presses with in step k [N], and the sum of its torsions [N m]."""
+    names = {task.accounts[i].name for i in pairs}
+    on = np.array([name in names for name in task.trajectory.pair_names])
+    forces = task.run.forces(k)[on]
+    return float(forces[:, 2].sum()), float(np.abs(forces[:, 3]).sum())
 
 
 def _grips(task: Task, pairs: list[int]) -> Mask:
@@ -405,5 +457,5 @@ def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     return moved < SUNK * task.size(i)
 
 
-OF_TASK = (late, still, through, idle, lost, short)
+OF_TASK = (late, still, through, idle, lost, turned, short)
 """Causes come first."""
