@@ -46,6 +46,9 @@ SPANNED: Final = 1e-6
 shape [-], for its rows to follow from theirs: on surfaces that are nearly parallel closest points
 are not known better."""
 
+FEW = 50
+"""Most points of a plane of which each two are taken in turn; of more, those of its outline."""
+
 
 class ClosestPoints(NamedTuple):
     """Contacts, in the world frame.
@@ -291,12 +294,25 @@ def spanned(nearest: ClosestPoints, others: ClosestPoints, pair: ContactPair) ->
     away = others.alpha[level] - nearest.alpha
     if not len(away):
         return False
-    between = (away[:, None] - away).reshape(-1, 3)
+    if len(away) > FEW:
+        away = away[_outline(away, n)]
+        between = away - np.roll(away, 1, axis=0)
+        between = np.concatenate([between, -between])
+    else:
+        between = (away[:, None] - away).reshape(-1, 3)
     ways = np.concatenate([away, crossed(n[None], between)])
     length = norm(ways)
     ways = ways / np.where(length > 0, length, 1.0)[:, None]
     apart = product(ways, away.T).min(axis=1).max()
     return bool(apart <= SPANNED * pair.size)
+
+
+def _outline(points: Array, n: Array) -> Indices:
+    """Numbers of the corners of the hull of points (N, 3), seen along n, one after another."""
+    from scipy.spatial import ConvexHull  # takes as long as a short run
+
+    flat = np.delete(points, np.abs(n).argmax(), axis=1)  # it has the same corners
+    return np.asarray(ConvexHull(flat, qhull_options="QJ").vertices)  # QJ: all in a line, as well
 
 
 def _crossings(
@@ -334,10 +350,26 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
 
 
 def repeated(candidates: ClosestPoints) -> Mask:
-    """Which candidates repeat an earlier one: they rank last."""
+    """Which candidates repeat an earlier one: they rank last.
+
+    Those that are alike in all entries are near to each other in a weighted sum of these as well,
+    so that only neighbours in its order are compared: next ones, next but one and so on.
+    """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
-    same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
-    return np.asarray(np.tril(same, -1).any(axis=1))
+    count, width = every.shape
+    total = (every * np.cos(np.arange(width))).sum(axis=1)  # which few have in common by symmetry
+    order = total.argsort(kind="stable")
+    near = 2 * width * REPEATED  # twice, for what the sums round
+    repeats = np.zeros(count, dtype=bool)
+    for shift in range(1, count):
+        a, b = order[:-shift], order[shift:]
+        close = np.flatnonzero(total[b] - total[a] <= near)
+        if not close.size:
+            break
+        a, b = a[close], b[close]
+        same = np.abs(every[a] - every[b]).max(axis=1) <= REPEATED
+        repeats[np.maximum(a, b)[same]] = True
+    return repeats
 
 
 def _cloud_on_solid(

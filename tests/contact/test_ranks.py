@@ -1,13 +1,22 @@
 """Which candidates become contacts, and in which order: what is still keeps both."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 import quasistatic_ref as qr
 from quasistatic_ref import Box, Capsule, Cylinder, HalfSpace, PointCloud, Sphere, convex_hull
-from quasistatic_ref.contact.distance import closest_points, rounded_gaps
+from quasistatic_ref.contact.distance import (
+    FEW,
+    ClosestPoints,
+    closest_points,
+    repeated,
+    rounded_gaps,
+)
 from quasistatic_ref.contact.pairs import RANKED
+from quasistatic_ref.tolerances import REPEATED
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 
 Z = np.array([0.0, 0.0, 1.0])
@@ -181,3 +190,38 @@ def test_a_can_that_lies_still_keeps_its_forces_and_has_no_finding(yaw):
     assert np.abs(run.forces[:, 2:]).max() < 1e-9
     assert len({tuple(row) for row in np.sign(run.beta[:, :2, 0]).tolist()}) == 1
     assert [finding.name for finding in run.findings] == []
+
+
+def test_a_face_of_many_corners_is_borne_by_them_and_not_by_a_point_between():
+    sides = 4 * FEW
+    R, t = lowered(prism(sides), np.zeros(3), 0.3)
+    found = found_for(
+        placed_shape(FLOOR), placed_shape(prism(sides), 1), standing_links((R, t)), sides
+    )
+    assert len(np.unique(found.point)) == sides
+    assert np.abs(found.beta[:, 2]).max() < 1e-12
+    assert np.hypot(*(found.beta - t)[:, :2].T).min() > 0.05 - 1e-12
+
+
+def test_candidates_that_repeat_an_earlier_one_are_those_that_every_two_tell():
+    rng = np.random.default_rng(5)
+    for _ in range(200):
+        count = int(rng.integers(2, 30))
+        few = rng.normal(size=(count, 7))[rng.integers(0, 1 + count // 2, count)]
+        few += REPEATED * rng.choice([-3, -1, -0.5, 0, 0.5, 1, 3], size=few.shape)
+        none = np.zeros(count, dtype=np.int64)
+        every = ClosestPoints(few[:, 0], few[:, 1:4], few[:, 1:4], few[:, 4:], none, none)
+        same = np.abs(few[:, None] - few).max(axis=2) <= REPEATED
+        assert repeated(every).tolist() == np.tril(same, -1).any(axis=1).tolist()
+
+
+def test_a_hull_of_many_corners_takes_no_memory_in_the_square_of_their_number():
+    points = np.random.default_rng(6).normal(size=(4000, 3))
+    ball = convex_hull(0.05 * points / np.linalg.norm(points, axis=1, keepdims=True))
+    R, t = lowered(ball, np.zeros(3), 0.0)
+    one = pair(placed_shape(FLOOR), placed_shape(ball, 1), 4)
+    tracemalloc.start()
+    found = closest_points([one], standing_links((R, t)))
+    assert tracemalloc.get_traced_memory()[1] < 20 * 2**20  # an eighth of 4000^2 numbers
+    tracemalloc.stop()
+    assert abs(found.phi[0]) < 1e-15
