@@ -2,9 +2,9 @@
 
 ``<!-- code FILE OBJECT -->`` stands before a function, a class or a method of a source file, and
 ``<!-- code FILE OBJECT | from WORDS | to WORDS -->`` before its lines from one with some words to
-one with others, or ``before`` it.
-``<!-- number NAME -->`` stands before a number of the committed results, in a line of text. Each
-ends with ``<!-- end -->``. With ``--check`` nothing is written, and the exit status is 1 if a page
+one with others, or ``before`` it. It ends with ``<!-- end -->``.
+``<!--number:NAME-->`` stands before a number of the committed results, in a line of text, and
+``<!--end-->`` after it. With ``--check`` nothing is written, and the exit status is 1 if a page
 would change.
 """
 
@@ -15,13 +15,15 @@ import sys
 import textwrap
 from pathlib import Path
 
+from quasistatic_ref.lab.clouds import rows as clouds
+
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 CODE = re.compile(
     r"(<!-- code (\S+) (\S+)(?: \| from ([^|]+?) \| (to|before) ([^|]+?))? -->\n).*?(<!-- end -->)",
     re.DOTALL,
 )
-NUMBER = re.compile(r"(<!-- number (\S+) -->).*?(<!-- end -->)")
+NUMBER = re.compile(r"(<!--number:([\w-]+?)-->).*?(<!--end-->)")
 
 
 def result(name):
@@ -31,13 +33,81 @@ def result(name):
 
 def numbers():
     """Each number by its name, as a page shows it."""
-    everything = result("reality")["pairs"]["all"]
-    shown = {}
-    for key in ("error", "published"):
-        for end in ("low", "mean", "high"):
+    return {**of_pushes(), **of_ratios(), **of_clouds(), **of_claims(), **of_study()}
+
+
+def of_pushes():
+    """Measured pushes: means over pairs, with their intervals."""
+    record = result("reality")
+    everything = record["pairs"]["all"]
+    kinds = record["steps"]
+    shown = {
+        "pushes": f"{everything['pushes']:,}",
+        "push-steps": f"{sum(kinds.values()):,}",
+        "push-steps-enclosed": f"{kinds['enclosure']:,}",
+        "push-steps-exact": f"{kinds['exact']:,}",
+        "moved-mm": f"{everything['moved']['mean'][0]:.1f}",
+        "moved-deg": f"{everything['moved']['mean'][1]:.1f}",
+    }
+    for end in ("low", "mean", "high"):
+        for key in ("error", "published"):
             place, angle = everything[key][end]
             shown[f"{key}-{end}-mm"] = f"{place:.2f}"
             shown[f"{key}-{end}-deg"] = f"{angle:.2f}"
+        place, angle = everything["more"][end]
+        shown[f"more-{end}-mm"] = f"{place:+.2f}"
+        shown[f"more-{end}-deg"] = f"{angle:+.2f}"
+    return shown
+
+
+def of_ratios():
+    """Identified mu_omega / mu_v: the least and the largest, and relative to a uniform pressure."""
+    pairs = result("reality_identified").values()
+    ratios = [pair["cones"]["ellipsoid"]["ratio"] for pair in pairs]
+    relative = [ratio / pair["uniform"] for ratio, pair in zip(ratios, pairs, strict=True)]
+    return {
+        "ratio-least-mm": f"{1e3 * min(ratios):.1f}",
+        "ratio-largest-mm": f"{1e3 * max(ratios):.1f}",
+        "ratio-least-of-uniform": f"{min(relative):.2f}",
+        "ratio-largest-of-uniform": f"{max(relative):.2f}",
+    }
+
+
+def of_clouds():
+    """Clouds without holes, of 992 points, in the scene as it is."""
+    whole = [row for row in clouds.rows_with(count=992, change="none") if row["sampling"] != "scan"]
+    turns = clouds.rotations([row for row in whole if not clouds.with_torsion(row)])
+    held = [clouds.is_held(row) for row in whole if clouds.with_torsion(row)]
+    return {
+        "clouds": f"{len(turns)}",
+        "clouds-held": f"{sum(held)}",
+        "cloud-least-deg": f"{turns.min():.1f}",
+        "cloud-largest-deg": f"{turns.max():.1f}",
+    }
+
+
+def of_claims():
+    """The grasp of the scene's own cloud, as `quasistatic-ref validate` measured it."""
+    page = (ROOT / "validation" / "results" / "claims.md").read_text("utf-8")
+    turns = re.findall(r"^\| rotation (with|without) torsion \[deg\] \| 1 \| ([\d.]+)", page, re.M)
+    return {f"grasp-{case}-deg": f"{float(turn):.1f}" for case, turn in turns}
+
+
+def of_study():
+    """Claims of solvers in the study `default`, and how many of them are false."""
+    page = (ROOT / "validation" / "studies" / "default" / "summary.md").read_text("utf-8")
+    shown = {"study-problems": re.search(r"^(\d+) problems", page, re.M)[1]}
+    rows = {
+        "solved": "of success, where there is a solution",
+        "unsolvable": "of success, where there is none",
+        "no-solution": "that there is no solution, where there is one",
+    }
+    for name, words in rows.items():
+        number, false, which = re.search(
+            rf"^\| {words} \| (.*) \| (.*) \| (.*) \|$", page, re.M
+        ).groups()
+        shown |= {f"study-{name}": number, f"study-{name}-false": false}
+        shown |= {f"study-{name}-{solver}": n for solver, n in re.findall(r"(\w+) (\d+)", which)}
     return shown
 
 
