@@ -141,8 +141,8 @@ class System:
     def _make(self, world: World) -> None:
         self.bodies = world.bodies
         self._world = world
-        self._model = world.models[0]
-        self._workspace = Workspace(*world.models)
+        self._model = world.model
+        self._workspace = Workspace(world)
         self.lock = RLock()
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order = paper_order(world.joints)
@@ -192,7 +192,7 @@ class System:
 
     def workspace(self) -> Workspace:
         """A workspace of the caller's own."""
-        return Workspace(*self._world.models)
+        return Workspace(self._world)
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""

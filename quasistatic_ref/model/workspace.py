@@ -1,17 +1,20 @@
-"""Pinocchio's models with their workspaces, in parts: a workspace grows with the cube of n_v.
+"""Pinocchio's workspaces of a world, in parts: a workspace grows with the cube of n_v.
 
 Bodies move on their own (all of them hang from the world), so what pinocchio says about several
 of them at once is what it says about each. It gets the cosine and the sine of revolute joints, and
 not their angles: its own sines are those of the C library.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.urdf.urdf import body_frame, urdf_model, with_turns
+from quasistatic_ref.model.world import World, joined
 from quasistatic_ref.step.arrays import Array, Indices
 
 PART = 24
@@ -56,29 +59,19 @@ class Workspace:
 
     Parameters
     ----------
-    all_bodies : pinocchio.Model
-        All bodies.
-    models : sequence of pinocchio.Model
-        Of groups of bodies, in the order in which the whole model has them, with cosine and sine in
-        place of some angles; they are copied.
-    frames : sequence of list of int
-        Of the links of each group.
+    world : World
     """
 
-    def __init__(
-        self, all_bodies: pin.Model, models: Sequence[pin.Model], frames: Sequence[list[int]]
-    ) -> None:
+    def __init__(self, world: World) -> None:
         self.parts: list[WorkspacePart] = []
         before = 0
-        for model, links in zip(models, frames, strict=True):
-            model = model.copy()  # its gravity is this workspace's own
+        for model, links in _groups(world):
             data = pin.Data(model)
-            placements = [data.oMf[link] for link in links]
+            placements = [data.oMf[body_frame(model, link)] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            self.parts.append(
-                WorkspacePart(model, data, R, t, *_entries(all_bodies, model, before))
-            )
+            entries = _entries(world.model, model, before)
+            self.parts.append(WorkspacePart(model, data, R, t, *entries))
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
         self._latest: tuple[bytes, list[Array]] | None = None
@@ -142,6 +135,29 @@ class Workspace:
             pin.computeGeneralizedGravity(part.model, part.data, q_part)
             for part, q_part in zip(self.parts, part_qs, strict=True)
         ]
+
+
+def _groups(world: World) -> Iterator[tuple[pin.Model, list[str]]]:
+    """Models of bodies that follow one another, and the links of each.
+
+    A model has PART coordinates at most, or one body that has more; its revolute joints have
+    cosine and sine in place of an angle, as
+    :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
+    """
+    links: dict[str, list[str]] = {}
+    for link in world.links[1:]:
+        links.setdefault(link.partition("/")[0], []).append(link)
+    bodies: list[Body] = []
+    models: list[pin.Model] = []
+    for body, text in zip(world.bodies, world.texts, strict=True):
+        model = urdf_model(with_turns(text), body.base)
+        if models and sum(m.nv for m in models) + model.nv > PART:
+            yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
+            bodies, models = [], []
+        bodies.append(body)
+        models.append(model)
+    if models:
+        yield joined(bodies, models), [link for b in bodies for link in links[b.name]]
 
 
 def _entries(

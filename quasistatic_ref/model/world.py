@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 import pinocchio as pin
@@ -26,9 +25,7 @@ from quasistatic_ref.model.urdf.urdf import (
     body_frame,
     loaded_urdf,
     urdf_model,
-    with_turns,
 )
-from quasistatic_ref.model.workspace import PART
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.arrays import Array
 
@@ -37,7 +34,7 @@ from quasistatic_ref.step.arrays import Array
 class World(Plain):
     """Several bodies in one pinocchio model.
 
-    It holds the texts of the URDFs, of which :attr:`models` are made: pinocchio 4.1's own pickles
+    It holds the texts of the URDFs, of which :attr:`model` is made: pinocchio 4.1's own pickles
     lose which joint a mimic follows, and a model that is read from one may end the process.
 
     Parameters
@@ -85,28 +82,10 @@ class World(Plain):
     notes: tuple[str, ...]
 
     @cached_property
-    def models(self) -> tuple[pin.Model, list[pin.Model], list[list[int]]]:
-        """All bodies in one pinocchio model; in groups, and the frames of the links of these.
-
-        The groups have cosine and sine in place of angles, as
-        :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
-        """
-        whole = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
-        turning = [
-            urdf_model(with_turns(text), b.base)
-            for b, text in zip(self.bodies, self.texts, strict=True)
-        ]
-        of_body: dict[str, list[str]] = {}
-        for link in self.links:
-            of_body.setdefault(link.partition("/")[0], []).append(link)
-        groups = []
-        frames = []
-        for some in _groups(turning):
-            bodies = self.bodies[some]
-            groups.append(_joined(bodies, turning[some]))
-            links = [link for body in bodies for link in of_body[body.name]]
-            frames.append([body_frame(groups[-1], link) for link in links])
-        return _joined(self.bodies, whole), groups, frames
+    def model(self) -> pin.Model:
+        """All bodies in one pinocchio model."""
+        models = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
+        return joined(self.bodies, models)
 
 
 @together()
@@ -143,7 +122,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
-    model = _joined(bodies, [urdf.model for urdf in urdfs.values()])
+    model = joined(bodies, [urdf.model for urdf in urdfs.values()])
     joints = []
     start = pin.neutral(model)
     for body in bodies:
@@ -168,29 +147,17 @@ def world_of(bodies: Sequence[Body]) -> World:
     )
 
 
-def _joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
+def joined(bodies: Sequence[Body], models: Sequence[pin.Model]) -> pin.Model:
     """All bodies in one model, by halves: to append a body takes time in proportion to the rest."""
     if len(bodies) > 1:
         half = len(bodies) // 2
-        first = _joined(bodies[:half], models[:half])
-        rest = _joined(bodies[half:], models[half:])
+        first = joined(bodies[:half], models[:half])
+        rest = joined(bodies[half:], models[half:])
         return pin.appendModel(first, rest, 0, pin.SE3.Identity())
     model = pin.Model()
     for body, alone in zip(bodies, models, strict=True):
         model = pin.appendModel(model, _prefixed(alone, body.name), 0, _anchor(body))
     return model
-
-
-def _groups(models: Sequence[pin.Model]) -> list[slice]:
-    """Models that follow one another, with PART coordinates at most, or one that has more."""
-    starts = [0]
-    size = 0
-    for i, model in enumerate(models):
-        if size and size + model.nv > PART:
-            starts.append(i)
-            size = 0
-        size += model.nv
-    return [slice(a, b) for a, b in pairwise([*starts, len(models)])]
 
 
 def _prefixed(model: pin.Model, name: str) -> pin.Model:
