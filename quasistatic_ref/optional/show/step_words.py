@@ -28,7 +28,7 @@ def certificate_page(certificate: Certificate) -> Page:
 
 
 def step_page(step: StepData) -> Page:
-    """A step: what moves, and its contacts."""
+    """A step: what moves, and its contacts, the nearest first, which may bear load."""
     title = (
         f"StepData: h = {step.h:g} s, {counted(step.n_v, 'coordinate')} ({step.n_a} actuated), "
         f"{counted(step.contacts.n_c, 'contact')}, {counted(int(step.offsets[-1]), 'row')}, "
@@ -44,4 +44,4 @@ def step_page(step: StepData) -> Page:
             contacts.name, contacts.phi, contacts.n, friction, strict=True
         )
     ]
-    return title, facts, CONTACT, rows
+    return title, facts, CONTACT, [rows[j] for j in contacts.phi.argsort(kind="stable")]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
+    Contacts,
     Extra,
     RunFailed,
     Trajectory,
@@ -113,6 +114,15 @@ def test_what_is_known_of_multipliers_and_active_rows_is_said_and_nothing_else()
 def test_contacts_that_bear_stand_first():
     assert bearing_first("abcd", np.array([0.0, 3.0, 0.0, 5.0])) == ["b", "d", "a", "c"]
     assert bearing_first("ab", np.zeros(2)) == ["a", "b"]
+
+
+def test_a_step_shows_its_nearest_contacts_first():
+    one = point_on_floor(force=(0, 0, -1.0))
+    gaps = [2e-3, 0.0, 1e-3, 0.0]
+    columns = {key: [getattr(one.contacts, key)[0]] * 4 for key in one.contacts.kept()}
+    names = tuple("abcd")
+    step = one.replace(contacts=Contacts(**columns | {"name": names, "phi": gaps}))
+    assert [line.split()[0] for line in repr(step).splitlines()[2:]] == ["b", "d", "c", "a"]
 
 
 def test_names_are_escaped_and_cut():
