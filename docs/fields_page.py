@@ -15,7 +15,7 @@ def reference_page(tables: Tables) -> str:
             for name, one in fields.items()
         ]
         table = markdown_table(("field", "value", "unit", "default", "says"), rows)
-        parts.append("\n".join([f"## {_heading(kind)}", "", *table]))
+        parts.append("\n".join([f"### {_heading(kind)}", "", *table]))
     return "\n\n".join(parts) + "\n"
 
 

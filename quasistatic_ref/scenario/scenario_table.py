@@ -168,7 +168,7 @@ TABLES = Tables({
     },
     SHAPE: {
         "pose": Field("table", "where it stands", default={}, of=POSE),
-        **{kind: Field("table", f"a {kind}", default=None, of=kind) for kind in SOLIDS},
+        **{kind: Field("table", f"solid: {kind}", default=None, of=kind) for kind in SOLIDS},
     },
     **{kind: dict(solid.fields) for kind, solid in SOLIDS.items()},
     CONTACT: {
