@@ -176,7 +176,7 @@ def _content(path: Path, text: str) -> UrdfFile:
         raise ModelError("has no <link>", field="robot")
     needed = version != "1.2"  # which made limits optional
     joints = [_joint(element, ignored, notes, needed) for element in robot.findall("joint")]
-    joints = _without_turns(joints, notes)
+    joints = _followers(joints, notes)
     moving = [JOINTS[joint.kind] for joint in joints if joint.kind in JOINTS]
     coordinates = sum(len(getattr(kind, "twist", "1")) for kind in moving)
     if coordinates > MOST_COORDINATES:
@@ -197,7 +197,7 @@ def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
         collision = Tag(each, f"{link.where}.collision[{number}]")
         ignored += collision.ignored("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
-        shape = written_shape(collision)
+        shape = written_shape(collision, notes)
         ignored += collision.child("geometry").ignored(*_GEOMETRIES)
         ignored += collision.unread
         if shape is None:
@@ -255,8 +255,10 @@ def inertia_defect(inertia: Array, digit: float = 0.0) -> Defect | None:
     return None
 
 
-def written_shape(collision: Tag) -> FileShape | None:
+def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
     """The shape of a collision or visual element; None if one of its sizes is 0.
+
+    Of a mesh's scale the first three numbers count; the others are taken away, and noted.
 
     Raises
     ------
@@ -273,6 +275,10 @@ def written_shape(collision: Tag) -> FileShape | None:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
     if kind == "mesh":
+        scales = shape.element.get("scale", "").split()
+        if len(scales) > 3:
+            notes.append(f"{shape.where}.scale: of its {len(scales)} numbers the first three count")
+            shape.element.set("scale", " ".join(scales[:3]))
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
             return None
@@ -335,12 +341,21 @@ def _joint(
     return FileJoint(name, kind, parent, child, R, t, axis, mimic, bounded)
 
 
-def _without_turns(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
-    """The joints, a continuous one that follows one that is not as a revolute one."""
+def _followers(joints: list[FileJoint], notes: list[str]) -> list[FileJoint]:
+    """The joints: one that would follow a joint that is not there moves by itself.
+
+    A continuous one that follows one that is not is a revolute one.
+    """
     kinds = {joint.name: joint.kind for joint in joints}
     followers = []
     for joint in joints:
         leader = kinds.get(joint.mimic.of) if joint.mimic is not None else None
+        if joint.mimic is not None and leader is None:
+            notes.append(
+                f"joint[{joint.name}]: moves by itself, as the joint that it mimics, "
+                f"{joint.mimic.of}, is not there"
+            )
+            joint = replace(joint, mimic=None)
         if joint.kind == "continuous" and leader in _TURNING:
             notes.append(f"joint[{joint.name}]: revolute, as it mimics a joint with bounds")
             joint = replace(joint, kind="revolute")

@@ -54,18 +54,22 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
         if "quat_xyzw" in element.attrib:
             element.set("rpy", " ".join(map(repr, Tag(element, "origin").rpy().tolist())))
             del element.attrib["quat_xyzw"]
-    kinds = {joint.name: joint.kind for joint in file.joints}
+    joints = {joint.name: joint for joint in file.joints}
     for joint in robot.findall("joint"):
-        joint.set("type", kinds[joint.get("name", "")])
+        written = joints[joint.get("name", "")]
+        joint.set("type", written.kind)
+        for mimic in joint.findall("mimic"):
+            if written.mimic is None:
+                joint.remove(mimic)
         limit = joint.find("limit")
-        if limit is None and kinds[joint.get("name", "")] in ("revolute", "prismatic"):
+        if limit is None and written.kind in ("revolute", "prismatic"):
             limit = SubElement(joint, "limit")
         if limit is not None:
             limit.set("effort", limit.get("effort", "0"))
             limit.set("velocity", limit.get("velocity", "0"))
     for link in robot.findall("link"):
         for collision in link.findall("collision"):
-            if written_shape(Tag(collision, "collision")) is None:
+            if written_shape(Tag(collision, "collision"), []) is None:
                 link.remove(collision)
         for count, collision in enumerate(link.findall("collision")):
             for mesh in collision.findall("geometry/mesh"):
@@ -132,10 +136,13 @@ def checked_shapes(
                 if not len(mesh.vertices):
                     notes.append(f"{name}: left out, since {shape.uri} is empty")
                     continue
-                with about_field(f"{where}[{count}].mesh.vertices"):
-                    scale = shape.scale
-                    key = ("hull", path, scale.tobytes())
+                scale = shape.scale
+                key = ("hull", path, scale.tobytes())
+                try:
                     hull = once(key, partial(hull_of_loaded, mesh, scale))
+                except ModelError:  # there are too few of them, or all lie in one plane
+                    notes.append(f"{name}: left out, since the hull of {shape.uri} has no volume")
+                    continue
                 notes.append(hull_note(name, hull, mesh))
                 shape = hull
             shapes.append(

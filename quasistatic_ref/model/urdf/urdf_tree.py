@@ -106,8 +106,6 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
         return
     field = f"joint[{joint.name}].mimic"
     of = joint.mimic.of
-    if of not in named:
-        raise ModelError(f"is not a joint{suggestion(of, named)}", field=field, value=of)
     leader = named[of]
     if leader.kind == "fixed" or leader.mimic is not None:
         problem = "must be a joint that moves by itself, neither fixed nor a mimic"

@@ -75,6 +75,38 @@ def test_a_continuous_joint_may_mimic_one_with_bounds(tmp_path):
     assert urdf.model.nv == 1
 
 
+@pytest.mark.parametrize("kind", ["revolute", "continuous", "prismatic"])
+def test_a_joint_that_mimics_one_that_is_not_there_moves_by_itself(tmp_path, kind):
+    text = f'<robot name="r">{LINKS}{J}{MIMIC}</robot>'.replace(
+        'mimic joint="j"', 'mimic joint="i"'
+    )
+    urdf = loaded(tmp_path, text.replace('name="k" type="revolute"', f'name="k" type="{kind}"'))
+    assert urdf.notes == (
+        "joint[k]: moves by itself, as the joint that it mimics, i, is not there",
+    )
+    assert urdf.model.nv == 2
+
+
+def test_of_a_scale_of_four_numbers_the_first_three_count(tmp_path):
+    urdf_of_text(tmp_path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", "a.obj")
+    mesh = collision('<mesh filename="a.obj" scale="1 2 3 9"/>')
+    urdf = loaded(tmp_path, robot(link("a", mesh)))
+    note = "link[a].collision[0].mesh.scale: of its 4 numbers the first three count"
+    assert urdf.notes[0] == note
+    assert_within(urdf.shapes[0].shape.vertices.max(axis=0), np.array([1.0, 2.0, 3.0]), 0.0)
+    with pytest.raises(ModelError, match="scale: must be 3 numbers"):
+        loaded(tmp_path, robot(link("a", mesh.replace("1 2 3 9", "1 2"))))
+
+
+@pytest.mark.parametrize("points", ["v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", "v 0 0 0\nv 1 0 0\n"])
+def test_a_mesh_without_volume_is_left_out_and_noted(tmp_path, points):
+    urdf_of_text(tmp_path, points, "flat.obj")
+    mesh = collision('<mesh filename="flat.obj"/>') + collision('<sphere radius="0.5"/>')
+    urdf = loaded(tmp_path, robot(link("a", mesh)))
+    assert [shape.name for shape in urdf.shapes] == ["a#1"]
+    assert urdf.notes == ("a#0: left out, since the hull of flat.obj has no volume",)
+
+
 def test_an_unknown_attribute_is_listed_and_a_misprint_refused(tmp_path):
     text = f'<robot name="r">{LINKS}{J}{K}</robot>'
     odd = text.replace("<limit", '<axis xyz="0 0 1" rpy="0 0 0"/><limit')

@@ -92,7 +92,6 @@ REFUSED = {
         link("c") + link("d") + joint("l", "c", "d") + joint("m", "d", "c") + "</robot>",
         r"tree: these joints are not connected to the root link 'a' \(got \['l', 'm'\]\)",
     ),
-    "mimics nothing": (THREE, 'mimic joint="j"', 'mimic joint="x"', r"\[k\].mimic: is not a joint"),
     "mimics what it moves": (
         robot(link("a"), link("b"), link("c"), joint("k", "a", "b"), joint("j", "b", "c")),
         "</joint>",
