@@ -32,6 +32,7 @@ Target = OfTime | OfTimeAndQ | OfTimeQAndLast | Value
 Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
+NO_FORCE = read_only(np.zeros(()))
 AT_ONCE = 100
 """Steps whose targets are evaluated at once."""
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
@@ -133,12 +134,12 @@ def checked_force(system: System, force: ArrayLike | None) -> Array:
     StepDataError
         If it has another shape, or is no array of numbers.
     """
-    wanted = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
-    if isinstance(force, Mapping):
-        raise StepDataError(wanted, field="force", value=force)
-    tau = checked_numbers(0.0 if force is None else force, "force")
-    if tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0):
-        raise StepDataError(wanted, field="force", value=tau.shape)
+    if force is None or (type(force) is float and force == 0):
+        return NO_FORCE
+    tau = None if isinstance(force, Mapping) else checked_numbers(force, "force")
+    if tau is None or (tau.shape != (system.n_v,) and not (tau.shape == () and tau == 0)):
+        problem = f"must be numbers of shape ({system.n_v},), in the order of delta_q; {FROM_LOADS}"
+        raise StepDataError(problem, field="force", value=force if tau is None else tau.shape)
     return tau
 
 

@@ -93,13 +93,22 @@ static int faces_tie(const double *size, const double *x, double phi, double wit
     return level > 1;
 }
 
+/* A distance from which on every point ranks after `rank`: that of the next rank, which is half a rank
+   farther than need be, for the rounding of the product and of the quotient. */
+static double surely_after(double rank, double resolution)
+{
+    return fabs(rank) < 0x1p50 ? (rank + 1) * resolution : INFINITY;
+}
+
 /* contact/distance, `closest`, of `rounded_gaps`: the `count` points that rank first, ties by index, and
    their distances. 0 if a distance is no number. */
 static int closest(const Cloud *s)
 {
     int64_t kept = 0;
-    double resolution = *s->resolution, *ranks = s->phi;
+    double resolution = *s->resolution, *ranks = s->phi, after = INFINITY;
     for (int64_t p = 0; p < s->points; p++) {
+        if (s->distance[p] > after) /* a division less */
+            continue;
         double rank = resolution > 0.0 ? rint(s->distance[p] / resolution) : s->distance[p];
         if (rank != rank)
             return 0;
@@ -112,6 +121,8 @@ static int closest(const Cloud *s)
         }
         ranks[j] = rank;
         s->index[j] = p;
+        if (kept == s->count && resolution > 0.0)
+            after = surely_after(ranks[kept - 1], resolution);
     }
     for (int64_t j = 0; j < kept; j++)
         s->phi[j] = s->distance[s->index[j]];
