@@ -1,4 +1,8 @@
-"""How the load g - H x of Eq. :eq:`eq-13` changes with what it is made of: (R35)."""
+"""How the load g - H x of Eq. :eq:`eq-13` changes with what it is made of: (R35).
+
+By q it changes by h K_q d(q_bar_a (-) q_a), by h times the change of gravity's force, and by
+-d(M_u) x_u / h, which other modules know.
+"""
 
 import numpy as np
 
