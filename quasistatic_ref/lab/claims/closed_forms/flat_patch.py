@@ -1,4 +1,13 @@
-"""A rigid flat patch: which of its points bear the load when it turns, and what that costs."""
+"""A rigid flat patch: which of its points bear the load when it turns, and what that costs.
+
+(R16): let a patch slip about the point below its centre of mass. Point j moves across its radius
+r_j, and the nearer of its tangents is at an angle eps_j <= 45 degrees to this motion. The pyramid
+lets it resist with at most mu N_j cos eps_j, so the patch holds at most mu m g max r_j cos eps_j.
+It holds that much if loads on the points of this maximum alone can balance the weight, sum N_j
+r_j = 0, and their friction forces add up to zero, like those of opposite points with equal
+tangents. Other patches hold less, as a linear program over loads and friction says: the points
+(60, 0), (-30, 20), (-30, -20) mm hold 0.0383 m times mu m g, where the bound is 0.0600 m.
+"""
 
 import numpy as np
 

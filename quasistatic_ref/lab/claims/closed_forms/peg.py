@@ -1,4 +1,12 @@
-"""A peg that touches its hole at two points: wedged, or free to go in (Whitney 1982)."""
+"""A peg that touches its hole at two points: wedged, or free to go in (Whitney 1982).
+
+(R17): for a descent s, a turn theta and a motion x across the hole, the rows of the two contacts
+are x + theta l / 2 >= mu |s - theta d / 2| and -x + theta l / 2 >= mu |s + theta d / 2|. Their
+sum, theta l >= mu max(2 s, theta d), has a solution with s > 0 if and only if l >= mu d, because
+the larger of the two terms is at least theta d. For l > mu d both rows are tight, and both
+multipliers are positive if I + mu^2 m d^2 / 4 >= mu m d l / 4, as for every uniform rectangle of
+height at least l.
+"""
 
 import numpy as np
 

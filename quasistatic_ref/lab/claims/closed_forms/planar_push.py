@@ -1,4 +1,12 @@
-"""A slider pushed on the plane under an ellipsoidal limit surface, slowly and less slowly."""
+"""A slider pushed on the plane under an ellipsoidal limit surface, slowly and less slowly.
+
+(R28): with D = diag(1, 1, c^2) and xi = (dx, dy, dtheta), the constraint of a slider that slips
+is tight, phi + dz = mu_v ||xi||_D = s. On it act N = m g + m dz / h^2 and, along the gradient of
+the limit surface, -N mu_v D xi / ||xi||_D. The balance M xi / h^2 + N mu_v^2 D xi / s = (F, r x
+F) has F along v and gives the law. A sticking pusher moves the touched point by u = v + omega
+r_perp with omega = r_perp . v / c'^2, that is u = (1 + r_perp r_perp' / c'^2) v, which is
+inverted by v = (c'^2 + r r') u / (c'^2 + |r|^2), since r r' + r_perp r_perp' = |r|^2.
+"""
 
 import numpy as np
 
