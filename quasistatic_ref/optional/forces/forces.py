@@ -19,6 +19,12 @@ On a face of F the nearest point is linear in z. Once the face of each contact i
 solves a linear system. The faces are guessed in float64. Exact signs decide whether they are right;
 where they are not, Newton's method in exact numbers goes on from them. The forces of the exact
 solution are rounded correctly.
+
+Limit and noise (R42): compliance takes h c / 2 \|p\|^2 off the dual objective, so that it is strictly
+concave, and p_c tends to the optimal p of least norm (Tikhonov). If the gaps change by eps, then
+c dp'(B dx + eps) <= -c^2 \|dp\|^2, because projections are firmly nonexpansive, and
+\|dx\|_H^2 = h dp'B dx. Loss (R43): the conditions for 0 and for c give p'z = 0, p_c'z >= 0 and
+p'(z_c + c p_c) >= 0, and so \|x_c - x\|_H^2 = h (p_c - p)'(z_c - z) <= h c p_c'(p - p_c).
 """
 
 from __future__ import annotations
