@@ -1,4 +1,4 @@
-"""A step under Coulomb's law, as a fixed point of steps of the convex model.
+r"""A step under Coulomb's law, as a fixed point of steps of the convex model.
 
 The convex model's contacts rise while they slide, so that gap >= |slip| in the norm of their cone.
 With phi + s in the place of phi, where s is that norm of the slip, they do not: the optimum
@@ -10,6 +10,19 @@ linear in a polyhedral cone, so that extrapolation ends at the fixed point once 
 the same piece; the iteration alone converges at the rate mu^2 / (1 + mu^2) for a block. The proof
 is the exact optimum with phi + s, whose own s that is. Coulomb's law may have no solution, or
 several: a fixed point is one of them, and where the iteration reaches none, nothing is claimed.
+
+In a polyhedral cone there is a solution if the convex step has one. For each contact, with p_n,
+beta, sigma >= 0, the law is the complementarity problem (Anitescu and Potra 1997)
+
+.. math:: 0 \le p_n \perp \phi + J_n\,\delta q \ge 0,\quad
+          0 \le \beta_i \perp \sigma + D_i\,\delta q \ge 0,\quad
+          0 \le \sigma \perp p_n - \textstyle\sum_i\beta_i \ge 0.
+
+Its matrix M is copositive: z'M z = ||J_n'p_n + D'beta||^2 in the norm of H^-1, plus sigma'p_n. It
+has a solution if z >= 0, M z >= 0 and z'M z = 0 imply q'z >= 0 for its constant q (Cottle, Pang and
+Stone, Theorem 3.8.6). Here they imply J_n'p_n + D'beta = 0 and p_n >= sum beta, and q'z = phi'p_n.
+If this were negative, beta, with what is missing to p_n spread evenly over the rows, would be a
+Farkas vector of the convex step.
 """
 
 from __future__ import annotations

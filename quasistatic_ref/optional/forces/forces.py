@@ -20,7 +20,7 @@ solves a linear system. The faces are guessed in float64. Exact signs decide whe
 where they are not, Newton's method in exact numbers goes on from them. The forces of the exact
 solution are rounded correctly.
 
-Limit and noise (R42): compliance takes h c / 2 \|p\|^2 off the dual objective, so that it is strictly
+Limit and noise (R42): compliance takes h c / 2 \|p\|^2 off the dual objective. It is then strictly
 concave, and p_c tends to the optimal p of least norm (Tikhonov). If the gaps change by eps, then
 c dp'(B dx + eps) <= -c^2 \|dp\|^2, because projections are firmly nonexpansive, and
 \|dx\|_H^2 = h dp'B dx. Loss (R43): the conditions for 0 and for c give p'z = 0, p_c'z >= 0 and
