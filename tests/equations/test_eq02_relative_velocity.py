@@ -21,41 +21,22 @@ LINKS = {
 }
 
 
-def turn_rate(R_before, R_after, seconds):
-    """Angular velocity between two orientations, world frame, as a list."""
-    return [w / seconds for w in Rotation.from_matrix(R_after @ R_before.T).as_rotvec()]
-
-
-def point_of_link(kinematics, link, local):
-    """R local + t by loops: where a point fixed in a link is."""
-    R = kinematics.R[link]
-    t = kinematics.t[link]
-    return [sum(R[i][k] * local[k] for k in range(3)) + t[i] for i in range(3)]
-
-
-def local(kinematics, link, point):
-    """R'(point - t) by loops: the same point in the link's frame."""
-    R = kinematics.R[link]
-    t = kinematics.t[link]
-    return [sum(R[k][i] * (point[k] - t[k]) for k in range(3)) for i in range(3)]
-
-
 def relative_velocity(scene, q, v, link_alpha, link_beta, alpha, beta, n):
     """f(q, v) of Eq. (2) from positions a little before and after q, moving at v."""
     here = scene.kinematics(q)
-    seconds = 2 * DIFFERENCE_STEP
-    before = scene.kinematics(scene.integrate(q, -DIFFERENCE_STEP * v))
-    after = scene.kinematics(scene.integrate(q, DIFFERENCE_STEP * v))
-    nu = {}
-    omega = {}
-    for side, link, point in (("alpha", link_alpha, alpha), ("beta", link_beta, beta)):
-        fixed = local(here, link, point)
-        one = point_of_link(before, link, fixed)
-        two = point_of_link(after, link, fixed)
-        nu[side] = [(two[i] - one[i]) / seconds for i in range(3)]
-        omega[side] = turn_rate(before.R[link], after.R[link], seconds)
-    spin = sum(n[i] * (omega["beta"][i] - omega["alpha"][i]) for i in range(3))
-    return [*(nu["beta"][i] - nu["alpha"][i] for i in range(3)), spin]
+    before, after = (
+        scene.kinematics(scene.integrate(q, way * DIFFERENCE_STEP * v)) for way in (-1, 1)
+    )
+
+    def of_side(link, point):
+        """Velocity of a material point, and angular velocity."""
+        local = here.R[link].T @ (point - here.t[link])
+        one, two = (at.R[link] @ local + at.t[link] for at in (before, after))
+        turned = Rotation.from_matrix(after.R[link] @ before.R[link].T).as_rotvec()
+        return (two - one) / (2 * DIFFERENCE_STEP), turned / (2 * DIFFERENCE_STEP)
+
+    (nu_a, omega_a), (nu_b, omega_b) = of_side(link_alpha, alpha), of_side(link_beta, beta)
+    return [*(nu_b - nu_a), n @ (omega_b - omega_a)]
 
 
 @pytest.mark.parametrize(("alpha_link", "beta_link"), LINKS.values(), ids=LINKS)

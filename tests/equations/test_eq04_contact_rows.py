@@ -1,29 +1,41 @@
 """Eq. (4), phi + [J'(n~ + d~_i)]' delta_q >= 0. Under test: step.problem.StepProblem."""
 
+import numpy as np
+
 from quasistatic_ref import StepProblem
 from tests.closeness import assert_close
 from tests.helpers import contact_row, random_step
 from tests.tolerances import ROUNDING
 
 
-def at(step, delta_q):
-    """The problem at a displacement, and the left-hand side of each row i of its contacts."""
+def left_hand_sides(step, delta_q):
+    """The left-hand side of each row i of the contacts that have it, at a displacement."""
     problem = StepProblem(step)
     problem.fill(step)
     problem.delta_q_a.value = delta_q[: step.n_a]
     problem.delta_q_u.value = delta_q[step.n_a :]
     # CVXPY keeps a >= 0 as 0 - a <= 0.
-    return problem, [-constraint.expr.value for constraint in problem.contact_rows]
+    return [-constraint.expr.value for constraint in problem.contact_rows]
 
 
 def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
     step = random_step(rng, rows=(6, 4, 6))
-    contacts = step.contacts
     delta_q = rng.normal(size=step.n_v)
-    _, found = at(step, delta_q)
-    for i in range(6):
-        expected = []
-        for j in range(3):
-            if i < contacts.rows[j]:
-                expected.append(contacts.phi[j] + contact_row(contacts, j, i) @ delta_q)
-        assert_close(found[i], expected, ROUNDING)
+    c = step.contacts
+    for i, row in enumerate(left_hand_sides(step, delta_q)):
+        expected = [c.phi[j] + contact_row(c, j, i) @ delta_q for j in range(3) if i < c.rows[j]]
+        assert_close(row, expected, ROUNDING)
+
+
+def added_to_the_gap(rng):
+    """Contacts, their motion J delta_q, and what each row i adds to phi + n'J delta_q."""
+    step = random_step(rng, rows=(6, 6, 6))
+    delta_q = rng.normal(size=step.n_v)
+    c = step.contacts
+    motion = c.J @ delta_q
+    return c, motion, np.array(left_hand_sides(step, delta_q)) - c.phi - along(c.n, motion)
+
+
+def along(direction, motion):
+    """The part of each contact's motion along a direction of its own."""
+    return (direction * motion[:, :3]).sum(axis=1)

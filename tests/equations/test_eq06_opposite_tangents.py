@@ -1,16 +1,11 @@
 """Eq. (6), d~_3 and d~_4. Under test: step.problem.StepProblem."""
 
-from tests.equations.test_eq05_tangential_directions import assert_shares_are_printed
-
-
-def printed_directions(contacts):
-    expected = []
-    for j in range(contacts.n_c):
-        d_tilde_3 = [-contacts.mu_v[j] * contacts.d1[j][r] for r in range(3)] + [0.0]
-        d_tilde_4 = [-contacts.mu_v[j] * contacts.d2[j][r] for r in range(3)] + [0.0]
-        expected.append([d_tilde_3, d_tilde_4])
-    return expected
+from tests.closeness import assert_close
+from tests.equations.test_eq04_contact_rows import added_to_the_gap, along
+from tests.tolerances import ROUNDING
 
 
 def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
-    assert_shares_are_printed(rng, printed_directions, 2)
+    c, motion, added = added_to_the_gap(rng)
+    expected = [-c.mu_v * along(d, motion) for d in (c.d1, c.d2)]
+    assert_close(added[2:4], expected, ROUNDING)

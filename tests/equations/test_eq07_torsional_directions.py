@@ -2,16 +2,15 @@
 
 from quasistatic_ref import StepProblem
 from quasistatic_ref.step.cones import pyramid
-from tests.equations.test_eq05_tangential_directions import assert_shares_are_printed
+from tests.closeness import assert_close
+from tests.equations.test_eq04_contact_rows import added_to_the_gap
 from tests.helpers import random_step
-
-
-def printed_directions(contacts):
-    return [[[0.0, 0.0, 0.0, mu], [0.0, 0.0, 0.0, -mu]] for mu in contacts.mu_omega]
+from tests.tolerances import ROUNDING
 
 
 def test_they_are_what_the_last_two_constraints_add_to_the_gap(rng):
-    assert_shares_are_printed(rng, printed_directions, 4)
+    c, motion, added = added_to_the_gap(rng)
+    assert_close(added[4:], [sign * c.mu_omega * motion[:, 3] for sign in (1, -1)], ROUNDING)
 
 
 def test_only_contacts_with_six_rows_have_them(rng):
