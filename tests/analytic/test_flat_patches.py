@@ -13,7 +13,7 @@ STILL = 1e-12
 """A turn below this [rad] is none."""
 NEAR = 1e-3
 """How far beyond and below its limit a torque is tried, relative [-]."""
-SEEDS = range(30)
+SEEDS = range(6)
 ALONG = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
 """d1 and d2 from the four parts of a friction force, each at least 0."""
 
@@ -61,11 +61,6 @@ def across(points):
     return np.column_stack([-points[:, 1], points[:, 0]]) / np.hypot(*points.T)[:, None]
 
 
-def world(points):
-    """Tangents along the world's axes."""
-    return np.tile([1.0, 0.0], (len(points), 1))
-
-
 def bound(points, d1):
     """max_j r_j cos eps_j [m]: the slip of a point against the nearer of its tangents."""
     along = across(points)
@@ -94,28 +89,11 @@ def check(rng, points, d1, held, cone="pyramid"):
     assert turn(rng, points, d1, (1 + NEAR) * held, cone) > STILL
 
 
-CASES = {
-    "apart": (1e-3 * np.array([[60.0, 0.0], [-30.0, 20.0], [-30.0, -20.0]]), across),
-    "tripod": (on_circle(0.3 + 2 * np.pi * np.arange(3) / 3), world),
-    "five": (on_circle(2 * np.pi * np.arange(5) / 5), world),
-}
-"""Points that hold less than the bound, and their tangents."""
-
-
-def patches():
-    """What these hold, and what the bound says, over mu times the weight [m]."""
-    return {
-        name: {"held": held_torque(points, of(points)), "bound": bound(points, of(points))}
-        for name, (points, of) in CASES.items()
-    }
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_points_that_are_not_opposite_hold_less_than_the_bound(name, rng):
-    points, of = CASES[name]
-    found = patches()[name]
-    assert found["held"] < 0.9 * found["bound"]
-    check(rng, points, of(points), found["held"])
+def test_three_points_that_are_not_opposite_hold_less_than_the_bound(rng):
+    points = 1e-3 * np.array([[60.0, 0.0], [-30.0, 20.0], [-30.0, -20.0]])
+    held = held_torque(points, across(points))
+    assert [held, bound(points, across(points))] == pytest.approx([0.0383, 0.06], abs=5e-5)
+    check(rng, points, across(points), held)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -84,21 +84,9 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     assert "is zero" in verify(step, optimum.delta_q, wider.active, optimum.lam, wider).reason
 
 
-def test_a_row_that_would_have_to_pull_is_in_no_working_set():
-    """The unconstrained step of 0.75 m, held at x = 0.5 by x >= 0.5, would need a pull."""
-    step = resting_point(tau_x=3.0, contacts=0)
-    step = step.replace(extra=Extra(("passed",), np.eye(4)[:1], [0.5]))
-    optimum = step_optimum(step)
-    assert exact_certificate(step, optimum).active == ()
-    refused = verify(step, optimum.delta_q, ((0, 0),), optimum.lam)
-    assert "is negative" in refused.reason
-
-
-@pytest.mark.parametrize("phi", [0.0, 1e-3])
-@pytest.mark.parametrize("contacts", [1, 2])
-def test_claims_of_a_sticking_body_are_checked(phi, contacts):
+def test_claims_of_a_sticking_body_are_checked():
     """Its idle rows follow from those that press: not unique, but differentiable."""
-    step = resting_point(tau_x=0.1, phi=phi, contacts=contacts)
+    step = resting_point(tau_x=0.1, phi=1e-3, contacts=2)
     optimum = step_optimum(step)
     claims = exact_certificate(step, optimum)
     assert (claims.multipliers_unique, claims.differentiable) == (False, True)

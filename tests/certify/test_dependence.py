@@ -29,15 +29,6 @@ def test_sets_dependent_modulo_a_prime_alone_are_independent():
     assert independent_rows(form, [1, 2]) == (1, 2)
 
 
-def test_combinations_may_be_large_or_fractions():
-    form = rows([3, 0, 0], [0, 7, 0], [5, 1, 0], [3 << 30, -7, 0], [3 << 20, 7, 0], [0, 0, 1])
-    assert combination(form, [0, 1], 2) == [fmpq(5, 3), fmpq(1, 7)]
-    assert combination(form, [0, 1], 3) == [1 << 30, -1]
-    assert combination(form, [1, 0], 4) == [1, 1 << 20]
-    assert combination(form, [0, 1], 5) is None
-    assert combination(form, [], 0) is None
-
-
 def test_equations_are_implied_only_with_their_right_side():
     """With x = 1 and y = 2 comes x + y = 3, but neither x + y = 4 nor anything about z."""
     form = rows(
@@ -57,9 +48,3 @@ def test_independent_rows_are_the_first_of_those_that_depend():
     assert independent_rows(form, [4, 3, 2, 1, 0]) == (4, 3)
     assert independent_rows(form, [2, 2, 4]) == (2, 4)
     assert independent_rows(form, []) == ()
-
-
-def test_zero_row_is_the_empty_combination():
-    form = rows([0, 0], [1, 0])
-    assert combination(form, [], 0) == []
-    assert combination(form, [1], 0) == [0]

@@ -1,26 +1,17 @@
 """The exact optimum where its value is known in closed form."""
 
-import itertools
 from fractions import Fraction as F
 
 import numpy as np
 import pytest
-from flint import fmpq_mat
 
 from quasistatic_ref import StepDataError
-from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
-from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from quasistatic_ref.optional.gap import rational
 
 ULP = 2.0**-52
-LEAST = 5e-324
 
 
 def resting_point(
@@ -39,13 +30,6 @@ def test_a_contact_at_which_nothing_moves_is_no_push_out():
     still = contacts_of(0.0, [np.eye(3)], np.zeros((1, 4, 2)), 0.5)
     step = free_step(2.0 * np.eye(2), [1.0, 0.0], still, 0.5)
     assert step_optimum(step).delta_q.tolist() == [0.125, 0.0]
-
-
-def test_the_minimiser_without_rows_is_where_the_loads_balance_in_fractions():
-    """H x = g, without rounding."""
-    form = StepForm(grasp_step(np.random.default_rng(1)))
-    x = fmpq_mat(form.n, 1, fraction_solution(form, ()).point)
-    assert rational(form.H) * x == rational(form.g)
 
 
 @pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])
@@ -86,18 +70,6 @@ def test_limit_of_friction_is_a_kink(tau_x, slides):
         assert optimum.smallest_inactive_slack == 0.0
 
 
-@pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
-def test_idle_rows_of_which_two_are_opposite_differ_from_the_third(order):
-    """X_0 >= 0, x_1 >= 0 and -x_1 >= 0: lam = (0, t, t) is optimal for all t >= 0.
-
-    The first can open alone, so x = (0, 0) has a kink.
-    """
-    A = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])[list(order)]
-    form = exact_form_of(np.eye(2), np.zeros(2), A, np.zeros(3))
-    free = range(3)
-    assert degeneracy(form, (), (), free) == (False, False)
-
-
 def chain(b, H=None):
     """Rows that force x = (1 + b, 1): x_2 >= 1 and x_1 - x_2 >= b, both pressing."""
     A = np.array([[0.0, 1.0], [1.0, -1.0]])
@@ -116,15 +88,6 @@ def chain(b, H=None):
 def test_half_way_values_round_to_even(b, rounded):
     optimum = form_optimum(chain(b))
     assert optimum.delta_q.tolist() == [rounded, 1.0]
-
-
-def test_row_without_coefficients_is_idle_or_a_contradiction():
-    for b, feasible in ((-1.0, True), (0.0, True), (LEAST, False)):
-        form = exact_form_of(np.eye(2), np.ones(2), np.zeros((1, 2)), np.array([b]))
-        found = form_optimum(form)
-        assert isinstance(found, Farkas) != feasible
-        if feasible:
-            assert found.delta_q.tolist() == [1.0, 1.0]
 
 
 @pytest.mark.parametrize(
@@ -153,13 +116,3 @@ def test_matrix_beyond_the_precision_of_the_balls_is_solved():
     optimum = form_optimum(form)
     assert optimum.delta_q.tolist() == [float(v) for v in x]
     assert optimum.slack.tolist() == [float(x[0])]
-
-
-def test_grasp_is_decided_by_balls_alone(monkeypatch):
-    """Fractions would be as right, and slower; a coordinate that is exactly zero needs them."""
-    forms = [StepForm(grasp_step(np.random.default_rng(seed))) for seed in (7, 18, 25)]
-    expected = [form_optimum(form) for form in forms]
-    monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_solution", None)
-    for form, right in zip(forms, expected, strict=True):
-        for warm in ((), right.working_set):
-            assert form_optimum(form, warm).delta_q.tobytes() == right.delta_q.tobytes()

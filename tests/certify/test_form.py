@@ -9,7 +9,6 @@ from flint import arb
 from quasistatic_ref import Extra, StepDataError
 from quasistatic_ref.certify.form import StepForm, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import program
@@ -48,21 +47,6 @@ def test_step_is_formed_without_rounding(seed):
     expected = tuple(part.tolist() for part in program(step))
     for cone in ("pyramid", "facets-4"):  # two words for one cone
         assert in_si(StepForm(step.replace(cone=cone))) == expected
-
-
-def test_grasp_step_has_the_size_of_the_paper():
-    form = StepForm(grasp_step(np.random.default_rng(0)))
-    assert (form.m, form.n) == (80, 13)
-
-
-def test_rows_in_integers_have_one_factor_in_common():
-    form = StepForm(grasp_step(np.random.default_rng(1)))
-    some = [3, 0, 17, 79]
-    rows = np.array([[exact(v) for v in row] for row in form.exact_rows(some)])
-    assert rows[:, :-1].tolist() == [[exact(form.A[i, v]) for v in range(form.n)] for i in some]
-    integers = np.array(form.integers(some))
-    assert len({v / w for v, w in zip(integers.ravel(), rows.ravel(), strict=True) if w}) == 1
-    assert not any(v for v, w in zip(integers.ravel(), rows.ravel(), strict=True) if not w)
 
 
 def test_a_ball_with_a_radius_is_no_exact_number():

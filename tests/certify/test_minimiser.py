@@ -7,12 +7,11 @@ import pytest
 from flint import arb_mat
 
 from quasistatic_ref import Extra, StepInfeasible
-from quasistatic_ref.certify.active_set import dual_active_set
 from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
-from quasistatic_ref.certify.minimiser import Minimiser, implied_rows
+from quasistatic_ref.certify.minimiser import implied_rows
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -49,7 +48,7 @@ def scaled(step, rng, power):
 
 
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-6", "frictionless"])
-@pytest.mark.parametrize("power", [0, 12, 150, 307, 323])
+@pytest.mark.parametrize("power", [0, 150, 323])
 def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
     """With entries from subnormal ones to the largest; where products overflow nothing is said."""
     rng = np.random.default_rng(power)
@@ -70,36 +69,12 @@ def test_slacks_of_float64_are_off_by_no_more_than_their_bounds(cone, power):
     assert claims
 
 
-def test_bounds_cover_what_x_itself_is_off_by():
-    """Also where x underflows, and J is so large that it matters."""
-    rng = np.random.default_rng(0)
-    J = np.zeros((1, 4, 2))
-    J[0, 2] = [1e308, -1e308]
-    step = free_step(np.eye(2), [0.0, 0.0], contacts_of(0.0, [np.eye(3)], J, 0.5), 0.5)
-    form = StepForm(step)
-    for x in (np.zeros(2), np.array([LEAST, 0.0]), rng.standard_normal(2) * 1e-5):
-        most = np.abs(x) + 1e-290
-        _, error = form.float_slacks(x, most)
-        # half of the least float64, and half of a last place
-        off = np.maximum(2.0**-53 * np.abs(x), LEAST)
-        with working_precision(EXACT):
-            moved = exact_matrix(np.abs(J[0, 2])[None] / 2**60) * exact_matrix(off[:, None])
-            assert 2**59 * moved[0, 0] <= float(error.min())
-
-
-def test_contact_without_numbers_shows_nothing():
-    form = StepForm(grasp_step(np.random.default_rng(0)))
-    with np.errstate(all="ignore"):
-        slack, error = form.float_slacks(np.full(form.n, np.nan), np.full(form.n, np.inf))
-    assert not (slack > error).any()
-
-
 def rounded(values):
     """Fractions in float64, each rounded correctly."""
     return np.array([float(v) for v in values]) + 0.0
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_every_number_is_that_of_the_optimum_in_fractions(seed):
     """By Python's integers, which nothing of the package forms."""
     step = mixed_step(seed) if seed % 2 else grasp_step(np.random.default_rng(seed))
@@ -160,24 +135,3 @@ def test_row_that_differs_in_the_last_bit_is_not_implied():
         step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
     )))  # fmt: skip
     assert implied_rows(form, [0], [6, 12]) == [12]
-
-
-@pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
-def test_of_rows_violated_by_the_same_amount_the_least_index_enters(order):
-    """Three equal contacts, of which the order of names does not matter: the first row enters."""
-    step = pressed()
-    contacts = step.contacts.some(np.array(order), np.arange(4))
-    form = StepForm(step.replace(contacts=contacts))
-    minimiser = Minimiser(form, ())
-    values = exact_slacks(form, [float(v) for v in minimiser.balls.z.entries()[:-1]])
-    assert not minimiser.below(6, 0)
-    assert not minimiser.below(0, 6)
-    assert [str(values[i]) for i in (0, 6, 12)] == [str(values[0])] * 3
-    assert min(dual_active_set(form).minimiser.working) < 6
-
-
-def test_slacks_and_the_smallest_are_those_that_are_read_later():
-    for seed in range(10):
-        optimum = step_optimum(grasp_step(np.random.default_rng(seed)))
-        positive = optimum.slack[optimum.slack > 0]
-        assert optimum.smallest_inactive_slack == (positive.min() if positive.size else None)

@@ -109,13 +109,9 @@ def test_a_function_takes_neither_cones_nor_costs():
 OTHERS = [name for name in backends.others_installed() if "gurobi" not in name]
 
 
-@pytest.mark.parametrize("name", ["quadprog_again", *OTHERS])
-def test_solvers_that_the_table_does_not_have_are_called_by_their_names(name, monkeypatch):
-    """Whatever CVXPY and qpsolvers have here; and one that is made up is refused."""
-    if name == "quadprog_again":
-        with pytest.raises(qr.BackendError, match="is not a backend"):
-            qr.solve_step(STEP, name)
-        return
+@pytest.mark.parametrize("name", OTHERS)
+def test_solvers_that_the_table_does_not_have_are_called_by_their_names(name):
+    """Whatever CVXPY and qpsolvers have here."""
     solution = qr.solve_step(STEP, name)
     assert solution.delta_q.tobytes() == EXACT.delta_q.tobytes()
     assert solution.statistics.backend == name

@@ -30,13 +30,6 @@ def test_a_step_without_rows_is_solved_and_no_backend_is_asked(backend, certify)
         assert solution.certificate.kind == {"full": "exact", "off": "none"}.get(certify, certify)
 
 
-def test_a_step_without_rows_is_solved_in_the_ellipsoid():
-    step = random_step(np.random.default_rng(2), rows=()).replace(cone="ellipsoid")
-    solution = qr.solve_step(step)
-    delta_q = np.linalg.solve(step.H, qr.standard_form(step).g)
-    np.testing.assert_allclose(solution.delta_q, delta_q, rtol=1e-12)
-
-
 FIELDS = ("n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
 LIMITS = (300.0, 1e9)
 

@@ -3,7 +3,6 @@
 import copy
 import inspect
 import pickle
-import time
 
 import numpy as np
 import pytest
@@ -24,7 +23,6 @@ from quasistatic_ref.solve import through_cvxpy
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.units import DenseStepInBothUnits
 from tests.helpers import (
     REQUIRED,
     changed,
@@ -54,12 +52,6 @@ every_solver = pytest.mark.parametrize(
     ("kind", "name", "interface"),
     [pytest.param(*one, marks=NEEDS.get(one[0], [])) for one in EVERY],
 )
-
-
-def test_every_backend_of_these_tests_is_installed_by_every_interface():
-    assert {(kind, name.rpartition(":")[2]) for kind, name, _ in EVERY} >= {
-        (kind, name) for kind in (CvxpySolver, QpsolversSolver) for name in REQUIRED
-    } | {(FastSolver, "daqp"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
 
 
 @every_solver
@@ -206,24 +198,6 @@ def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypat
     assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
 
 
-@pytest.mark.parametrize("name", BACKENDS)
-def test_the_floor_and_the_limits_of_the_table_are_the_backend_s_own(name):
-    entry = BACKENDS[name]
-    tightest = entry.first(1e-15)
-    assert tightest == entry.first(max(1e-15, entry.floor))
-    assert set(entry.warm) <= {"cvxpy", "qpsolvers"}
-    assert entry.cvxpy or "cvxpy" not in entry.warm
-    assert (name == "quadprog") == (tightest == {})  # which has no tolerance
-
-
-@pytest.mark.parametrize("kind", [CvxpySolver, QpsolversSolver])
-def test_rows_out_of_reach_are_those_of_contacts_that_are_far(kind, step):
-    phi = step.contacts.phi + np.array([0.0, 1e6, 0.0])
-    far = step.replace(contacts=changed(step.contacts, phi=phi))
-    solver = kind(far, "piqp")
-    assert np.flatnonzero(solver.write(DenseStepInBothUnits(far))).tolist() == [6, 7, 8, 9]
-
-
 def test_a_backend_of_studies_only_is_no_backend_of_steps():
     assert not BACKENDS["qpalm"].steps
     for name in ("qpalm", "qpsolvers:qpalm"):
@@ -231,32 +205,6 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
         for fast in (False, True):
             with pytest.raises(BackendError, match="is not a backend"):
                 solver_for(point_on_floor(), name, fast)
-
-
-def test_times_are_those_of_this_solve(step):
-    begin = time.perf_counter()
-    statistics = solve_step(step).statistics
-    elapsed = time.perf_counter() - begin
-    assert statistics.solve_time is not None
-    assert 0 < statistics.solve_time < elapsed
-    assert 0 < statistics.proof_time < elapsed
-    for kind, name in ((CvxpySolver, "clarabel"), (QpsolversSolver, "qpsolvers:clarabel")):
-        solver = kind(step, name)
-        both = solver.in_both_units(step)
-        solver.write(both)
-        begin = time.perf_counter()
-        reply = solver.reply(solver.option_sets(1e-9)[0], both)
-        assert 0 < reply.call_seconds < time.perf_counter() - begin
-        assert 0 < reply.seconds < reply.call_seconds
-
-
-def test_of_highs_alone_the_greeting_is_silenced(step, monkeypatch):
-    where = "quasistatic_ref.solve.solver.greeting_silenced"
-    silenced = []
-    for name in ("highs", "osqp", "qpsolvers:highs"):
-        monkeypatch.setattr(where, lambda name=name: silenced.append(name))
-        NoSolver(step, name)
-    assert silenced == ["highs", "qpsolvers:highs"]
 
 
 @pytest.mark.extra("fast")

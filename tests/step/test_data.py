@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Contacts, Extra, StepDataError
-from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts, repeated
-from quasistatic_ref.step.data import differences
+from quasistatic_ref.lab.scenes.contacts import no_contacts, repeated
 from quasistatic_ref.step.pivots import SYMMETRIC
 from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.helpers import changed, random_step
@@ -18,20 +17,14 @@ INF = float("inf")
 STEP_REFUSALS = {
     "h zero": ({"h": 0.0}, "h:"),
     "h NaN": ({"h": NAN}, "h:"),
-    "h infinite": ({"h": INF}, "h:"),
     "cone unknown": ({"cone": "cube"}, "cone:"),
     "K_q of another size": ({"K_q": np.eye(3)}, "K_q:"),
-    "K_q not square": ({"K_q": np.ones((2, 3))}, "K_q:"),
     "K_q not symmetric": ({"K_q": [[2.0, 1.0], [0.0, 2.0]]}, "K_q: must be symmetric"),
     "K_q indefinite": ({"K_q": [[1.0, 2.0], [2.0, 1.0]]}, "K_q: must be positive definite"),
-    "K_q NaN": ({"K_q": [[NAN, 0.0], [0.0, 1.0]]}, "K_q: must contain finite"),
     "M_u of a massless link": ({"M_u": np.diag([1.0, 1.0, 0.0])}, "M_u: must be positive"),
     "M_u infinite": ({"M_u": np.diag([INF, 1.0, 1.0])}, "M_u: must contain finite"),
-    "tau_a a column": ({"tau_a": np.zeros((2, 1))}, "tau_a:"),
     "tau_a words": ({"tau_a": ["a", "b"]}, "tau_a: must be numbers"),
     "tau_a too long": ({"tau_a": np.zeros(3)}, "tau_a: must have shape (2,)"),
-    "tau_u too short": ({"tau_u": np.zeros(2)}, "tau_u: must have shape (3,)"),
-    "M_u of another size": ({"M_u": np.eye(4)}, "M_u: must have shape (3, 3)"),
     "tau_u infinite": ({"tau_u": [0.0, -INF, 0.0]}, "tau_u: must contain finite"),
     "delta_q_bar_a too short": ({"delta_q_bar_a": [0.0]}, "delta_q_bar_a:"),
     "contacts of another width": ({"contacts": no_contacts(4)}, "contacts.J:"),
@@ -42,13 +35,11 @@ CONTACT_REFUSALS = {
     "phi too long": ({"phi": [0.0, 0.0, 0.0]}, "contacts.phi:"),
     "phi NaN": ({"phi": [0.0, NAN]}, "contacts.phi: must contain finite"),
     "J of three rows": ({"J": np.zeros((2, 3, 5))}, "contacts.J:"),
-    "J NaN": ({"J": np.full((2, 4, 5), NAN)}, "contacts.J: must contain finite"),
     "mu_v negative": ({"mu_v": [0.5, -0.1]}, "contacts[c1].mu_v: must be >= 0"),
     "mu_omega negative": ({"mu_omega": [-1e-9, 0.1]}, "contacts[c0].mu_omega: must be >= 0"),
     "five rows": ({"rows": [6, 5]}, "contacts.rows: must be 4 or 6"),
     "n not a unit vector": ({"n": 2 * CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
     "left-handed": ({"d1": -CONTACTS.d1}, "contacts[c0]: d1, d2, n must be"),
-    "d1 and d2 swapped": ({"d1": CONTACTS.d2, "d2": CONTACTS.d1}, "contacts[c0]: d1, d2, n"),
     "n in the plane": ({"n": CONTACTS.n[:, :2]}, "contacts.n:"),
 }
 
@@ -69,11 +60,8 @@ def test_contacts_refuse(changes, says):
 
 LEAKS = {
     "h a word": lambda: STEP.replace(h="0.01"),
-    "h missing": lambda: STEP.replace(h=None),
     "h an integer beyond float": lambda: STEP.replace(h=10**400),
-    "phi an integer beyond float": lambda: changed(CONTACTS, phi=[10**400, 0]),
     "rows ragged": lambda: changed(CONTACTS, rows=[4, [6]]),
-    "J ragged": lambda: changed(CONTACTS, J=[[1.0], [1.0, 2.0]]),
     "J without columns": lambda: Contacts((), [], [], [], [], [], [], [], []),
     "extra.A without columns": lambda: Extra((), [], []),
 }
@@ -92,17 +80,6 @@ def test_a_frame_passes_just_inside_the_tolerance_and_not_outside():
     assert changed(CONTACTS, n=tilted(0.5 * ORTHONORMAL)).n_c == 2
     with pytest.raises(StepDataError):
         changed(CONTACTS, n=tilted(2 * ORTHONORMAL))
-
-
-def test_a_frame_passes_at_the_tolerance_itself(monkeypatch):
-    monkeypatch.setattr("quasistatic_ref.step.contacts.ORTHONORMAL", 1.25)  # 1.5^2 - 1
-    frames = np.tile(np.eye(3), (2, 1, 1))
-    frames[:, 0] *= 1.5
-    J = np.zeros((2, 4, 3))
-    assert contacts_of(0.0, frames, J, 0.5).n_c == 2
-    frames[1, 0] *= 2
-    with pytest.raises(StepDataError, match=r"contacts\[c1\]"):
-        contacts_of(0.0, frames, J, 0.5)
 
 
 def test_a_matrix_is_made_symmetric_from_its_lower_triangle():
@@ -156,15 +133,3 @@ def test_arrays_cannot_be_written():
     found = [*arrays(STEP), *arrays(CONTACTS), *arrays(STEP.extra), STEP.mask, STEP.offsets]
     assert len(found) >= 5 + 8 + 2 + 2
     assert not any(array.flags.writeable for array in found)
-
-
-@pytest.mark.parametrize("name", ["mu_v", "mu_omega"])
-def test_steps_differ_in_the_coefficients_of_any_contact(name):
-    contacts = [changed(CONTACTS, rows=[6, 6], **{name: [0.1, mu]}) for mu in (1.0, 2.0)]
-    assert differences(*(STEP.replace(contacts=c) for c in contacts)) == [f"contacts.{name}"]
-
-
-def test_rows_of_the_user_s_own_count():
-    # The pyramid has 6 and 4 rows at these two contacts.
-    own = Extra(("a", "b", "c"), np.ones((3, 5)), np.zeros(3))
-    assert (STEP.m, STEP.replace(extra=own).m) == (10, 13)

@@ -4,11 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.solution_files import rounded_wrenches
-from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.friction import (
     contact_wrenches,
-    friction_rows,
-    row_constants,
 )
 from tests.closeness import assert_close
 from tests.helpers import point_on_floor, random_step
@@ -31,19 +28,6 @@ def test_each_row_alone_reaches_a_vertex_of_the_octahedron(row, rng):
     actual = contact_wrenches(contacts, np.eye(6)[row], h=0.5)
     expected = [np.array(vertices[row]) / 0.5]
     assert_close(actual, expected, ROUNDING)
-
-
-def test_no_contacts_make_no_rows_and_no_wrenches():
-    assert friction_rows(no_contacts(5)).shape == (0, 6, 5)
-    assert contact_wrenches(no_contacts(5), np.zeros(0), h=0.01).shape == (0, 4)
-
-
-def test_the_gap_adds_to_the_motion_along_the_normal_of_an_ellipsoid(rng):
-    """gap, slip_1, slip_2 and spin without motion: (phi, 0, 0, 0)."""
-    contacts = random_step(rng, rows=(4, 6)).contacts
-    expected = [[phi, 0.0, 0.0, 0.0] for phi in contacts.phi]
-    actual = row_constants(contacts, "ellipsoid")
-    np.testing.assert_array_equal(actual, expected)
 
 
 def test_a_wrench_that_is_rounded_to_zero_has_no_sign():

@@ -7,8 +7,7 @@ from quasistatic_ref import StepData, StepDataError, solve_step
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.solve.units import float_inverse
-from quasistatic_ref.step import pivots
-from quasistatic_ref.step.pivots import DEFINITE, exact_factor, positive_pivots
+from quasistatic_ref.step.pivots import DEFINITE, positive_pivots
 from tests.oracles.attacked_steps import positive_definite, singular
 from tests.tolerances import ROUNDING
 
@@ -17,10 +16,6 @@ PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])
 NEAR = LOWER @ np.diag(PIVOTS) @ LOWER.T
 """No product or sum of these is rounded. The last pivot is 2.9e-14 of its diagonal entry; LAPACK's
 Cholesky finds it negative."""
-
-
-def refuse(*_):
-    raise AssertionError("what float64 decides was decided in whole numbers")
 
 
 def with_stiffness(K_q, tau_a, h=1.0):
@@ -53,30 +48,6 @@ def test_a_pivot_of_zero_is_none_also_where_rounding_makes_it_positive():
     L = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1757.0, 1.0]])
     S = 7 * L @ np.diag([1.0, 2.0**-21, 0.0]) @ L.T  # nothing is rounded
     assert not positive_pivots(S)
-
-
-def test_a_stack_and_a_large_matrix_are_decided_block_by_block(monkeypatch):
-    sizes = []
-    monkeypatch.setattr(pivots, "exact_factor", lambda S, _: sizes.append(len(S)) or S)
-    blocks = np.array([S for k in range(50) for S in (2.0**k * NEAR, np.eye(3))])
-    assert positive_pivots(blocks)
-    large = np.zeros((300, 300))
-    for k, block in enumerate(blocks):
-        large[3 * k : 3 * k + 3, 3 * k : 3 * k + 3] = block
-    assert positive_pivots(large)
-    assert sizes == [3] * 100
-    monkeypatch.undo()
-    assert not positive_pivots(np.array([np.eye(2), -np.eye(2)]))
-
-
-def test_a_factor_in_whole_numbers_is_that_of_its_pivots():
-    """S = L D L': the Cholesky factor is L D^(1/2)."""
-    assert exact_factor(NEAR, DEFINITE) == pytest.approx(
-        LOWER * np.sqrt(PIVOTS), rel=ROUNDING, abs=0
-    )
-    assert exact_factor(np.ones((2, 2)), 0.0) is None
-    tiny = np.diag([5e-324, 1e-320])
-    assert exact_factor(tiny, 0.0) == pytest.approx(np.sqrt(tiny), rel=ROUNDING, abs=0)
 
 
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():

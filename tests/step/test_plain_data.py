@@ -35,24 +35,6 @@ def test_a_copy_is_equal_and_of_the_same_class_and_hash(things, trip):
         assert str(again) == str(thing) or not isinstance(thing, Exception), name
 
 
-def locked_arrays(data):
-    """Names of the arrays that cannot be written, but for those that a copy forms when read."""
-    names = data.kept() if isinstance(data, Plain) else vars(data)
-    for key in names:
-        value = getattr(data, key)
-        if isinstance(value, Plain):
-            yield from locked_arrays(value)
-        elif isinstance(value, np.ndarray) and not value.flags.writeable:
-            yield from {key} - {"H", "mu", "wrench", "counts", "mask", "offsets"}
-
-
-@every_trip
-def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, trip):
-    for name, thing in things.items():
-        if "Step" in name:
-            assert sorted(locked_arrays(trip(thing))) == sorted(locked_arrays(thing)), name
-
-
 def test_a_pickled_system_does_not_need_its_files(tmp_path):
     folder = tmp_path / "scene"
     folder.mkdir()

@@ -78,14 +78,3 @@ def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     rows = np.column_stack([-data["A"].toarray(), -data["b"]])
     expected = mu * np.column_stack([form.A, form.b])
     assert_close(rows, expected, ROUNDING)
-
-
-def test_H_is_exactly_symmetric(rng):
-    H = standard_form(random_step(rng, 7, 6)).H
-    np.testing.assert_array_equal(H, H.T)
-
-
-def test_without_contacts_there_are_no_rows(rng):
-    form = standard_form(random_step(rng, 2, 3, rows=()))
-    assert form.A.shape == (0, 5)
-    assert form.b.shape == (0,)
