@@ -36,7 +36,6 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
-    "matplotlib.sphinxext.plot_directive",
     "sphinx_gallery.gen_gallery",
     "sphinxcontrib.bibtex",
     "sphinx-mathjax-offline",  # MathJax 3, copied into _static
@@ -90,11 +89,6 @@ nitpick_ignore_regex = [
 ]
 
 # -- Figures and literature ----------------------------------------------------------------------
-plot_formats = [("png", 150)]
-plot_html_show_source_link = False
-plot_html_show_formats = False
-plot_rcparams = {"savefig.bbox": "tight"}  # as the package's own style saves them
-plot_apply_rcparams = True
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "scripts",  # written at each build

@@ -1,7 +1,7 @@
-"""Figures that take long, or come from results: ``python -m validation.make.page_figures``.
+"""The still figures of pages: ``python -m validation.make.page_figures``.
 
 Those of docs/reality.md come from its results. The others are drawn by their modules in
-docs/drawings/. Figures that take seconds are drawn when the site is built.
+docs/drawings/, and committed, so that pages show them on a code host, too.
 """
 
 import json
@@ -14,13 +14,25 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from docs.drawings import (
+    a_screw,
     both_laws,
+    boundary_layer,
     cone_surfaces,
+    contact_geometry,
+    corner_loads,
+    finger_spring_block,
+    free_body,
     gradient_of_a_push,
+    mass_of_a_free_body,
     metres,
+    phi_and_j_of_a_cloud,
     pinch_threshold,
     plan_a_push,
+    sliding_block,
     solver_digits,
+    the_program,
+    the_step_loop,
+    two_moving_bodies,
     what_smoothing_does,
     where_no_gradient_is,
     which_cone_is_real,
@@ -30,6 +42,13 @@ from quasistatic_ref.optional.show.figures.style import figure_style, figure_wri
 from validation.tools.scripts import RESULTS, script_options
 
 Record = Mapping[str, Any]
+DRAWN = (
+    a_screw, both_laws, boundary_layer, cone_surfaces, contact_geometry, corner_loads,
+    finger_spring_block, free_body, gradient_of_a_push, mass_of_a_free_body, metres,
+    phi_and_j_of_a_cloud, pinch_threshold, plan_a_push, sliding_block, solver_digits, the_program,
+    the_step_loop, two_moving_bodies, what_smoothing_does, where_no_gradient_is,
+)  # fmt: skip
+"""Each is the figure of its name."""
 
 
 def _name_rows(axes: Axes, names: Sequence[str]) -> None:
@@ -103,16 +122,9 @@ def main() -> None:
             "reality_pushes": which_cone_is_real.figure(),
             "reality_identified": identified_ratios(identified),
             "reality_errors": errors_by_pair(result("reality")),
-            "both_laws": both_laws.figure(),
-            "cone_surfaces": cone_surfaces.figure(),
-            "gradient_of_a_push": gradient_of_a_push.figure(),
-            "metres": metres.figure(),
-            "pinch_threshold": pinch_threshold.figure(),
-            "plan_a_push": plan_a_push.figure(),
-            "solver_digits": solver_digits.figure(),
-            "what_smoothing_does": what_smoothing_does.figure(),
-            "where_no_gradient_is": where_no_gradient_is.figure(),
         }
+        for module in DRAWN:
+            figures[module.__name__.rpartition(".")[2]] = module.figure()
     for name, figure in figures.items():
         figure_written(figure, options.out, name)
 
