@@ -2,6 +2,7 @@
 
 import io
 import json
+import shlex
 import subprocess
 import sys
 
@@ -12,7 +13,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import ANSWERS, Scenes
 from tests.lab.vectors.committed_cases import ROOT
-from tests.pages import named_files
+from tests.pages import shell_lines
 
 BALL = [0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 1.0]
 
@@ -90,10 +91,12 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
     assert last == {"q": BALL}
 
 
-def test_the_program_on_the_page_takes_the_steps_of_the_simulator(tmp_path):
+def test_the_line_on_the_page_is_answered_by_the_step_of_the_simulator():
     page = (ROOT / "docs" / "guides" / "check_your_implementation.md").read_text("utf-8")
-    client = tmp_path / "client.py"
-    client.write_text(named_files(page)["client.py"])
-    command = [sys.executable, str(client), "two_finger_pinch"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert json.loads(done.stdout) == steps("two_finger_pinch")
+    (line,) = (one for one in shell_lines(page) if one.startswith("echo "))
+    echo, serve = (shlex.split(part) for part in line.split(" | "))
+    command = [sys.executable, "-m", "quasistatic_ref", *serve[1:]]
+    done = subprocess.run(command, input=echo[1], capture_output=True, text=True, check=True)
+    _, answer = (json.loads(one) for one in done.stdout.splitlines())
+    assert answer["q"] == steps("sphere_spin", count=1)
+    assert answer["forces"][0][2] == pytest.approx(0.3 * 9.81)  # the weight
