@@ -5,18 +5,31 @@ from typing import Final, NamedTuple
 from quasistatic_ref.step.data import Mask
 
 WEAK = "weakly active row"
+"""A row touches without load: a contact that is just reached, friction at its limit."""
 CONTRADICTION = "rows that would contradict each other"
+"""A change makes dependent rows contradict: a ladder that sticks at wall and floor."""
 ZERO_FRICTION = "friction of zero"
+"""The coefficient of a pair that touches is zero, and cannot become smaller."""
 POINTS = "tie of points"
+"""One of several equally near points is kept, another is not."""
 SURFACES = "tie of surfaces"
+"""Two ways out of penetration are equally short."""
 FEATURE = "feature change"
+"""A closest point or a normal is on the border of a face, an edge or a vertex."""
 MANY = "closest points are not unique"
+"""Parallel faces, edges along faces; a centre of curvature."""
 NO_NORMAL = "no normal at zero distance"
+"""Vertices or edges that just touch."""
 TANGENTS = "tangents switch axis"
+"""Two axes of the world are equally far from the normal, and the pyramid turns."""
 RIM = "level rim"
+"""All points of a rim are equally near to the other body."""
 HALF_TURN = "half a turn"
+"""The target is half a turn away, where (-) jumps."""
 NEARLY = "nearly a kink"
+"""A change smaller than `nearly` makes a row weakly active."""
 CROSSING = "crossing of edges"
+"""A contact is where edges or rims cross; a derivative exists, but is not computed."""
 
 KINDS: Final = (
     WEAK, CONTRADICTION, ZERO_FRICTION, POINTS, SURFACES, FEATURE, MANY, NO_NORMAL, TANGENTS, RIM,
