@@ -1,5 +1,6 @@
 """Which coordinates move which links: the part of a Jacobian that does not depend on q."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -7,11 +8,34 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.model.coordinates import Order
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
 
-class ColumnMap:
-    """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
+class ColumnMap(ABC):
+    """Which columns of a Jacobian move a link, and with which coordinate.
+
+    Parameters
+    ----------
+    moves : ndarray, shape (L, 1, n_x)
+        1 where a column moves a link, else 0 [-].
+    owner : ndarray of int, shape (n_x,)
+        The coordinate of each column, in the paper's order [-].
+    n_v : int
+        Number of coordinates.
+    """
+
+    def __init__(self, moves: Array, owner: Indices, n_v: int) -> None:
+        self.moves = moves
+        self.owner = owner
+        self.n_v = n_v
+
+    @abstractmethod
+    def of_coordinates(self, columns: Array) -> Array:
+        """Columns per unit of delta_q, shape (..., n_v), from `columns` (..., n_x) [m, rad]."""
+
+
+class JointColumns(ColumnMap):
+    """The columns of pinocchio's Jacobian ``data.J``.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
     coordinate of its own: it moves with the coordinate of another joint.
@@ -22,11 +46,6 @@ class ColumnMap:
     frames : sequence of int
         The frame of each link but the world.
     order : Order
-
-    Attributes
-    ----------
-    owner : ndarray of int, shape (n_x,)
-        The coordinate of each column, in the paper's order.
     """
 
     def __init__(self, model: pin.Model, frames: Sequence[int], order: Order) -> None:
@@ -34,16 +53,15 @@ class ColumnMap:
             slice(start, start + size)
             for start, size in zip(model.idx_vExtendeds, model.nvExtendeds, strict=True)
         ]
-        self.moves = np.zeros((1 + len(frames), 1, model.nvExtended))
+        moves = np.zeros((1 + len(frames), 1, model.nvExtended))
         for link, frame in enumerate(frames, start=1):
             for joint in model.supports[model.frames[frame].parentJoint]:
-                self.moves[link, 0, columns[joint]] = 1.0
+                moves[link, 0, columns[joint]] = 1.0
         owner = np.zeros(model.nvExtended, dtype=np.int64)
         for of_joint, v in zip(columns, model.idx_vs, strict=True):
             owner[of_joint] = v + np.arange(of_joint.stop - of_joint.start)
+        super().__init__(moves, order.v_back[owner], int(model.nv))
         self.order = order
-        self.owner = order.v_back[owner]
-        self.n_v = int(model.nv)
         self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]

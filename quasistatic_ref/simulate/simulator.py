@@ -19,6 +19,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.given import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.finding import Finding
@@ -189,7 +190,9 @@ class Simulator(Settings, Shown):
         if fast:
             problem = "is no argument; write qr.FastSimulator(qr.Simulator(...))"
             raise InputError(problem, field="fast", value=fast)
-        check_kind(system, System, "system", ", qr.System([body, ...])")
+        if not isinstance(system, StepSystem):
+            problem = "must be a System, qr.System([body, ...])"
+            raise InputError(problem, field="system", value=system)
         own = checked_items(pairs, ContactPair, "pairs")
         check_accuracy(accuracy)
         check_certify(backend, certify)

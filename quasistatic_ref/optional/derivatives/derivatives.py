@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.gradient import (
     Derivatives,
     combined,
@@ -121,8 +122,12 @@ def check_derivable(simulator: Simulator) -> None:
     Raises
     ------
     InputError
-        If the cone is no polyhedron, the law not convex, or the simulator has an extension.
+        If the cone is no polyhedron, the law not convex, the simulator has an extension, or its
+        scene is MuJoCo's.
     """
+    if not isinstance(simulator.system, System):
+        problem = "has no derivatives where MuJoCo moves it; write its bodies as URDFs"
+        raise InputError(problem, field="system", value=type(simulator.system).__name__)
     if not cone(simulator.cone).polyhedral:
         raise InputError("must be a polyhedron for derivatives", field="cone", value=simulator.cone)
     if simulator.law != CONVEX:

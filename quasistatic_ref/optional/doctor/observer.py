@@ -58,7 +58,7 @@ class Doctor(Observer):
         simulator = recorder.simulator
         steps: Sequence[StepData] = [results[0].step]
         delta_q: Sequence[Array] | Array = arrays["delta_q"]
-        if system.varying_mass is not None or simulator.extension is not None:
+        if not system.constant_mass_matrix or simulator.extension is not None:
             steps = [result.step for result in results]
             delta_q = [result.solution.delta_q for result in results]
         g = float(np.linalg.norm(simulator.gravity))

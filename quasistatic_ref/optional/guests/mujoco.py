@@ -5,7 +5,7 @@ No geometry is translated. Contacts, frames, friction, Jacobians, masses and for
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.guests import ties, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
-from quasistatic_ref.optional.guests.loads import Loads, loads
+from quasistatic_ref.optional.guests.loads import Spring, loads
 from quasistatic_ref.optional.guests.natural import Natural, moved
 from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.parts import needing
@@ -159,7 +159,7 @@ def step_with(
     cone = ELLIPSOID if model.opt.cone and touches.rubs(state) else PYRAMID
     kinds = () if as_is else ELIMINATED[cone]
     tied = ties.tied_joints(state, kinds, of_state.heavy(state.M, h))
-    order, n_a, K_q = actuated(state, of_state, tied.T)
+    order, n_a, K_q = actuated(state, of_state.springs, tied.T)
     tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
     T = tied.T
     M_u = T[:, n_a:].T @ state.M @ T[:, n_a:]
@@ -181,7 +181,7 @@ def step_with(
     return step, Coordinates(names, dofs, T, left_out, quasi_dynamic_number(model, data, state, h))
 
 
-def actuated(state: Still, of_state: Loads, T: Array) -> tuple[Indices, int, Array]:
+def actuated(state: Still, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:
     """An order of coordinates in which the actuated ones come first, their number, and K_q.
 
     A coordinate is actuated if a servo or spring acts on it. T has the shape (nv, n) [-].
@@ -191,9 +191,9 @@ def actuated(state: Still, of_state: Loads, T: Array) -> tuple[Indices, int, Arr
     ModelError
         Naming a servo or spring that leaves others of its coordinates free: K_q is singular.
     """
-    moments = [moved(state, spring.m[None], T)[0] for spring in of_state.springs]
+    moments = [moved(state, spring.m[None], T)[0] for spring in springs]
     K = np.zeros((T.shape[1],) * 2)
-    for spring, m in zip(of_state.springs, moments, strict=True):
+    for spring, m in zip(springs, moments, strict=True):
         K += spring.k * np.outer(m, m)
     a = np.flatnonzero(K.any(axis=1))
     u = np.setdiff1d(np.arange(len(K)), a)
@@ -202,7 +202,7 @@ def actuated(state: Still, of_state: Loads, T: Array) -> tuple[Indices, int, Arr
     values, vectors = np.linalg.eigh(unit[:, None] * K_q * unit)
     if values.min(initial=1.0) < FULL_RANK:
         free = np.abs(vectors[:, 0]) > FULL_RANK
-        several = [s.field for s, m in zip(of_state.springs, moments, strict=True)
+        several = [s.field for s, m in zip(springs, moments, strict=True)
                    if np.count_nonzero(m[a][free]) > 1]  # fmt: skip
         problem = "acts on several joints, between which K_q leaves a motion without stiffness; "
         raise ModelError(problem + "give each of them a servo or a spring", field=several[0])

@@ -18,10 +18,9 @@ from quasistatic_ref.errors import InputError, ModelError, ScenarioError, about_
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.optional.guests.moves import Placed
+from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.optional.guests.settled import numbered
-from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem
+from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem, Placed
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
@@ -70,16 +69,14 @@ class MujocoScenario(Scenario):
 
     Parameters
     ----------
+    of_mujoco : MujocoSystem
+        Its system.
     actuation : callable
         What drives it at a time [s].
     """
 
+    of_mujoco: MujocoSystem
     actuation: Callable[[float], Actuation]
-
-    @property
-    def of_mujoco(self) -> MujocoSystem:
-        """Its system."""
-        return cast("MujocoSystem", self.system)
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scene; an `extension` of one's own is not taken: InputError."""
@@ -235,7 +232,8 @@ def mujoco_scenario(
         h=h,
         steps=steps,
         gravity=gravity,
-        system=system,
+        system=cast("System", system),  # a step, a recorder and findings ask for no other names
+        of_mujoco=system,
         pairs=system.places.pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
@@ -319,7 +317,7 @@ def controls_of(
     """
     actuators = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) or str(i): i
                  for i in range(model.nu)}  # fmt: skip
-    joints = system.own
+    joints = system.driven
     start = data.ctrl.copy()
 
     def checked(named: Mapping[str, float]) -> tuple[Array, dict[str, float]]:

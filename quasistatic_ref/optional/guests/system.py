@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import copy
-import hashlib
 from collections.abc import Mapping
-from dataclasses import replace
-from threading import RLock
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -17,15 +15,14 @@ from quasistatic_ref.contact.jacobian import columns_at
 from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.configuration import UnitParts
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.coordinates import with_shape
 from quasistatic_ref.model.joints.axis_joint import Prismatic, Revolute
 from quasistatic_ref.model.joints.ball import Ball
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.named import Named
-from quasistatic_ref.model.system import System
+from quasistatic_ref.model.mechanism import Mechanism
 from quasistatic_ref.optional.guests import ties
 from quasistatic_ref.optional.guests.fates import check, check_run, kind_of, named
 from quasistatic_ref.optional.guests.loads import (
@@ -36,13 +33,12 @@ from quasistatic_ref.optional.guests.loads import (
     passive_springs,
     stiffness,
 )
-from quasistatic_ref.optional.guests.moves import Columns, Placed
 from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
 from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.places import Places
 from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.ordered import rotated
@@ -50,8 +46,6 @@ from quasistatic_ref.tolerances import FILLED, FULL_RANK
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
-
-    Given = tuple[MjModel, MjData, float, dict[str, float], float]
 
 KINDS: dict[str, tuple[type[Joint], list[int]]] = {
     "FREE": (Floating, [0, 1, 2, 4, 5, 6, 3]),
@@ -84,11 +78,41 @@ class Actuation(NamedTuple):
     positions: Mapping[str, float]
 
 
-class MujocoSystem(System):
-    """A MuJoCo model behind the names that a step asks a system for.
+class Velocities(ColumnMap):
+    """Which of MuJoCo's velocities move a body, and with which coordinates.
 
-    ``Simulator.step`` asks for: actuated_difference, column_map, gravity_force, integrate,
-    kinematics, links, lock, M_u, n_a, n_v.
+    Parameters
+    ----------
+    moves : ndarray, shape (L, 1, nv)
+        1 where a velocity moves a body [-].
+    T : ndarray, shape (nv, n_v)
+        MuJoCo's displacement, per unit of the coordinates of a step [-].
+    """
+
+    def __init__(self, moves: Array, T: Array) -> None:
+        super().__init__(moves, np.abs(T).argmax(axis=1), T.shape[1])
+        self.T = T
+
+    def of_coordinates(self, columns: Array) -> Array:
+        """`columns` of MuJoCo's velocities, (..., nv), per unit of delta_q, (..., n_v) [m, rad]."""
+        per_unit: Array = columns @ self.T
+        return per_unit
+
+
+@dataclass(frozen=True, eq=False)
+class Placed(Kinematics):
+    """Where every body is, how it moves, and the contacts of all pairs.
+
+    Parameters
+    ----------
+    points : ClosestPoints, optional
+    """
+
+    points: ClosestPoints | None = None
+
+
+class MujocoSystem(Mechanism):
+    """A MuJoCo model behind the names of a :class:`.StepSystem`.
 
     Links are MuJoCo's bodies, ``TREE/BODY``, bodies the trees of the world. Coordinates are
     MuJoCo's velocities, without those that equalities of joints take away, the actuated ones first:
@@ -104,8 +128,8 @@ class MujocoSystem(System):
         Where a run starts; neither is changed. Bodies with ``mocap`` and applied forces stay.
     h : float
         Time step, for natural units [s].
-    springs : mapping of str to float
-        Stiffness of springs towards targets of joints [N/m, N m/rad].
+    stiffnesses : mapping of str to float
+        Of springs towards targets of joints [N/m, N m/rad].
     margin : float
         Gap up to which MuJoCo looks for contacts [m].
 
@@ -115,6 +139,8 @@ class MujocoSystem(System):
     places : Places
         What may touch.
     springs : tuple of Spring
+    driven : dict of str to Spring
+        Those towards targets of joints.
     rises : Rises
         Friction of joints.
 
@@ -124,55 +150,65 @@ class MujocoSystem(System):
         Naming element and field of what no run can say.
     """
 
+    of_mjcf = True
+    constant_mass_matrix = False
+
     def __init__(
-        self, model: MjModel, data: MjData, h: float, springs: Mapping[str, float], margin: float
-    ) -> None:
-        self._made_of((copy.copy(model), copy.copy(data), h, dict(springs), margin))
-
-    def __getstate__(self) -> Any:
-        return self._given
-
-    def __setstate__(self, given: Any) -> None:
-        self._made_of(given)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, MujocoSystem) and self.texts == other.texts
-
-    def __hash__(self) -> int:
-        return hash(self.texts)
-
-    def _made_of(self, given: Given) -> None:
-        model, data, h, springs, margin = self._given = given
-        self.model = model
-        self.lock = RLock()
-        self._latest: tuple[bytes, Kinematics] | None = None
+        self, model: MjModel, data: MjData, h: float, stiffnesses: Mapping[str, float],
+        margin: float,
+    ) -> None:  # fmt: skip
+        self.model = copy.copy(model)
+        self.start = copy.copy(data)
+        self.h = h
+        self._arguments = self.model, self.start, h, {**stiffnesses}, margin
+        self._latest: tuple[bytes, Placed] | None = None
         self._at: bytes | None = None
-        state = self._state = still(model, data)
+        state = self._state = still(self.model, self.start)
         check(state)
         check_run(state)
         self.places = Places(state, margin)
         self.layout = contact_layout(self.places.pairs)
         state.run()
-        self._qpos = state.data.qpos.copy()
-        of_state = loads(state)
-        self.ignored = of_state.left_out
-        self.own = {name: self._own_spring(name, k) for name, k in springs.items()}
+        self.driven = {name: self._driven_spring(name, k) for name, k in stiffnesses.items()}
         self.springs = self._springs()
         check_stiff(self.springs)
-        of_state = replace(of_state, springs=self.springs)
-        tied = ties.tied_joints(state, ("JOINT",), of_state.heavy(state.M, h))
-        self._taken = tied.eliminated
+        of_state = loads(state)
+        masses = replace(of_state, springs=self.springs).heavy(state.M, h)
+        tied = ties.tied_joints(state, ("JOINT",), masses)
         self._follow = ties.followers(state, tied)
-        order, self.n_a, self.K_q = actuated(state, of_state, tied.T)
-        self.T = tied.T[:, order]
-        self.dofs = tied.dofs[order]
-        self._make_joints()
+        order, n_a, self.K_q = actuated(state, self.springs, tied.T)
+        self._tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
+        self.T = self._tied.T
+        trees = self._trees()
+        joints, self._entries = self._joints(trees, n_a)
+        turns = np.zeros((model.nbody, 9))
+        for turn, quaternion in zip(turns, model.body_iquat, strict=True):
+            state.mujoco.mju_quat2Mat(turn, quaternion)
+        axes = turns.reshape(-1, 3, 3)
+        roots = {trees[i]: i for i in range(1, model.nbody) if not model.body_parentid[i]}
+        moving = {joint.name.partition("/")[0] for joint in joints}
+        names = [state.name("body", i) or f"body{i}" for i in range(model.nbody)]
+        super().__init__(
+            bodies=tuple(Body(tree, NOTHING) for tree in roots if tree in moving),
+            joints=joints,
+            links=("world", *(f"{trees[i]}/{names[i]}" for i in range(1, model.nbody))),
+            roots=roots,
+            shapes=tuple(shape for shape in self.places.shapes.values() if shape.link),
+            masses=model.body_mass.copy(),
+            centres=model.body_ipos.copy(),
+            inertias=axes * model.body_inertia[:, None] @ axes.transpose(0, 2, 1),
+            q_start=state.data.qpos[self._entries],
+            ignored=of_state.left_out,
+        )
+        self.column_map = Velocities(self._moves(), self.T)
         diagonal = np.concatenate([h * np.diag(self.K_q), np.diag(self.M_u(self.q_start)) / h])
         self.scale = Natural(state, self.T, coordinate_units(diagonal))
         self.rises, _ = joint_friction(state, self.T, h * diagonal)
         self.rows = self._rows(self.state(self.q_start))
-        self._make_bodies()
         self._check_constant()
+
+    def __reduce__(self) -> Any:
+        return MujocoSystem, self._arguments
 
     def _springs(self) -> tuple[Spring, ...]:
         """All springs and servos at the state, saturated ones too."""
@@ -181,64 +217,24 @@ class MujocoSystem(System):
             Spring(named(state, "actuator_biasprm", i), stiffness(state, i), state.moments[i])
             for i in self._servos()
         )
-        return (*passive_springs(state), *servos, *self.own.values())
+        return (*passive_springs(state), *servos, *self.driven.values())
 
     def _servos(self) -> list[int]:
         """The actuators whose force falls with their length."""
         state = self._state
         return [i for i in range(self.model.nu) if stiffness(state, i) and not disabled(state, i)]
 
-    def _own_spring(self, name: str, k: float) -> Spring:
-        """The spring of a joint that has targets of its own."""
-        dof = self.axis_of(name)
-        if any(self._state.moments[i, dof] for i in self._servos()):
-            problem = "has a servo; name that in the table of targets instead"
-            raise ModelError(problem, field=f"stiffness.{name}", value=k)
-        return Spring(f"stiffness.{name}", float(k), np.eye(self.model.nv)[dof])
-
-    def axis_of(self, name: str) -> int:
-        """Where the velocity of a hinge or slide stands; ModelError if it is no such joint."""
+    def _driven_spring(self, name: str, k: float) -> Spring:
+        """The spring of a hinge or slide towards its targets."""
         state = self._state
         j = state.mujoco.mj_name2id(self.model, state.mujoco.mjtObj.mjOBJ_JOINT, name)
         if j < 0 or kind_of(state, "jnt_type", j) not in ("HINGE", "SLIDE"):
             raise ModelError("is no hinge or slide of the model", field="joint", value=name)
-        return int(self.model.jnt_dofadr[j])
-
-    def _make_joints(self) -> None:
-        """Joints, in the order of their coordinates, and where their entries of qpos are."""
-        state, model = self._state, self.model
-        trees = self._trees()
-        joints: list[Joint] = []
-        entries: list[int] = []
-        v = 0
-        while v < len(self.dofs):
-            j = int(model.dof_jntid[self.dofs[v]])
-            kind, own = KINDS[kind_of(state, "jnt_type", j)]
-            first = len(entries)
-            entries += [int(model.jnt_qposadr[j]) + i for i in own]
-            n = max(1, len(own) - 1)
-            tree = trees[model.jnt_bodyid[j]]
-            name = "base" if kind is Floating else state.name("joint", j) or f"joint{j}"
-            ends = tuple(model.jnt_range[j].tolist()) if model.jnt_limited[j] and n == 1 else None
-            at = slice(first, len(entries)), slice(v, v + n)
-            joints.append(kind(f"{tree}/{name}", v < self.n_a, *at, ends))
-            v += n
-        self._entries = np.array(entries)
-        self.joints = tuple(joints)
-        self.named = Named(self.joints)
-        self._actuated = [joint for joint in joints if joint.actuated]
-        self.units, self.actuated_units = UnitParts(joints), UnitParts(self._actuated)
-        self.coordinates = tuple(c for joint in joints for c in joint.coordinates)
-        self.n_q, self.n_v = len(entries), len(self.dofs)
-        self.n_u = self.n_v - self.n_a
-        self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self._actuated)
-        self.q_start = read_only(self._qpos[self._entries])
-        moves = np.zeros((model.nbody, 1, model.nv))
-        for body in range(1, model.nbody):
-            moves[body] = moves[model.body_parentid[body]]
-            first = model.body_dofadr[body]
-            moves[body, 0, first : first + model.body_dofnum[body]] = 1.0
-        self.column_map = Columns(moves, self.T)
+        dof = int(self.model.jnt_dofadr[j])
+        if any(state.moments[i, dof] for i in self._servos()):
+            problem = "has a servo; name that in the table of targets instead"
+            raise ModelError(problem, field=f"stiffness.{name}", value=k)
+        return Spring(f"stiffness.{name}", float(k), np.eye(self.model.nv)[dof])
 
     def _trees(self) -> list[str]:
         """The tree of each body by its name, which no other tree has."""
@@ -248,37 +244,39 @@ class MujocoSystem(System):
             if model.body_parentid[body]:
                 names.append(names[model.body_parentid[body]])
                 continue
-            own = state.name("body", body) or f"body{body}"
-            own = "".join("_" if c in "/#*" or c.isspace() else c for c in own)
-            names.append(f"{own}_{body}" if own in names else own)
+            name = state.name("body", body) or f"body{body}"
+            name = "".join("_" if c in "/#*" or c.isspace() else c for c in name)
+            names.append(f"{name}_{body}" if name in names else name)
         return names
 
-    def _make_bodies(self) -> None:
+    def _joints(self, trees: list[str], n_a: int) -> tuple[tuple[Joint, ...], Indices]:
+        """Joints, in the order of their coordinates, and where their entries of qpos are."""
         state, model = self._state, self.model
-        trees = self._trees()
-        own = [state.name("body", i) or f"body{i}" for i in range(model.nbody)]
-        self.links = ("world", *(f"{trees[i]}/{own[i]}" for i in range(1, model.nbody)))
-        self._roots = {trees[i]: i for i in range(1, model.nbody) if not model.body_parentid[i]}
-        moving = {joint.name.partition("/")[0] for joint in self.joints}
-        self.bodies = tuple(Body(tree, NOTHING) for tree in self._roots if tree in moving)
-        binary = np.empty((state.mujoco.mj_sizeModel(model), 1), np.uint8)
-        state.mujoco.mj_saveModel(model, None, binary)
-        digest = hashlib.sha256(binary.tobytes() + repr(self._given[2:]).encode()).hexdigest()
-        self.texts = (digest,) * len(self.bodies)
-        self.masses = model.body_mass.copy()
-        self.centres = model.body_ipos.copy()
-        R = np.zeros((model.nbody, 9))
-        for turn, quaternion in zip(R, model.body_iquat, strict=True):
-            state.mujoco.mju_quat2Mat(turn, quaternion)
-        axes = R.reshape(-1, 3, 3)
-        self.inertias = axes * model.body_inertia[:, None] @ axes.transpose(0, 2, 1)
-        self.shapes = tuple(s for s in self.places.shapes.values() if s.link)
-        self.mimics = ()
-        self.notes = ()
-        self.of_mjcf = True
-        self.constant_mass_matrix = False
-        self.varying_mass = None
-        self.mass_blocks = np.zeros((0, 6, 6))
+        joints: list[Joint] = []
+        entries: list[int] = []
+        v = 0
+        while v < len(self._tied.dofs):
+            j = int(model.dof_jntid[self._tied.dofs[v]])
+            kind, places = KINDS[kind_of(state, "jnt_type", j)]
+            first = len(entries)
+            entries += [int(model.jnt_qposadr[j]) + i for i in places]
+            n = max(1, len(places) - 1)
+            name = "base" if kind is Floating else state.name("joint", j) or f"joint{j}"
+            ends = tuple(model.jnt_range[j].tolist()) if model.jnt_limited[j] and n == 1 else None
+            at = slice(first, len(entries)), slice(v, v + n)
+            joints.append(kind(f"{trees[model.jnt_bodyid[j]]}/{name}", v < n_a, *at, ends))
+            v += n
+        return tuple(joints), np.array(entries)
+
+    def _moves(self) -> Array:
+        """1 where one of MuJoCo's velocities moves a body, shape (L, 1, nv)."""
+        model = self.model
+        moves = np.zeros((model.nbody, 1, model.nv))
+        for body in range(1, model.nbody):
+            moves[body] = moves[model.body_parentid[body]]
+            first = model.body_dofadr[body]
+            moves[body, 0, first : first + model.body_dofnum[body]] = 1.0
+        return moves
 
     def _check_constant(self) -> None:
         """Refuse springs whose gradient depends on q: K_q is that of the whole run."""
@@ -292,7 +290,7 @@ class MujocoSystem(System):
 
     def qpos(self, q: Array) -> Array:
         """MuJoCo's configuration at q, shape (nq,) [m, rad, -]."""
-        qpos: Array = self._qpos.copy()
+        qpos: Array = self.start.qpos.copy()
         qpos[self._entries] = q
         for _ in self._follow:  # one may follow another
             for first, second, (a, b) in self._follow:
@@ -308,12 +306,12 @@ class MujocoSystem(System):
             self.units.check(q)
             self._at = None
             self._state.data.qpos[:] = self.qpos(q)
-            self._state.data.ctrl[:] = self._given[1].ctrl
+            self._state.data.ctrl[:] = self.start.ctrl
             self._state.run()
             self._at = bits
         return self._state
 
-    def kinematics(self, q: Array) -> Kinematics:
+    def kinematics(self, q: Array) -> Placed:
         """Pose and Jacobian of every body at q, and the closest points."""
         bits = np.asarray(q).tobytes()
         if self._latest is None or self._latest[0] != bits:
@@ -397,7 +395,6 @@ class MujocoSystem(System):
             [the actuators' units].
         """
         model = self.model
-        h = self._given[2]
         after = act.copy()
         for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
             place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
@@ -405,7 +402,7 @@ class MujocoSystem(System):
             if model.actuator_ctrllimited[i]:
                 u = np.clip(u, *model.actuator_ctrlrange[i])
             integrates = kind_of(self._state, "actuator_dyntype", i) == "INTEGRATOR"
-            after[place] = act[place] + h * u if integrates else u
+            after[place] = act[place] + self.h * u if integrates else u
             if model.actuator_actlimited[i]:
                 after[place] = np.clip(after[place], *model.actuator_actrange[i])
         return after
@@ -420,9 +417,9 @@ class MujocoSystem(System):
         """
         force = self._driven(q, actuation)[0] + self.state(q).data.qfrc_spring
         qpos = self.qpos(q)
-        for name, spring in self.own.items():
+        for name, spring in self.driven.items():
             entry = self.model.joint(name).qposadr[0]
-            position = actuation.positions.get(name, self._qpos[entry])
+            position = actuation.positions.get(name, self.start.qpos[entry])
             force += spring.k * (position - qpos[entry]) * spring.m
         ahead = np.linalg.solve(self.K_q, (self.T.T @ force)[: self.n_a])
         return self.integrate(q, np.concatenate([ahead, np.zeros(self.n_u)]))[: self.n_q_a]
@@ -434,8 +431,7 @@ class MujocoSystem(System):
 
     def _rows(self, state: Still) -> Extra:
         """Limits, and equalities that take no coordinate away."""
-        tied = ties.Tied(self.dofs, self.T, self._taken)
-        held = ties.equalities(state, tied, self.scale, as_is=True, in_place=True)
+        held = ties.equalities(state, self._tied, self.scale, as_is=True, in_place=True)
         limits, _ = ties.limits(state, self.scale, held.basis, as_is=True, in_place=True)
         return ties.together(limits, held.rows)
 
@@ -456,11 +452,7 @@ class MujocoSystem(System):
         change = np.zeros(self.model.nv)
         here, there = self.qpos(q), self.qpos(q_next)
         self._state.mujoco.mj_differentiatePos(self.model, change, 1.0, here, there)
-        return np.asarray(change[self.dofs])
-
-    def neutral(self) -> Array:
-        """MuJoCo's first configuration, shape (n_q,)."""
-        return np.asarray(self.model.qpos0[self._entries])
+        return np.asarray(change[self._tied.dofs])
 
     def _centre(self, name: str, link: int) -> Array:
         """Where a load acts by default, (3,) [m], in the frame of a body of MuJoCo that moves."""
@@ -468,7 +460,7 @@ class MujocoSystem(System):
             return np.asarray(self.centres[link])
         weld = self.model.body_weldid
         at = self.kinematics(self.q_start)
-        own = weld == weld[link]
-        places = rotated(at.R[own], self.centres[own]) + at.t[own]
-        centre = np.average(places, axis=0, weights=self.masses[own])
+        welded = weld == weld[link]
+        places = rotated(at.R[welded], self.centres[welded]) + at.t[welded]
+        centre = np.average(places, axis=0, weights=self.masses[welded])
         return np.asarray(at.R[link].T @ (centre - at.t[link]))

@@ -1,13 +1,17 @@
 """A MuJoCo scene that runs."""
 
 import copy
+import pickle
 import sys
 
 import mujoco
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, ModelError, QuasistaticError
+from quasistatic_ref.model.mechanism import StepSystem
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.optional.guests.scene import mujoco_scenario
 from quasistatic_ref.optional.guests.system import MujocoSystem
@@ -104,24 +108,37 @@ def test_the_step_is_that_of_the_state():
         assert a.rows[mine] == b.rows[theirs]
 
 
-def test_the_docstring_names_all_that_a_step_asks_for(lifted):
-    """What files of others ask a system for while a step is taken."""
-    asked = set()
+def test_a_step_asks_a_system_for_the_names_of_the_protocol_and_no_others(lifted):
+    scene, run = lifted
+    names = set()
 
     class Listening(MujocoSystem):
         def __getattribute__(self, name):
             if "simulator.py" in sys._getframe(1).f_code.co_filename:
-                asked.add(name)
+                names.add(name)
             return super().__getattribute__(name)
 
-    scene, run = lifted
     simulator = scene.simulator()
-    system = copy.copy(scene.system)
+    system = copy.copy(scene.of_mujoco)
     system.__class__ = Listening
     vars(simulator)["system"] = system
     simulator.step(run.q[0], run.q_bar_a[0])
-    said = (MujocoSystem.__doc__ or "").partition("asks for: ")[2].partition(".")[0]
-    assert asked == set(said.replace("\n", " ").replace(" ", "").split(","))
+    assert names == {name for name in vars(StepSystem) if not name.startswith("_")}
+    assert len(names) == 10
+    assert isinstance(system, StepSystem)
+    assert not isinstance(system, System)
+
+
+def test_a_copy_of_a_scene_in_another_process_takes_the_same_step(lifted):
+    scene, run = lifted
+    simulator = pickle.loads(pickle.dumps(scene.simulator()))
+    assert simulator.step(run.q[0], run.q_bar_a[0]).q.tolist() == run.q[1].tolist()
+
+
+def test_derivatives_of_a_scene_that_mujoco_moves_are_refused(lifted):
+    scene, run = lifted
+    with pytest.raises(InputError, match="system: has no derivatives where MuJoCo moves it"):
+        qr.derivatives(scene.simulator(), run.q[0], run.q_bar_a[0])
 
 
 def test_gaps_change_as_their_jacobians_say(lifted):

@@ -13,7 +13,7 @@ generalised force :math:`J^T W`.
 
 import numpy as np
 
-from quasistatic_ref.model.column_map import ColumnMap
+from quasistatic_ref.model.column_map import JointColumns
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.optional.derivatives.model.tangent import bracket
 from quasistatic_ref.step.arrays import Array
@@ -28,7 +28,7 @@ class MotionRates:
     Parameters
     ----------
     kinematics : Kinematics
-    column_map : ColumnMap
+    column_map : JointColumns
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class MotionRates:
         Twist of each link per unit of delta_q [m, rad].
     """
 
-    def __init__(self, kinematics: Kinematics, column_map: ColumnMap) -> None:
+    def __init__(self, kinematics: Kinematics, column_map: JointColumns) -> None:
         columns = kinematics.columns
         self.moves = column_map.moves[:, 0]
         self.coordinates = column_map.coordinates
