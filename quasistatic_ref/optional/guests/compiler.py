@@ -70,15 +70,11 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
             raise fence.too_much(f"takes MuJoCo longer than {SECONDS} s") from None
         raise fence.too_much(f"needs more than {MEMORY / 2**30:g} GiB, or ends MuJoCo") from None
     outcome = json.loads(line)
+    if "allocate memory" in outcome.get("refused", ""):
+        limit = f"the {MEMORY / 2**30:g} GiB that this package lets MuJoCo have"
+        raise fence.too_much(f"needs more than {limit}")
     if "refused" in outcome:
-        refusal = fence.refusal(outcome["refused"])
-        if "allocate memory" in outcome["refused"]:
-            refusal.field = refusal.field or "size.memory"
-            refusal.problem = (
-                f"needs more than the {MEMORY / 2**30:g} GiB that this package lets MuJoCo have; "
-                "ask for less"
-            )
-        raise refusal
+        raise fence.refusal(outcome["refused"])
     if "makes" in outcome:
         raise fence.too_much(f"makes {outcome['makes']}")
     model: MjModel = mujoco.MjModel.from_binary_path("model.mjb", {"model.mjb": binary})
@@ -105,15 +101,11 @@ def answer(path: Path) -> bytes:
     # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
     mujoco.set_mju_user_warning(lambda text: None)
     try:
-        return _compiled(mujoco, path)
+        spec = mujoco.MjSpec.from_file(str(path))
+        spec.compiler.usethread = False
+        model = spec.compile()
     except ValueError as error:
         return _line(refused=str(error))
-
-
-def _compiled(mujoco: ModuleType, path: Path) -> bytes:
-    spec = mujoco.MjSpec.from_file(str(path))
-    spec.compiler.usethread = False
-    model = spec.compile()
     sizes = {
         "bodies": (model.nbody, MOST_LINKS),
         "geoms that touch": (int(touching(model).sum()), MOST_SHAPES),

@@ -1,4 +1,4 @@
-"""What an MJCF file may read and how much it may ask for, checked before MuJoCo sees it.
+"""What an MJCF file may read, checked before MuJoCo sees it, and which element a refusal means.
 
 A model reads only from its own folder, and from the folders that its user names. MuJoCo looks for a
 file in several places; each of them at which there is one is checked.
@@ -6,10 +6,8 @@ file in several places; each of them at which there is one is checked.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -17,34 +15,30 @@ from xml.parsers import expat
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
-from quasistatic_ref.model.urdf.urdf_file import LARGEST_FILE, MOST_LINKS
+from quasistatic_ref.model.urdf.urdf_file import LARGEST_FILE
 
 MOST_FILES = 1000
 """Most files of XML of one model."""
-DEEPEST = 300
-"""Most elements that are nested; MuJoCo's XML reader ends at 500."""
-MOST_COPIES = MOST_LINKS
-"""Most copies by nested replicas, and most parts of a composite."""
-MOST_NUMBERS = 4_000_000
-"""Most numbers of a height field, points of a texture, or entries of a buffer."""
-_FOLDERS = ("assetdir", "meshdir", "texturedir")
+FOLDERS = ("assetdir", "meshdir", "texturedir")
 """Attributes of ``compiler`` that say where files are."""
-_COUNTED = {
-    "composite": ("count", MOST_COPIES),
-    "flexcomp": ("count", MOST_COPIES),
-    "hfield": ("nrow", "ncol", MOST_NUMBERS),
-    "texture": ("width", "height", MOST_NUMBERS),
-    "numeric": ("size", MOST_NUMBERS),
-    "user": ("dim", MOST_NUMBERS),
+COUNTS = {
+    "replicate": ("count",),
+    "composite": ("count",),
+    "flexcomp": ("count",),
+    "hfield": ("nrow", "ncol"),
+    "texture": ("width", "height"),
+    "numeric": ("size",),
+    "user": ("dim",),
+    "mesh": ("params",),
 }
-"""Element -> attributes of which the product of all numbers is bounded, and the bound."""
-RESOLUTIONS = {"wedge": 2, "plate": 2}
-"""Built-in meshes whose corners are a grid of their first two parameters, or that many squared."""
+"""Element -> attributes whose numbers, multiplied, say how much it makes; of ``size`` each does."""
+NUMBER = re.compile(r"(\d+\.?\d*(?:e\d+)?)([KMGTPE]?)", re.IGNORECASE)
+UNITS = {unit: 2.0 ** (10 * k) for k, unit in enumerate(("", *"KMGTPE"))}
+"""Suffixes of memory [bytes]."""
 
 
-@dataclass
 class Fence:
-    """A model, and where its elements stand, so that a refusal can name them.
+    """The XML of a model, and where its elements stand, so that a refusal can name them.
 
     Parameters
     ----------
@@ -54,58 +48,50 @@ class Fence:
 
     Attributes
     ----------
-    read : int
-        Bytes of XML that were read.
-    bodies : int
-        Elements of that name.
     places : list of (Element, Path, int)
         Each element with its file and line.
     costs : list of (float, Element, str)
-        The bytes of each file that an element names, or the numbers that it asks for [-], with the
+        The bytes of each file that an element names, or the numbers that it makes [-], with the
         element and the attribute.
 
     Raises
     ------
     ModelError
-        If the model reads elsewhere, or asks for more than any robot has: naming file, element and
-        attribute.
+        If the model reads elsewhere, or is no XML: naming file, element and attribute.
     """
 
-    path: Path
-    roots: Sequence[str | Path] = ()
-    read: int = 0
-    bodies: int = 0
-    places: list[tuple[Element, Path, int]] = field(default_factory=list)
-    costs: list[tuple[float, Element, str]] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        allowed = [folder.resolve() for folder in (self.path.parent, *map(Path, self.roots))]
-        folders = {self.path.parent}
-        found = [self.path]
-        for file in found:  # which grows by what each includes
-            if len(found) > MOST_FILES:
-                raise ModelError(f"consists of more than {MOST_FILES} files", file=self.path)
+    def __init__(self, path: Path, roots: Sequence[str | Path] = ()) -> None:
+        self.places: list[tuple[Element, Path, int]] = []
+        self.costs: list[tuple[float, Element, str]] = []
+        allowed = [folder.resolve() for folder in (path.parent, *map(Path, roots))]
+        folders = {path.parent}
+        files = [path]
+        left = LARGEST_FILE
+        for file in files:  # which grows by what each includes
+            if len(files) > MOST_FILES:
+                raise ModelError(f"consists of more than {MOST_FILES} files", file=path)
             with about_file(file):
-                tree = self._tree(file)
+                content = bytes_read(file, ModelError, left)
+                left -= len(content)
+                tree = self._tree(file, text_of(content, file, ModelError))
                 folders |= {file.parent}
                 folders |= {
                     folder / compiler.get(name, "")
                     for compiler in tree.iter("compiler")
-                    for name in _FOLDERS
+                    for name in FOLDERS
                     for folder in tuple(folders)
                 }
-                self._check_sizes(tree)
                 for element, attribute, inside in _files(tree, folders, allowed):
                     self.costs.append((inside.stat().st_size, element, attribute))
-                    if element.tag in ("include", "model") and inside not in found:
-                        found.append(inside)
+                    if element.tag in ("include", "model") and inside not in files:
+                        files.append(inside)
 
-    def refusal(self, said: str) -> ModelError:
-        """What MuJoCo says, about the element that it means: by its line, or by its name."""
-        quoted = re.findall(r"'([^']+)'", said)
-        words = re.findall(r"\w+", said)
-        line = re.search(r"Element '(.*)', line (\d+)", said)
-        error = ModelError(f"MuJoCo refuses it: {' '.join(said.split())}")
+    def refusal(self, sentence: str) -> ModelError:
+        """MuJoCo's sentence, about the element that it means: by its line, or by its name."""
+        quoted = re.findall(r"'([^']+)'", sentence)
+        words = re.findall(r"\w+", sentence)
+        line = re.search(r"Element '(.*)', line (\d+)", sentence)
+        error = ModelError(f"MuJoCo refuses it: {' '.join(sentence.split())}")
         best = 0
         for element, file, number in self.places:
             marked = [a for a in element.attrib if a in words and a != "name"]
@@ -121,39 +107,23 @@ class Fence:
 
     def too_much(self, problem: str) -> ModelError:
         """What MuJoCo could not do, about the attribute that asks for most."""
-        error = ModelError(f"{problem}; give it fewer copies, or smaller meshes and textures")
-        if self.costs:
-            _, element, attribute = max(self.costs, key=lambda cost: cost[0])
+        error = ModelError(f"{problem}; ask for less: copies, meshes, textures, memory")
+        costs = [*self.costs, *(cost for element, *_ in self.places for cost in _counts(element))]
+        if costs:
+            _, element, attribute = max(costs, key=lambda cost: cost[0])
             error = _about(element, attribute, error.problem)
             error.file = next(file for other, file, _ in self.places if other is element)
         return error
 
-    def _tree(self, path: Path) -> Element:
-        content = bytes_read(path, ModelError, LARGEST_FILE)
-        self.read += len(content)
-        if self.read > LARGEST_FILE:
-            raise ModelError(f"makes the model larger than {LARGEST_FILE / 2**20:g} MiB of XML")
-        text = text_of(content, path, ModelError)
+    def _tree(self, path: Path, text: str) -> Element:
         builder = TreeBuilder()
         parser = expat.ParserCreate("utf-8")
-        open_: list[Element] = []
 
         def start(tag: str, attributes: dict[str, str]) -> None:
-            element = builder.start(tag, attributes)
-            open_.append(element)
-            self.places.append((element, path, parser.CurrentLineNumber))
-            self.bodies += tag == "body"
-            if len(open_) > DEEPEST:
-                raise ModelError(f"is nested deeper than {DEEPEST} elements", field=_named(element))
-            if self.bodies > MOST_LINKS:
-                raise ModelError(f"is one of more than {MOST_LINKS} bodies", field=_named(element))
-
-        def end(tag: str) -> None:
-            builder.end(tag)
-            open_.pop()
+            self.places.append((builder.start(tag, attributes), path, parser.CurrentLineNumber))
 
         parser.StartElementHandler = start
-        parser.EndElementHandler = end
+        parser.EndElementHandler = builder.end
         parser.StartDoctypeDeclHandler = _refuse_doctype
         try:
             parser.Parse(text.encode(), True)
@@ -161,59 +131,20 @@ class Fence:
             raise ModelError(f"is not XML: {error}") from None
         return builder.close()
 
-    def _check_sizes(self, tree: Element) -> None:
-        front = [(tree, 1.0)]
-        for element, copies in front:
-            inner = copies
-            if element.tag == "replicate":
-                inner *= self._product(element, "count")
-                if not inner <= MOST_COPIES:
-                    raise _about(element, "count", f"makes more than {MOST_COPIES} copies")
-            if element.tag == "size":
-                for attribute in element.attrib:
-                    if attribute != "memory":
-                        asked = self._product(element, attribute)
-                        if not asked <= MOST_NUMBERS:
-                            raise _about(element, attribute, f"must be at most {MOST_NUMBERS}")
-            if element.tag == "mesh":
-                corners = self._corners(element)
-                if not corners <= MOST_NUMBERS // 4:
-                    problem = f"makes {corners:g} corners, more than {MOST_NUMBERS // 4}"
-                    raise _about(element, "params", problem)
-            if element.tag in _COUNTED:
-                *attributes, most = _COUNTED[element.tag]
-                product = 1.0
-                for attribute in map(str, attributes):
-                    product *= self._product(element, attribute)
-                    if not product <= float(most):
-                        problem = f"makes more than {most} parts or numbers"
-                        raise _about(element, attribute, problem)
-            front.extend((child, inner) for child in element)
 
-    def _corners(self, element: Element) -> float:
-        """Corners of a built-in mesh, by its resolutions; its other parameters are lengths."""
-        words = element.get("params", "").split()
-        count = RESOLUTIONS.get(element.get("builtin", ""), 1)
-        try:
-            sizes = [max(abs(float(word)), 1.0) for word in words[:count]]
-        except ValueError:
-            return 0.0  # MuJoCo says what is wrong with it
-        product = math.prod(sizes) ** (2 if count == 1 else 1)
-        if product > 1:
-            self.costs.append((product, element, "params"))
-        return product
-
-    def _product(self, element: Element, attribute: str) -> float:
-        """The product of the sizes of an attribute's numbers, each at least 1."""
+def _counts(element: Element) -> Iterator[tuple[float, Element, str]]:
+    """How much an element makes by the numbers of its attributes."""
+    of_element = [COUNTS[element.tag]] if element.tag in COUNTS else []
+    if element.tag == "size":
+        of_element = [(attribute,) for attribute in element.attrib]
+    for attributes in of_element:
         product = 1.0
-        for word in element.get(attribute, "").split():
-            try:
-                product *= max(abs(float(word)), 1.0)
-            except ValueError:
-                continue  # MuJoCo says what is wrong with it
+        for attribute in attributes:
+            for word in element.get(attribute, "").split():
+                if number := NUMBER.fullmatch(word):
+                    product *= max(float(number[1]) * UNITS[number[2].upper()], 1.0)
         if product > 1:
-            self.costs.append((product, element, attribute))
-        return product
+            yield product, element, attributes[-1]
 
 
 def _refuse_doctype(*_: object) -> NoReturn:
