@@ -140,16 +140,16 @@ def words(drake: ModuleType, plant: MultibodyPlant) -> Words:
     sap = plant.time_step() and (
         plant.get_discrete_contact_approximation() == drake.DiscreteContactApproximation.kSap
     )
-    slower = "a smaller time_step" if sap else "set_stiction_tolerance with a smaller one"
+    slower = "time_step" if sap else "stiction tolerance by set_stiction_tolerance"
     return Words(
         engine="Drake",
         yields="Drake documents that it regularises friction near rest",
-        slower=f"MultibodyPlant: {slower}",
-        stronger="proximity properties: coulomb_friction, or what presses the bodies together",
-        spins="geometries: more points of contact; Drake's have no torsional friction",
-        rests="what Drake has and a step has not: the damping of joints, gains of controllers",
-        stiffer="proximity properties: point_contact_stiffness, or bodies that are lighter",
-        apart="poses of bodies, or a collision filter for bodies that may overlap",
+        slower=f"take a smaller {slower}",
+        stronger="raise coulomb_friction, or what presses the bodies together",
+        spins="take geometries with more points of contact; Drake has no torsional friction",
+        rests="do without what Drake has and a step has not: damping of joints, gains",
+        stiffer="raise point_contact_stiffness, or take lighter bodies",
+        apart="move the bodies, or filter collisions of those that may overlap",
     )
 
 

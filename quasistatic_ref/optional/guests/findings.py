@@ -7,12 +7,13 @@ contact slips, or spins, faster than the tolerance at its surface.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PIERCES, PRESSES
 
 
@@ -46,34 +47,8 @@ class Words(NamedTuple):
     apart: str
 
 
-@dataclass(frozen=True)
-class Discrepancy:
-    """One finding.
-
-    Parameters
-    ----------
-    kind : str
-        ``"creeps"``, ``"slides"``, ``"turns"``, ``"moves"`` or ``"penetrates"``.
-    body : str
-        The body that moves, or is pushed.
-    contacts : tuple of str
-        By their names.
-    number : float
-        What makes it a finding [`unit`].
-    unit : str
-        Of the number.
-    remedy : str
-        The option or element that changes it.
-    sentence : str
-    """
-
-    kind: str
-    body: str
-    contacts: tuple[str, ...]
-    number: float
-    unit: str
-    remedy: str
-    sentence: str
+Named = tuple[str, Finding]
+"""The body that a finding is about, and the finding."""
 
 
 def findings(
@@ -83,7 +58,7 @@ def findings(
     weight: float,
     tolerance: float,
     words: Words,
-) -> Iterator[Discrepancy]:
+) -> Iterator[Named]:
     """All findings.
 
     Parameters
@@ -150,9 +125,7 @@ def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
     return max(two, key=lambda b: b.fastest(b.theirs) + b.fastest(b.exact))
 
 
-def _motion(
-    body: Body, own: Sequence[Contact], tolerance: float, words: Words
-) -> Iterator[Discrepancy]:
+def _motion(body: Body, own: Sequence[Contact], tolerance: float, words: Words) -> Iterator[Named]:
     """What contacts let a body do."""
     moved = [c for c in own if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
@@ -188,112 +161,100 @@ def _creep(contact: Contact, body: Body) -> float:
     return _motion_of(replace(contact.theirs, slip=slip, spin=spin), body)
 
 
-def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
-    speed, unit, creeps = _fast(body, True)
-    slip = max(c.theirs.slip for c in through)
-    if body.size * body.theirs.turn <= slip:
-        speed, unit, creeps = slip, "m/s", f"{body.name} slips by {1e3 * slip:.3g} mm/s"
+def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Named:
+    turn = body.theirs.turn
+    creeps = _turning(body)
+    numbers = {"turn_rad_s": turn}
+    slip = 1e3 * max(c.theirs.slip for c in through)
+    if 1e3 * body.size * turn <= slip:
+        creeps = f"{body.name} slips by {slip:.3g} mm/s"
+        numbers = {"slip_mm_s": slip}
     bears = f"{body.bears:.3g} N and {body.asked:.3g} N is"
     if any(c.mu_omega and c.theirs.spin * body.size > c.theirs.slip for c in through):
         most = sum(c.mu_omega * c.exact.normal for c in through if c.exact)
-        bears = f"{1e3 * most:.3g} N mm of torque and {_torque(through):.3g} N mm is"
-    could = f"{creeps}, where its contacts could bear {bears} asked for"
-    sentence = f"{could}; in the exact answer it sticks; {words.yields}"
-    return _finding("creeps", body, through, speed, unit, words.slower, sentence)
+        torque = sum(c.exact.torque for c in through if c.exact)
+        bears = f"{1e3 * most:.3g} N mm of torque and {1e3 * torque:.3g} N mm is"
+    cause = f"{creeps}, where its contacts could bear {bears} asked for; in the exact answer it "
+    cause += f"sticks; {words.yields}"
+    return _finding("creeps", body, through, words.slower, cause, numbers)
 
 
-def _torque(through: Sequence[Contact]) -> float:
-    """The torques about the normals of some contacts, in the exact answer [N mm]."""
-    return 1e3 * sum(c.exact.torque for c in through if c.exact)
-
-
-def _slides(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
-    slides = f"{body.name} slides: its friction is at its limit"
+def _slides(body: Body, through: Sequence[Contact], words: Words) -> Named:
+    cause = f"{body.name} slides: its friction is at its limit"
     share = 1.0
     if body.free:
         share = body.bears / body.asked
-        holds = f"its contacts hold {share:.2g} of what its load needs"
-        slides = f"{body.name} slides: {holds}, {body.bears:.3g} N of {body.asked:.3g} N"
-    sentence = f"{slides}; in {words.engine}, {_fast(body, False)[2]}"
-    return _finding("slides", body, through, share, "", words.stronger, sentence)
+        cause = f"{body.name} slides: its contacts hold {share:.2g} of what its load needs, "
+        cause += f"{body.bears:.3g} N of {body.asked:.3g} N"
+    verb = "sinks" if body.theirs.sinks > body.theirs.speed / 2 else "moves"
+    cause += f"; in {words.engine}, {body.name} {verb} by {1e3 * body.theirs.speed:.3g} mm/s"
+    return _finding("slides", body, through, words.stronger, cause, {"share": share})
 
 
-def _turns(body: Body, through: Sequence[Contact], words: Words) -> Discrepancy:
-    mu_omega = max(c.mu_omega for c in through)
+def _turns(body: Body, through: Sequence[Contact], words: Words) -> Named:
+    mu_omega = 1e3 * max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
-    needed = body.torque / sum(c.exact.normal for c in through if c.exact)
-    turns = f"torsional friction {1e3 * mu_omega:.3g} mm: {body.name} turns about {about}"
-    needs = f"; {1e3 * needed:.3g} mm or more would hold it" if needed else ""
-    sentence = f"{turns}{needs}; in {words.engine}, {_fast(body, True)[2]}"
-    return _finding("turns", body, through, mu_omega, "m", words.spins, sentence)
+    needed = 1e3 * body.torque / sum(c.exact.normal for c in through if c.exact)
+    cause = f"torsional friction {mu_omega:.3g} mm: {body.name} turns about {about}"
+    cause += f"; {needed:.3g} mm or more would hold it" if needed else ""
+    cause += f"; in {words.engine}, {_turning(body)}"
+    return _finding("turns", body, through, words.spins, cause, {"mu_omega_mm": mu_omega})
 
 
-def _moves(body: Body, own: Sequence[Contact], words: Words) -> Discrepancy:
-    speed = body.fastest(body.exact)
-    alone = "its contacts, loads and joints alone let it move"
-    sentence = f"{body.name} rests in {words.engine}; {alone}"
-    return _finding("moves", body, own, speed, "m/s", words.rests, sentence)
+def _turning(body: Body) -> str:
+    return f"{body.name} turns by {np.degrees(body.theirs.turn):.3g} degrees/s"
+
+
+def _moves(body: Body, through: Sequence[Contact], words: Words) -> Named:
+    cause = f"{body.name} rests in {words.engine}; its contacts, loads and joints alone let it move"
+    numbers = {"speed_mm_s": 1e3 * body.fastest(body.exact)}
+    return _finding("moves", body, through, words.rests, cause, numbers)
 
 
 def _penetration(
     between: Sequence[Contact], body: Body, reasons: Mapping[str, str], weight: float, words: Words
-) -> Iterator[Discrepancy]:
+) -> Iterator[Named]:
     """Whether two bodies are pushed apart by more than their loads."""
     depth = max(c.depth for c in between)
     theirs = sum(c.theirs.normal for c in between)
     ours = sum(c.exact.normal for c in between if c.exact)
-    more = theirs - ours
-    pushes = more > FORCES_AGREE * max(theirs, weight)
+    pushes = theirs - ours > FORCES_AGREE * max(theirs, weight)
     if not pushes or (depth <= DEEP and theirs <= PRESSES * ours):
         return
-    other = next(name for name in between[0].bodies if name != body.name)
+    cause = f"and are pushed apart with {theirs:.3g} N where their loads ask for {ours:.3g} N"
     reason = next((reasons[c.name] for c in between if c.name in reasons), "")
-    sentence = (
-        f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, and are pushed apart with "
-        f"{theirs:.3g} N where their loads ask for {ours:.3g} N"
-    ) + (f"; what keeps them there: {reason}" if reason else "")
-    yield _finding("penetrates", body, between, depth, "m", words.apart, sentence)
+    cause += f"; what keeps them there: {reason}" if reason else ""
+    yield _penetrates(between, body, depth, cause, words.apart)
 
 
 def _inside(
     between: Sequence[Contact], body: Body, depth: float, size: float, words: Words
-) -> Discrepancy:
+) -> Named:
     """Two bodies that are so deep in each other that they are not rigid."""
+    cause = f"{depth / size:.0%} of the distance from the middle to the farthest point of the "
+    cause += "smaller one; rigid bodies do not"
+    return _penetrates(between, body, depth, cause, words.stiffer)
+
+
+def _penetrates(
+    between: Sequence[Contact], body: Body, depth: float, cause: str, remedy: str
+) -> Named:
     other = next(name for name in between[0].bodies if name != body.name)
-    share = f"{depth / size:.0%} of the distance from the middle to the farthest point"
-    sentence = (
-        f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, {share} of the smaller one; "
-        "rigid bodies do not"
-    )
-    return _finding("penetrates", body, between, depth, "m", words.stiffer, sentence)
+    cause = f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, {cause}"
+    return _finding("penetrates", body, between, remedy, cause, {"depth_mm": 1e3 * depth})
 
 
-def overlapping(
-    name: str, bodies: tuple[str, str], depth: float, when: str, words: Words
-) -> Discrepancy:
+def overlapping(name: str, bodies: tuple[str, str], depth: float, when: str, words: Words) -> Named:
     """The finding about two bodies that overlap by a depth [m], whatever an engine makes of it."""
     body, other = bodies if bodies[0] != "world" else bodies[::-1]
-    overlap = f"{body} and {other} overlap by {1e3 * depth:.3g} mm {when}"
-    sentence = f"{name}: {overlap} ({words.apart})"
-    return Discrepancy("penetrates", body, (name,), float(depth), "m", words.apart, sentence)
-
-
-def _fast(body: Body, turns: bool) -> tuple[float, str, str]:
-    """The engine's motion of a body, or its turning: a number, its unit, and in words."""
-    motion = body.theirs
-    if turns:
-        words = f"{body.name} turns by {np.degrees(motion.turn):.3g} degrees/s"
-        return motion.turn, "rad/s", words
-    verb = "sinks" if motion.sinks > motion.speed / 2 else "moves"
-    return motion.speed, "m/s", f"{body.name} {verb} by {1e3 * motion.speed:.3g} mm/s"
+    cause = f"{name}: {body} and {other} overlap by {1e3 * depth:.3g} mm {when}"
+    return body, Finding("penetrates", True, words.apart, cause, {"depth_mm": 1e3 * depth})
 
 
 def _finding(
-    kind: str, body: Body, through: Sequence[Contact], number: float, unit: str, remedy: str,
-    sentence: str,
-) -> Discrepancy:  # fmt: skip
-    """A finding whose sentence begins with its contacts, each pair once, and ends with a remedy."""
-    names = tuple(c.name for c in through)
-    pairs = dict.fromkeys(c.pair for c in through)
-    whole = f"{' and '.join(pairs)}: {sentence} ({remedy})"
-    return Discrepancy(kind, body.name, names, float(number), unit, remedy, whole)
+    kind: str, body: Body, through: Sequence[Contact], remedy: str, cause: str,
+    numbers: Mapping[str, float],
+) -> Named:  # fmt: skip
+    """A finding whose cause begins with its contacts, each pair once."""
+    pairs = " and ".join(dict.fromkeys(c.pair for c in through))
+    return body.name, Finding(kind, True, remedy, f"{pairs}: {cause}", numbers)

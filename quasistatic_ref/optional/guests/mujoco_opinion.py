@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 DRAG = "dampers: their forces at the present velocity are loads"
-EDGES = "in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
+EDGES = "; in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
 """It keeps the sum of each pair of opposite edges."""
 
 
@@ -118,18 +118,19 @@ def second_opinion(
 
 def _words(model: MjModel) -> Words:
     above = f"impratio above {model.opt.impratio:g}"
-    slower = f"option: {above}, or noslip_iterations"
+    slower = f"set option {above}, or noslip_iterations"
     if not model.opt.cone:
-        slower = f'option: cone="elliptic" first, then {above} and noslip_iterations; {EDGES}'
+        slower = f'set option cone="elliptic" first, then {above} and noslip_iterations'
     return Words(
         engine="MuJoCo",
-        yields="MuJoCo documents that its friction yields to any force",
+        yields="MuJoCo documents that its friction yields to any force"
+        + ("" if model.opt.cone else EDGES),
         slower=slower,
-        stronger="geom: friction, or what presses the bodies together",
-        spins="geom: condim 4 and the second number of friction",
-        rests="what MuJoCo has and a step has not: rolling friction",
-        stiffer="geom: solref and solimp, or masses that differ less",
-        apart="geom or body: size and pos, or contact/exclude for bodies that may overlap",
+        stronger="raise friction of the geoms, or what presses the bodies together",
+        spins="set condim 4 of the geoms, and the second number of their friction",
+        rests="do without what MuJoCo has and a step has not: rolling friction",
+        stiffer="change solref and solimp of the geoms, or take masses that differ less",
+        apart="change size or pos, or add contact/exclude for bodies that may overlap",
     )
 
 

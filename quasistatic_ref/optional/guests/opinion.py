@@ -12,17 +12,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, Said
-from quasistatic_ref.optional.guests.findings import (
-    Discrepancy,
-    Words,
-    findings,
-    not_unique,
-)
+from quasistatic_ref.optional.guests.findings import Named, Words, findings, not_unique
 from quasistatic_ref.optional.guests.mujoco import Coordinates
+from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 
-FORMAT, VERSION = "quasistatic-ref/opinion", 2
+FORMAT, VERSION = "quasistatic-ref/opinion", 3
 SHOWN = 1e-6
 """Smallest number that is printed, in its unit; a difference, in a thousandth of what differs."""
 SHORT = 0.01
@@ -48,7 +44,7 @@ class Opinion(Plain):
     contacts : tuple of Contact
     bodies : tuple of Body
         Those that touch and can move.
-    findings : tuple of Discrepancy
+    findings : tuple of Finding
     left_out : tuple of str
         What the exact answer does not have, or holds as it is.
     """
@@ -59,13 +55,14 @@ class Opinion(Plain):
     certificate: str
     contacts: tuple[Contact, ...]
     bodies: tuple[Body, ...]
-    findings: tuple[Discrepancy, ...]
+    findings: tuple[Finding, ...]
     left_out: tuple[str, ...]
 
     @property
     def record(self) -> dict[str, Any]:
         """All of it as plain data, of the schema that ``quasistatic-ref schema opinion`` prints."""
-        return {"format": FORMAT, "version": VERSION, **asdict(self)}
+        findings = [finding_table(finding) for finding in self.findings]
+        return {"format": FORMAT, "version": VERSION, **asdict(self), "findings": findings}
 
     def __str__(self) -> str:
         return "\n".join(self._lines())
@@ -88,10 +85,6 @@ class Opinion(Plain):
         yield from (f"- {finding.sentence}" for finding in self.findings)
         if not self.findings:
             yield "no finding" if self.contacts else "no finding: nothing touches"
-        moving = [b.name for b in self.bodies if b.fastest(b.theirs) > self.tolerance]
-        if moving and {*moving} - {finding.body for finding in self.findings}:
-            still = f"in {self.engine}, these still move: {', '.join(moving)}"
-            yield f"{still}; a state at rest says more"
         yield from (f"  {sentence}" for sentence in self.left_out[:MOST_LINES])
         if len(self.left_out) > MOST_LINES:
             yield f"  and {len(self.left_out) - MOST_LINES} more; left_out has all of them"
@@ -130,7 +123,7 @@ def opinion_of(
     words: Words,
     weight: float,
     reasons: Callable[[StepData], Mapping[str, str]],
-    overlaps: Sequence[Discrepancy] = (),
+    overlaps: Sequence[Named] = (),
 ) -> Opinion:
     """The exact answer next to an engine's, and what is found.
 
@@ -148,7 +141,7 @@ def opinion_of(
         Of the whole model [N].
     reasons : callable
         What keeps deep contacts of the step where they are.
-    overlaps : sequence of Discrepancy
+    overlaps : sequence of (str, Finding)
         About bodies in each other that contacts do not tell.
 
     Raises
@@ -170,10 +163,16 @@ def opinion_of(
         both = Compared(said, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    every = (
-        *findings(contacts, bodies, reasons(step), weight, tolerance, words),
-        *overlaps,
-    )
-    left_out = (*not_unique(contacts, bodies, weight, words), *coordinates.left_out)
+    every = [*findings(contacts, bodies, reasons(step), weight, tolerance, words), *overlaps]
+    left_out = [*not_unique(contacts, bodies, weight, words), *coordinates.left_out]
+    moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
+    if {*moving} - {body for body, _ in every}:
+        left_out.insert(
+            0,
+            f"in {words.engine}, these still move: {', '.join(moving)}; a state at rest says more",
+        )
     kind = answer.certificate.kind
-    return Opinion(words.engine, h, tolerance, kind, contacts, bodies, every, left_out)
+    return Opinion(
+        words.engine, h, tolerance, kind, contacts, bodies, tuple(one for _, one in every),
+        tuple(left_out),
+    )  # fmt: skip

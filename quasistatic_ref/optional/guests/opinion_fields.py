@@ -9,7 +9,7 @@ NULL = {"anyOf": [{"$ref": f"#/definitions/{BEARING}"}, {"type": "null"}]}
 TABLES = Tables({
     TOP: {
         "format": Field("text", "what it is", choices=("quasistatic-ref/opinion",)),
-        "version": Field("integer", "of this schema", choices=(2,)),
+        "version": Field("integer", "of this schema", choices=(3,)),
         "engine": Field("text", "whose answer it is about", choices=("MuJoCo", "Drake")),
         "h": Field("number", "time step of the exact answer: the engine's own", "s", above=0),
         "tolerance": Field("number", "speed up to which a contact holds", "m/s", above=0),
@@ -58,14 +58,12 @@ TABLES = Tables({
         "sinks": Field("number", "speed along gravity", "m/s"),
     },
     FINDING: {
-        "kind": Field("text", "what is found",
+        "name": Field("text", "what is found",
                       choices=("creeps", "slides", "turns", "moves", "penetrates")),
-        "body": Field("text", "the body that moves or is pushed"),
-        "contacts": Field("list of words", "its contacts", least=1),
-        "number": Field("number", "speed, share that is borne, torsional friction or depth"),
-        "unit": Field("text", "of the number"),
+        "grave": Field("boolean", "true"),
+        "sentence": Field("text", "the remedy, then the cause"),
         "remedy": Field("text", "the option or element that changes it"),
-        "sentence": Field("text", "all of it in words"),
+        "numbers": Field("table", "what was measured, by names that end in the unit"),
     },
 })  # fmt: skip
 """Fields by the kind of object."""

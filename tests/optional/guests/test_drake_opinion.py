@@ -91,20 +91,20 @@ def test_contacts_of_one_name_have_numbers():
 
 def test_a_block_on_a_slope_slides_by_statics():
     """By tan 15 degrees, 0.27: 0.2 holds 0.2 / 0.27 of the load."""
-    (found,) = opinion_on_block(0.2, mu=0.2, slope=SLOPE).findings
-    assert (found.kind, found.body) == ("slides", "block")
-    assert found.number == pytest.approx(0.2 / np.tan(SLOPE), rel=0.03)
-    assert "coulomb_friction" in found.remedy
+    (finding,) = opinion_on_block(0.2, mu=0.2, slope=SLOPE).findings
+    assert (finding.name, "block slides: " in finding.cause) == ("slides", True)
+    assert finding.numbers == {"share": pytest.approx(0.2 / np.tan(SLOPE), rel=0.03)}
+    assert "coulomb_friction" in finding.remedy
 
 
 def test_drakes_friction_creeps_with_its_stiction_tolerance():
     def soft(drake, plant, body):
         plant.set_stiction_tolerance(0.05)
 
-    (found,) = opinion_on_block(2.0, slope=SLOPE, change=soft).findings
-    assert (found.kind, found.unit) == ("creeps", "m/s")
-    assert found.number == pytest.approx(0.05 * np.tan(SLOPE) / 0.5, rel=0.5)
-    assert "set_stiction_tolerance" in found.remedy
+    (finding,) = opinion_on_block(2.0, slope=SLOPE, change=soft).findings
+    assert finding.name == "creeps"
+    assert finding.numbers == {"slip_mm_s": pytest.approx(50 * np.tan(SLOPE) / 0.5, rel=0.5)}
+    assert "set_stiction_tolerance" in finding.remedy
 
 
 def test_each_thing_that_drake_has_is_said_to_be_used_without_effect_or_refused():

@@ -115,9 +115,9 @@ def test_a_discrete_plant_knows_dynamic_friction_alone():
     opinion = scene.done().opinion(1.0)
     speed = GRAVITY * (np.sin(slope) - 0.2 * np.cos(slope))
     assert scene.plant.GetVelocities(scene.own)[3] == pytest.approx(speed, rel=0.01)
-    (found,) = opinion.findings
-    assert found.kind == "slides"
-    assert found.number == pytest.approx(0.4, rel=0.06)
+    (finding,) = opinion.findings
+    assert finding.name == "slides"
+    assert finding.numbers["share"] == pytest.approx(0.4, rel=0.06)
     assert [contact.mu_v for contact in opinion.contacts] == pytest.approx([0.2] * 4)
 
 
