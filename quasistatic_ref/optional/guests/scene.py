@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import csv
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from io import StringIO
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.errors import InputError, ModelError, ScenarioError, about_file
-from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.errors import InputError, ModelError, ScenarioError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
+from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.guests.settled import numbered
-from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem, Placed
+from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
@@ -31,7 +28,6 @@ from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.target import Targets, piecewise_linear
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
@@ -45,12 +41,6 @@ MARGIN = 0.05
 """Gap up to which MuJoCo looks for contacts, by default [m]."""
 START: dict[str, Any] = {"h": 0.01, "steps": 100}
 FIELDS = ("h", "steps", "cone", "record", "solver", "limits", "margin", "stiffness", "roots")
-
-Drive = Callable[[float], Mapping[str, float]]
-"""Controls of actuators and positions of joints by name, at a time [s]."""
-Controls = Callable[[float], tuple[Array, dict[str, float]]]
-"""Controls of all actuators, shape (nu,), and positions of joints by name, at a time [s]."""
-Driven = Drive | str | Path | Sequence[str] | None
 
 
 class MujocoSimulator(Simulator):
@@ -71,12 +61,12 @@ class MujocoScenario(Scenario):
     ----------
     of_mujoco : MujocoSystem
         Its system.
-    actuation : callable
-        What drives it at a time [s].
+    drive : Drive
+        What drives it.
     """
 
     of_mujoco: MujocoSystem
-    actuation: Callable[[float], Actuation]
+    drive: Drive
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scene; an `extension` of one's own is not taken: InputError."""
@@ -89,7 +79,7 @@ class MujocoScenario(Scenario):
     @property
     def force(self) -> Callable[[float, Array], Array]:
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
-        return lambda t, q: self.of_mujoco.motors(q, self.actuation(t))
+        return self.drive.force
 
     def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
         """Simulate the whole scene; as :meth:`.Scenario.run`."""
@@ -204,7 +194,7 @@ def mujoco_scenario(
         data = mujoco.MjData(model)
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
         if keys:
-            mujoco.mj_resetDataKeyframe(model, data, numbered(mujoco, model, "KEY", keys[0]))
+            mujoco.mj_resetDataKeyframe(model, data, numbered(model, "KEY", keys[0]))
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
     elliptic = bool(model.opt.cone) and any(pair.mu_v for pair in system.places.pairs)
     cone = value(top, TOP, "cone") if named_cone else ELLIPSOID if elliptic else PYRAMID
@@ -218,10 +208,7 @@ def mujoco_scenario(
         note = f'option.cone: elliptic; the run takes "pyramid", since {held} is two rows, which '
         system.notes = (*system.notes, note + "leave the ellipsoid no interior")
     certify = value(solver, SOLVER, "certify")
-    controls, columns = controls_of(mujoco, model, data, steps * h, targets, system)
-    actuation = _driven(system, controls, data.act.copy(), h)
-    idle = [name for name, rows in columns.items() if _is_idle(system, rows, data.act, h)]
-    free = system.q_start[: system.n_q_a]
+    drive = drive_of(system, data, steps * h, targets)
     gravity = (
         np.zeros(3)
         if system.state(system.q_start).disables("GRAVITY")
@@ -237,137 +224,15 @@ def mujoco_scenario(
         pairs=system.places.pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
-        targets=Drawn(free, (), lambda t, q: system.target(q, actuation(t)), tuple(idle)),
+        targets=drive,
         backend=usable_backend(value(solver, SOLVER, "backend"), cone, certify),
         accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
         record=value(top, TOP, "record"),
         cone=cone,
         limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),
-        actuation=actuation,
+        drive=drive,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn(Targets):
-    """q_bar_a as a function of time and of where a step starts.
-
-    Parameters
-    ----------
-    at : callable
-    idle : tuple of str
-        Columns of the table whose numbers change, and no force does.
-    """
-
-    at: Callable[[float, Array], Array]
-    idle: tuple[str, ...] = ()
-
-    def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
-        """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
-        return self.at(t, q)
-
-
-def _driven(
-    system: MujocoSystem, controls: Controls, act: Array, h: float
-) -> Callable[[float], Actuation]:
-    """What drives a scene at a time, from its controls and the activations, (na,), at the start.
-
-    Those at a time are those of a step before and of the control since, so they are kept.
-    """
-    acts = [act]
-
-    def at(t: float) -> Actuation:
-        k = round(t / h)
-        while len(acts) <= k:
-            acts.append(system.activation_after(acts[-1], controls(h * len(acts))[0]))
-        control, positions = controls(t)
-        return Actuation(control, acts[k], positions)
-
-    return at
-
-
-def _is_idle(
-    system: MujocoSystem, rows: Sequence[tuple[Array, dict[str, float]]], act: Array, h: float
-) -> bool:
-    """Whether controls differ, and yet have the same forces where the run starts."""
-    q = system.q_start
-    forces = set()
-    for control, positions in rows:
-        one = Actuation(control, system.activation_after(act, control), positions)
-        forces.add((system.target(q, one).tobytes(), system.motors(q, one).tobytes()))
-    return len(rows) > 1 and len(forces) == 1
-
-
-def controls_of(
-    mujoco: ModuleType,
-    model: MjModel,
-    data: MjData,
-    T: float,
-    targets: Driven,
-    system: MujocoSystem,
-) -> tuple[Controls, dict[str, list[tuple[Array, dict[str, float]]]]]:
-    """Controls, shape (nu,), and positions at a time, from targets over T [s] in any form.
-
-    And of each column of a table, the least and largest of its numbers alone, if they differ.
-
-    Raises
-    ------
-    InputError
-        Naming an actuator, joint or keyframe that is not there, or a joint without stiffness.
-    """
-    actuators = {mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) or str(i): i
-                 for i in range(model.nu)}  # fmt: skip
-    joints = system.driven
-    start = data.ctrl.copy()
-
-    def checked(named: Mapping[str, float]) -> tuple[Array, dict[str, float]]:
-        control = start.copy()
-        positions = {}
-        for name, number in named.items():
-            if not np.isfinite(number):
-                raise InputError("must be a finite number", field=f"targets.{name}", value=number)
-            if name in actuators:
-                control[actuators[name]] = number
-            elif name in joints:
-                positions[name] = float(number)
-            else:
-                known = (*actuators, *joints)
-                problem = f"is no actuator, and no joint with a stiffness{suggestion(name, known)}"
-                raise InputError(problem, field="targets", value=name)
-        return control, positions
-
-    if targets is None:
-        return lambda t: (start, {}), {}
-    if callable(targets):
-        drive = targets
-        checked(drive(0.0))
-        return lambda t: checked(drive(t)), {}
-    if isinstance(targets, str | Path):
-        names, times, values = table_read(Path(targets))
-        for row in values.tolist():
-            checked(dict(zip(names, row, strict=True)))
-        ends = {
-            name: [checked({name: float(end)}) for end in (column.min(), column.max())]
-            for name, column in zip(names, values.T, strict=True)
-            if np.ptp(column)
-        }
-
-        def at(t: float) -> tuple[Array, dict[str, float]]:
-            row = piecewise_linear(times, values, t).tolist()
-            return checked(dict(zip(names, row, strict=True)))
-
-        return at, ends
-    keys = [numbered(mujoco, model, "KEY", name) for name in targets]
-    for name, key in zip(targets, keys, strict=True):
-        poses = (model.key_mpos[[key, keys[0]]], model.key_mquat[[key, keys[0]]])
-        if any((own != first).any() for own, first in poses):
-            problem = (
-                f"moves bodies with mocap away from where {targets[0]} has them, and a run moves "
-                "none; give the moved body joints with servos, or leave this keyframe out"
-            )
-            raise InputError(problem, field=f"keyframe {name}")
-    times = np.linspace(0.0, T, len(keys)) if len(keys) > 1 else np.zeros(1)
-    return lambda t: (piecewise_linear(times, model.key_ctrl[keys], t), {}), {}
 
 
 def words(scene: MujocoScenario) -> str:
@@ -381,35 +246,3 @@ def words(scene: MujocoScenario) -> str:
         f"margin of {1e3 * places.margin:g} mm; {left_out} sentences of what is left out "
         "(system.ignored)"
     )
-
-
-def table_read(path: Path) -> tuple[list[str], Array, Array]:
-    """Names of columns, times (w,) [s] and values (w, columns) of a CSV table.
-
-    Raises
-    ------
-    InputError
-        Naming the file, and the row that is not one.
-    """
-    with about_file(path):
-        rows = list(csv.reader(StringIO(text_of(bytes_read(path), path))))
-        rows = [[entry.strip() for entry in row] for row in rows if row]
-        if len(rows) < 2 or rows[0][0] != "t" or len(rows[0]) < 2:
-            problem = "must begin with a row of names, t and then actuators or joints"
-            raise InputError(problem, field="targets")
-        for number, row in enumerate(rows[1:], start=2):
-            if len(row) != len(rows[0]) or not all(map(_is_number, row)):
-                problem = f"must have {len(rows[0])} numbers"
-                raise InputError(problem, field=f"row {number}", value=",".join(row))
-        numbers = np.array(rows[1:], dtype=np.float64)
-        if not (np.isfinite(numbers).all() and (np.diff(numbers[:, 0]) > 0).all()):
-            raise InputError("must be finite, and times must increase", field="targets")
-        return rows[0][1:], numbers[:, 0], numbers[:, 1:]
-
-
-def _is_number(entry: str) -> bool:
-    try:
-        float(entry)
-    except ValueError:
-        return False
-    return True

@@ -57,11 +57,11 @@ def settled(
     if not 0 <= seconds < np.inf:
         raise InputError("must be zero or more seconds", field="settle", value=seconds)
     if keyframe is not None:
-        mujoco.mj_resetDataKeyframe(model, data, numbered(mujoco, model, "KEY", keyframe))
+        mujoco.mj_resetDataKeyframe(model, data, numbered(model, "KEY", keyframe))
     for name, value in (control or {}).items():
         if not np.isfinite(value):
             raise InputError("must be a finite number", field=f"control.{name}", value=value)
-        data.ctrl[numbered(mujoco, model, "ACTUATOR", name)] = value
+        data.ctrl[numbered(model, "ACTUATOR", name)] = value
     check_finite(data)
     run(model, data, seconds)
     return data
@@ -110,11 +110,11 @@ def _resets(mujoco: ModuleType, data: MjData) -> int:
     return sum(data.warning[getattr(mujoco.mjtWarning, name)].number for name in UNSTABLE)
 
 
-def numbered(mujoco: ModuleType, model: MjModel, kind: str, name: str | int) -> int:
+def numbered(model: MjModel, kind: str, name: str | int) -> int:
     """The number of a keyframe or actuator, by its name or number; InputError if there is none."""
+    element = {"KEY": model.key, "ACTUATOR": model.actuator}[kind]
     count = {"KEY": model.nkey, "ACTUATOR": model.nu}[kind]
-    of = getattr(mujoco.mjtObj, f"mjOBJ_{kind}")
-    names = [mujoco.mj_id2name(model, of, i) or str(i) for i in range(count)]
+    names = [element(i).name or str(i) for i in range(count)]
     if str(name) in names:
         return names.index(str(name))
     if str(name).isdecimal() and int(name) < count:

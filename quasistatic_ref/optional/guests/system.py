@@ -65,17 +65,15 @@ class Actuation(NamedTuple):
 
     Parameters
     ----------
-    control : ndarray, shape (nu,)
-        [the actuators' units].
+    values : ndarray, shape (nu + joints,)
+        Controls, and targets of the joints that have springs towards them [the actuators' units; m,
+        rad].
     act : ndarray, shape (na,)
         Activations [the same].
-    positions : mapping of str to float
-        Targets of joints that have springs of their own [m, rad].
     """
 
-    control: Array
+    values: Array
     act: Array
-    positions: Mapping[str, float]
 
 
 class Velocities(ColumnMap):
@@ -141,6 +139,8 @@ class MujocoSystem(Mechanism):
     springs : tuple of Spring
     driven : dict of str to Spring
         Those towards targets of joints.
+    driven_entries : list of int
+        Where the positions of these joints stand in qpos.
     rises : Rises
         Friction of joints.
 
@@ -170,6 +170,7 @@ class MujocoSystem(Mechanism):
         self.layout = contact_layout(self.places.pairs)
         state.run()
         self.driven = {name: self._driven_spring(name, k) for name, k in stiffnesses.items()}
+        self.driven_entries = [int(self.model.joint(name).qposadr[0]) for name in stiffnesses]
         self.springs = self._springs()
         check_stiff(self.springs)
         of_state = loads(state)
@@ -367,7 +368,7 @@ class MujocoSystem(Mechanism):
         state = self.state(q)
         data = state.data
         before = data.ctrl.copy(), data.act.copy()
-        data.ctrl[:] = actuation.control
+        data.ctrl[:] = actuation.values[: self.model.nu]
         data.act[:] = actuation.act
         state.mujoco.mj_fwdActuation(state.own, data)
         servos = self._servos()
@@ -381,7 +382,7 @@ class MujocoSystem(Mechanism):
         state.mujoco.mj_fwdActuation(state.own, data)
         return force, others
 
-    def activation_after(self, act: Array, control: Array) -> Array:
+    def activation_after(self, act: Array, values: Array) -> Array:
         """Activations a time step later, (na,) [the actuators' units].
 
         A filter is at rest, where its activation is its control; an integrator's advances by h
@@ -391,14 +392,14 @@ class MujocoSystem(Mechanism):
         ----------
         act : ndarray, shape (na,)
             Those before [the same].
-        control : ndarray, shape (nu,)
-            [the actuators' units].
+        values : ndarray, shape (nu + joints,)
+            As of an Actuation.
         """
         model = self.model
         after = act.copy()
         for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
             place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
-            u = control[i]
+            u = values[i]
             if model.actuator_ctrllimited[i]:
                 u = np.clip(u, *model.actuator_ctrlrange[i])
             integrates = kind_of(self._state, "actuator_dyntype", i) == "INTEGRATOR"
@@ -416,11 +417,9 @@ class MujocoSystem(Mechanism):
         actuation : Actuation
         """
         force = self._driven(q, actuation)[0] + self.state(q).data.qfrc_spring
-        qpos = self.qpos(q)
-        for name, spring in self.driven.items():
-            entry = self.model.joint(name).qposadr[0]
-            position = actuation.positions.get(name, self.start.qpos[entry])
-            force += spring.k * (position - qpos[entry]) * spring.m
+        short = actuation.values[self.model.nu :] - self.qpos(q)[self.driven_entries]
+        for spring, length in zip(self.driven.values(), short, strict=True):
+            force += spring.k * length * spring.m
         ahead = np.linalg.solve(self.K_q, (self.T.T @ force)[: self.n_a])
         return self.integrate(q, np.concatenate([ahead, np.zeros(self.n_u)]))[: self.n_q_a]
 

@@ -67,17 +67,3 @@ def test_a_column_that_changes_no_force_is_a_finding(tmp_path):
     assert [one.name for one in found] == ["target without effect"]
     assert "drive another actuator than a" in found[0].remedy
     assert not run(tmp_path, INTEGRATED.format("-1 1", "")).findings
-
-
-@pytest.mark.parametrize("actuator", ["timeconst", "integrator"])
-def test_mujoco_itself_ends_where_the_run_does(actuator, tmp_path):
-    text, _ = SERVOS[actuator]
-    model = mujoco.MjModel.from_xml_string(SLIDER.format(text.replace("/>", ' kv="20"/>')))
-    data = mujoco.MjData(model)
-    model.opt.timestep = 0.01
-    for step in range(5000):
-        data.ctrl[0] = np.interp(0.01 * (step + 1), [0, 0.1], [0, 0.2])
-        if actuator == "integrator" and step >= 60:
-            data.ctrl[0] = 0.0
-        mujoco.mj_step(model, data)
-    assert run(tmp_path, text)["q"][-1, 0] == pytest.approx(data.qpos[0], abs=1e-6)

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
+import quasistatic_ref as qr
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
@@ -190,16 +191,24 @@ def test_equalities_that_contradict_each_other_are_refused_where_a_step_closes_t
         assert moved[0] == pytest.approx(x, rel=1e-12)
 
 
+GEOM = '<geom size=".1"/>'
+TIED = '<body><joint name="j"/><geom size=".1"/></body>'
+
+
 @pytest.mark.parametrize(
-    ("joint", "words"),
+    ("bodies", "words"),
     [
-        ("", "model: has no joint that can move"),
-        ("hinge", "equality: leave no joint that can move"),
+        (GEOM, "model: has no joint that can move"),
+        (f"<body>{GEOM}</body>", "model: has no joint that can move"),
+        (f'<body mocap="true">{GEOM}</body>', "model: has no joint that can move"),
+        (TIED, "equality: leave no joint that can move"),
     ],
 )
-def test_a_model_in_which_nothing_can_move_is_refused(joint, words):
-    body = f'<body><joint name="j" type="{joint}"/><geom size=".1"/></body>' if joint else ""
-    tie = '<equality><joint joint1="j"/></equality>' if joint else ""
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{body}</worldbody>{tie}</mujoco>")
-    with pytest.raises(ModelError, match=words):
-        mujoco_step(model, mujoco.MjData(model), H)
+def test_a_model_in_which_nothing_can_move_is_refused(bodies, words):
+    tie = '<equality><joint joint1="j"/></equality>' if bodies == TIED else ""
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody>{tie}</mujoco>")
+    data = mujoco.MjData(model)
+    for take in (lambda: mujoco_step(model, data, H), lambda: qr.mujoco_scenario(model),
+                 lambda: qr.second_opinion(model, data)):  # fmt: skip
+        with pytest.raises(ModelError, match=words):
+            take()

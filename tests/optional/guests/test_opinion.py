@@ -71,21 +71,6 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
     assert weak.bears == pytest.approx(2 * 0.8 * 1000 * 0.0009, rel=0.01)
 
 
-def test_mujoco_creeps_as_its_documentation_says():
-    """Slips are f R / b along each tangent of an elliptic contact, R with impratio in it."""
-    model = mujoco.MjModel.from_xml_string(SCENES["capsule.xml"])
-    data = settled(model, 2, "grip")
-    mujoco.mj_forward(model, data)
-    force = np.zeros(6)
-    for i, touch in enumerate(data.contact):
-        mujoco.mj_contactForce(model, data, i, force)
-        for k in (1, 2):
-            row = touch.efc_address + k
-            b = data.efc_KBIP.reshape(-1, 4)[row, 1]
-            yields = -force[k] * data.efc_R[row] / b
-            assert data.efc_vel[row] == pytest.approx(yields, abs=1e-6)
-
-
 def test_options_that_are_named_end_the_creep(opinions):
     assert [one.name for one in opinions["capsule"].findings] == ["creeps"]
     slower = SCENES["capsule.xml"].replace('impratio="1"', NOSLIP)

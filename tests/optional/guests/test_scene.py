@@ -213,10 +213,10 @@ def test_what_no_run_has_is_refused_before_the_first_step(body, rest, field):
     ("table", "says"),
     [
         ("time,up\n0,1\n", "begin with a row"),
-        ("t,up\n0,1,2\n", "row 2"),
+        ("t,up\n0,1,2\n", "rows of 2 numbers"),
         ("t,up\n0,1\n0,2\n", "increase"),
         ("t,lift\n0,1\n", "no actuator"),
-        ("t,up\n0,x\n", "row 2"),
+        ("t,up\n0,x\n", "rows of 2 numbers below the names: could not convert string"),
     ],
 )
 def test_a_table_that_is_none_is_refused(table, says, tmp_path):

@@ -68,13 +68,9 @@ def test_what_keeps_a_body_in_another_is_said(made, reason):
         mujoco.mj_forward(model, data)
     depth = -1e3 * data.contact.dist[0]
     assert depth > 1
-    said = " ".join(mujoco_step(model, data, H)[1].left_out)
-    assert f"contact[0: floor/ball]: its bodies penetrate by {depth:.3g} mm" in said
-    assert said.partition("what keeps them there: ")[2].startswith(reason)
-
-
-def test_a_depth_of_less_than_a_millimetre_is_not_mentioned():
-    assert mujoco_step(*ball(FREE, 0.99e-3), H)[1].left_out == ()
+    notes = " ".join(mujoco_step(model, data, H)[1].left_out)
+    assert f"contact[0: floor/ball]: its bodies penetrate by {depth:.3g} mm" in notes
+    assert notes.partition("what keeps them there: ")[2].startswith(reason)
 
 
 @pytest.mark.parametrize("condim", [1, 3])

@@ -1,0 +1,167 @@
+"""What drives a MuJoCo scene: controls, activations and targets of joints as functions of time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError, about_file
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.optional.guests.settled import numbered
+from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem
+from quasistatic_ref.simulate.target import Targets, piecewise_linear
+from quasistatic_ref.step.arrays import Array
+
+if TYPE_CHECKING:
+    from mujoco import MjData
+
+Driven = Callable[[float], Mapping[str, float]] | str | Path | Sequence[str] | None
+"""A function of time [s], a table, names of keyframes, or nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drive(Targets):
+    """q_bar_a, and the forces of motors, as functions of time and of where a step starts.
+
+    Parameters
+    ----------
+    system : MujocoSystem
+    values : callable
+        Controls, and targets of joints, at a time [s], shape (nu + joints,).
+    acts : list of ndarray, shape (na,)
+        Activations at the start and at the end of each step so far: each is that of the step before
+        and of the control since [the actuators' units].
+    idle : tuple of str
+        Columns of the table whose numbers change, and no force does.
+    """
+
+    system: MujocoSystem
+    values: Callable[[float], Array]
+    acts: list[Array]
+    idle: tuple[str, ...] = ()
+
+    def actuation(self, t: float) -> Actuation:
+        """What drives the scene at a time [s]."""
+        h = self.system.h
+        k = round(t / h)
+        while len(self.acts) <= k:
+            values = self.values(h * len(self.acts))
+            self.acts.append(self.system.activation_after(self.acts[-1], values))
+        return Actuation(self.values(t), self.acts[k])
+
+    def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
+        """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
+        return self.system.target(q, self.actuation(t))
+
+    def force(self, t: float, q: Array) -> Array:
+        """The force of motors at time t [s] and q, shape (n_v,) [N, N m]."""
+        return self.system.motors(q, self.actuation(t))
+
+
+def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> Drive:
+    """What drives a scene from a state, from targets over T [s] in any form.
+
+    Raises
+    ------
+    InputError
+        Naming an actuator, joint or keyframe that is not there, or a joint without stiffness.
+    """
+    model = system.model
+    start = np.concatenate([data.ctrl, system.start.qpos[system.driven_entries]])
+    names = [model.actuator(i).name or str(i) for i in range(model.nu)]
+    places = {name: i for i, name in reversed([*enumerate([*names, *system.driven])])}
+
+    def row(named: Mapping[str, float]) -> Array:
+        values = start.copy()
+        for name, number in named.items():
+            if not np.isfinite(number):
+                raise InputError("must be a finite number", field=f"targets.{name}", value=number)
+            if name not in places:
+                problem = "is no actuator, and no joint with a stiffness"
+                problem += suggestion(name, tuple(places))
+                raise InputError(problem, field="targets", value=name)
+            values[places[name]] = number
+        return values
+
+    values: Callable[[float], Array] = lambda t: start  # noqa: E731 one of four
+    idle: tuple[str, ...] = ()
+    if callable(targets):
+        function = targets
+        row(function(0.0))
+        values = lambda t: row(function(t))  # noqa: E731
+    elif isinstance(targets, str | Path):
+        with about_file(Path(targets)):
+            columns, times, table = table_read(Path(targets))
+            rows = [row(dict(zip(columns, numbers, strict=True))) for numbers in table.tolist()]
+            values = partial(piecewise_linear, times, np.array(rows))
+            ends = {
+                name: [row({name: end}) for end in {column.min(), column.max()}]
+                for name, column in zip(columns, table.T, strict=True)
+            }
+        idle = tuple(name for name, rows in ends.items() if _is_idle(system, rows, data.act))
+    elif targets is not None:
+        values = _of_keyframes(system, start, T, targets)
+    q_a = system.q_start[: system.n_q_a]
+    return Drive(q_a, (), system, values, [data.act.copy()], idle)
+
+
+def _of_keyframes(
+    system: MujocoSystem, start: Array, T: float, targets: Sequence[str]
+) -> Callable[[float], Array]:
+    """The controls of keyframes in turn, with the same time [s] between each two."""
+    model = system.model
+    keys = [numbered(model, "KEY", name) for name in targets]
+    for name, key in zip(targets, keys, strict=True):
+        poses = (model.key_mpos[[key, keys[0]]], model.key_mquat[[key, keys[0]]])
+        if any((pose != first).any() for pose, first in poses):
+            problem = (
+                f"moves bodies with mocap away from where {targets[0]} has them, and a run moves "
+                "none; give the moved body joints with servos, or leave this keyframe out"
+            )
+            raise InputError(problem, field=f"keyframe {name}")
+    rows = np.tile(start, (len(keys), 1))
+    rows[:, : model.nu] = model.key_ctrl[keys]
+    times = np.linspace(0.0, T, len(keys)) if len(keys) > 1 else np.zeros(1)
+    return partial(piecewise_linear, times, rows)
+
+
+def _is_idle(system: MujocoSystem, rows: Sequence[Array], act: Array) -> bool:
+    """Whether controls differ, and yet have the same forces where the run starts."""
+    forces = set()
+    for values in rows:
+        one = Actuation(values, system.activation_after(act, values))
+        q = system.q_start
+        forces.add((system.target(q, one).tobytes(), system.motors(q, one).tobytes()))
+    return len(rows) > 1 and len(forces) == 1
+
+
+def table_read(path: Path) -> tuple[list[str], Array, Array]:
+    """Names of columns, times (w,) [s] and values (w, columns) of a CSV table.
+
+    Raises
+    ------
+    InputError
+        Naming the row that is not one.
+    """
+    first, _, rest = text_of(bytes_read(path), path).partition("\n")
+    names = [name.strip() for name in first.split(",")]
+    if names[0] != "t" or len(names) < 2 or not rest.strip():
+        problem = "must begin with a row of names, t and then actuators or joints"
+        raise InputError(problem, field="targets")
+    try:
+        numbers = np.loadtxt(StringIO(rest), delimiter=",", ndmin=2)
+    except ValueError as error:
+        problem = f"must be rows of {len(names)} numbers below the names: {error}"
+        raise InputError(problem, field="targets") from None
+    if numbers.shape[1] != len(names):
+        raise InputError(f"must be rows of {len(names)} numbers", field="targets", value=rest)
+    if not (np.isfinite(numbers).all() and (np.diff(numbers[:, 0]) > 0).all()):
+        raise InputError("must be finite, and times must increase", field="targets")
+    return names[1:], numbers[:, 0], numbers[:, 1:]
