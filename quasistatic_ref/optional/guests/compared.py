@@ -112,7 +112,7 @@ class Body:
         since contacts come and go.
     free : bool
         Whether nothing but its contacts holds it.
-    asked : float
+    needed : float
         The friction that balances loads and normal forces [N]; that of the exact answer where
         joints take part.
     bears : float
@@ -130,7 +130,7 @@ class Body:
     rests: bool
     steady: bool
     free: bool
-    asked: float
+    needed: float
     bears: float
     torque: float
     balanced: bool
@@ -207,7 +207,7 @@ class Mover(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Said:
+class EngineState:
     """What an engine says of a state.
 
     Parameters
@@ -240,7 +240,7 @@ class Compared:
 
     Parameters
     ----------
-    said : Said
+    state : EngineState
     answer : StepSolution
         The exact answer whose forces count.
     acceleration : ndarray, shape (nv,)
@@ -249,7 +249,7 @@ class Compared:
         The velocity of the exact step [m/s, rad/s].
     """
 
-    said: Said
+    state: EngineState
     answer: StepSolution
     acceleration: Array
     exact: Array
@@ -265,19 +265,20 @@ class Compared:
     @cached_property
     def present(self) -> Array:
         """The engine's velocity, (nv,): of the state where that is steady, else the mean."""
-        said = self.said
-        names = {name for touch in said.touches for name in touch.bodies}
-        movers = [mover for mover in said.movers if mover.name in names]
+        state = self.state
+        names = {name for touch in state.touches for name in touch.bodies}
+        movers = [mover for mover in state.movers if mover.name in names]
         steady = all(
-            WINDOW * mover.fastest(said.acceleration) <= max(CREEP, STEADY * mover.fastest(said.v))
+            WINDOW * mover.fastest(state.acceleration)
+            <= max(CREEP, STEADY * mover.fastest(state.v))
             for mover in movers
         )
-        return said.v if steady else said.mean
+        return state.v if steady else state.mean
 
     def contacts(self) -> Iterator[Contact]:
         """All contacts that the engine has."""
         number = {name: j for j, name in enumerate(self.answer.step.contacts.name)}
-        for touch in self.said.touches:
+        for touch in self.state.touches:
             mine = [number[name] for name in touch.of_step if name in number]
             yield Contact(
                 touch.name, touch.bodies, touch.depth, touch.mu_v, touch.mu_omega, touch.pair,
@@ -287,11 +288,11 @@ class Compared:
 
     def bodies(self) -> Iterator[Body]:
         """All bodies that touch and can move."""
-        of_step = {name: touch.bodies for touch in self.said.touches for name in touch.of_step}
-        moved = {name for touch in self.said.touches for name in touch.bodies}
+        of_step = {name: touch.bodies for touch in self.state.touches for name in touch.of_step}
+        moved = {name for touch in self.state.touches for name in touch.bodies}
         contacts = self.answer.step.contacts
         rubs = np.einsum("jt,tjc->jc", self.forces[:, :2], np.array([contacts.d1, contacts.d2]))
-        for mover in self.said.movers:
+        for mover in self.state.movers:
             if mover.name not in moved:
                 continue
             friction = np.zeros(3)
@@ -303,41 +304,39 @@ class Compared:
             yield self._body(mover, friction, bears)
 
     def _body(self, mover: Mover, friction: Array, bears: float) -> Body:
-        said, linear, angular = self.said, mover.linear, mover.angular
+        state, linear, angular = self.state, mover.linear, mover.angular
         # A free body's: mass times acceleration is the sum of loads, normal forces and friction.
-        asked = mover.mass * linear @ self.acceleration - friction if mover.free else friction
-        own_motion = np.where(
-            (linear != 0).any(axis=0) | (angular != 0).any(axis=0), self.acceleration, 0
-        )
+        needed = mover.mass * linear @ self.acceleration - friction if mover.free else friction
+        a = np.where((linear != 0).any(axis=0) | (angular != 0).any(axis=0), self.acceleration, 0)
         turn = float(np.linalg.norm(angular @ self.acceleration))
 
-        fastest = mover.fastest(said.mean)
-        changes = [said.later - said.mean, WINDOW * said.acceleration]
+        fastest = mover.fastest(state.mean)
+        changes = [state.later - state.mean, WINDOW * state.acceleration]
         return Body(
             name=mover.name,
             size=mover.size,
-            rests=mover.fastest(said.v) <= CREEP,
+            rests=mover.fastest(state.v) <= CREEP,
             steady=min(map(mover.fastest, changes)) <= max(CREEP, STEADY * fastest),
             free=mover.free,
-            asked=float(np.linalg.norm(asked)),
+            needed=float(np.linalg.norm(needed)),
             bears=bears,
             # Of a rotation about a line, a'Ma is the moment of inertia times the rate squared.
-            torque=float(own_motion @ said.M @ own_motion / turn) if mover.free and turn else 0.0,
+            torque=float(a @ state.M @ a / turn) if mover.free and turn else 0.0,
             balanced=self._balanced(mover),
-            theirs=self._motion(linear @ said.mean, angular @ said.mean),
+            theirs=self._motion(linear @ state.mean, angular @ state.mean),
             exact=self._motion(linear @ self.exact, angular @ self.exact),
         )
 
     def _balanced(self, mover: Mover) -> bool:
         """Whether what accelerates a body is no more than FORCES_AGREE of the forces on it."""
-        said = self.said
-        forces = [t.wrench[2] for t in said.touches if mover.name in t.bodies]
-        weight = mover.mass * float(np.linalg.norm(said.gravity))
-        left = mover.mass * float(np.linalg.norm(mover.linear @ said.acceleration))
+        state = self.state
+        forces = [t.wrench[2] for t in state.touches if mover.name in t.bodies]
+        weight = mover.mass * float(np.linalg.norm(state.gravity))
+        left = mover.mass * float(np.linalg.norm(mover.linear @ state.acceleration))
         return left <= FORCES_AGREE * max(weight, float(np.abs(forces).sum()))
 
     def _motion(self, v: Array, omega: Array) -> Motion:
-        down = self.said.gravity / (np.linalg.norm(self.said.gravity) or 1.0)
+        down = self.state.gravity / (np.linalg.norm(self.state.gravity) or 1.0)
         return Motion(float(np.linalg.norm(v)), float(np.linalg.norm(omega)), float(v @ down))
 
     def _together(self, touch: Touch, mine: list[int]) -> Bearing:

@@ -139,40 +139,40 @@ def drake_step(
         problem = "must be a positive speed [m/s]"
         raise InputError(problem, field="stiction_tolerance", value=stiction_tolerance)
     check(plant)
-    own = at_rest(plant, context)
+    still = at_rest(plant, context)
     joints = {
         scoped(plant, joint): joint for joint in map(plant.get_joint, plant.GetJointIndices())
     }
-    K, of_springs = springs(drake, plant, own, named(joints), stiffness, targets or {})
-    moving = [j for j in joints.values() if j.num_velocities() and not j.is_locked(own)]
+    K, of_springs = springs(drake, plant, still, named(joints), stiffness, targets or {})
+    moving = [j for j in joints.values() if j.num_velocities() and not j.is_locked(still)]
     free = np.sort([j.velocity_start() + i for j in moving for i in range(j.num_velocities())])
     dofs = np.concatenate([free[K[free] > 0], free[K[free] == 0]])
     n_a = int((K[dofs] > 0).sum())
     T = np.eye(plant.num_velocities())[:, dofs]
-    M = plant.CalcMassMatrix(own)[np.ix_(dofs[n_a:], dofs[n_a:])]
-    tau = (loads(drake, plant, context, own) - passive(drake, plant, own))[dofs]
+    M = plant.CalcMassMatrix(still)[np.ix_(dofs[n_a:], dofs[n_a:])]
+    tau = (loads(drake, plant, context, still) - passive(drake, plant, still))[dofs]
     K_q = np.diag(K[dofs[:n_a]])
-    every = drake_contacts(drake, plant, context, own, margin, stiction_tolerance)
-    found = [contact for contact in every if (contact.J @ T).any()]
+    every = drake_contacts(drake, plant, context, still, margin, stiction_tolerance)
+    touching = [contact for contact in every if (contact.J @ T).any()]
     closed = depth == "closed"
-    extra = limits(plant, own, joints, dofs, closed)
-    of_contacts = contacts(found, T, closed)
+    extra = limits(plant, still, joints, dofs, closed)
+    of_contacts = contacts(touching, T, closed)
     step = step_from(h, K_q, M, tau, of_springs[dofs], contacts=of_contacts, extra=extra)
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
     v = plant.GetVelocities(context)
-    left_out = (*velocity_words(v), *words(plant, found))
+    left_out = (*velocity_words(v), *words(plant, touching))
     g = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
-    slides = max((contact.slides(v) for contact in found), default=0.0)
+    slides = max((contact.slides(v) for contact in touching), default=0.0)
     number = slides / (g * h) if slides and g else np.inf if slides else 0.0
     return step, Coordinates(names, dofs, T, left_out, number)
 
 
 def at_rest(plant: MultibodyPlant, context: Context) -> Context:
     """A context of the plant's alone, without velocity."""
-    own = plant.CreateDefaultContext()
-    own.SetTimeStateAndParametersFrom(context)
-    plant.SetVelocities(own, np.zeros(plant.num_velocities()))
-    return own
+    still = plant.CreateDefaultContext()
+    still.SetTimeStateAndParametersFrom(context)
+    plant.SetVelocities(still, np.zeros(plant.num_velocities()))
+    return still
 
 
 def scoped(plant: MultibodyPlant, joint: Joint) -> str:
@@ -182,8 +182,8 @@ def scoped(plant: MultibodyPlant, joint: Joint) -> str:
 
 def named(joints: Mapping[str, Joint]) -> dict[str, Joint]:
     """Joints by their scoped names, and by their own where these are unique."""
-    own = [joint.name() for joint in joints.values()]
-    return {**joints, **{j.name(): j for j in joints.values() if own.count(j.name()) == 1}}
+    names = [joint.name() for joint in joints.values()]
+    return {**joints, **{j.name(): j for j in joints.values() if names.count(j.name()) == 1}}
 
 
 def check(plant: MultibodyPlant) -> None:
@@ -197,7 +197,7 @@ def check(plant: MultibodyPlant) -> None:
 
 
 def springs(
-    drake: ModuleType, plant: MultibodyPlant, own: Context, joints: Mapping[str, Joint],
+    drake: ModuleType, plant: MultibodyPlant, still: Context, joints: Mapping[str, Joint],
     stiffness: Mapping[str, float], targets: Mapping[str, float],
 ) -> tuple[Array, Array]:  # fmt: skip
     """Stiffness and force of the springs of each velocity, (nv,) each [N/m, N m/rad; N, N m].
@@ -220,13 +220,13 @@ def springs(
         if not k > 0:
             raise ModelError("must be greater than 0", field=f"stiffness[{name}]", value=k)
         v = joints[name].velocity_start()
-        here = joints[name].GetOnePosition(own)
+        here = joints[name].GetOnePosition(still)
         K[v] += k
         force[v] += k * (targets.get(name, here) - here)
     for element in elements(drake, plant, SPRINGS):
         v = element.joint().velocity_start()
         K[v] += element.stiffness()
-        force[v] += passive_force(element, own)
+        force[v] += passive_force(element, still)
     return K, force
 
 
@@ -243,27 +243,27 @@ def elements(
             yield element
 
 
-def passive_force(spring: ForceElement, own: Context) -> float:
+def passive_force(spring: ForceElement, still: Context) -> float:
     """The force of a spring of a joint [N, N m]."""
     kind = "angle" if type(spring).__name__ == SPRINGS[0] else "position"
     nominal = float(getattr(spring, f"nominal_{kind}")())
-    return float(spring.stiffness()) * (nominal - float(spring.joint().GetOnePosition(own)))
+    return float(spring.stiffness()) * (nominal - float(spring.joint().GetOnePosition(still)))
 
 
-def passive(drake: ModuleType, plant: MultibodyPlant, own: Context) -> Array:
+def passive(drake: ModuleType, plant: MultibodyPlant, still: Context) -> Array:
     """Forces of the springs that are force elements, (nv,) [N, N m]."""
     force = np.zeros(plant.num_velocities())
     for element in elements(drake, plant, SPRINGS):
-        force[element.joint().velocity_start()] += passive_force(element, own)
+        force[element.joint().velocity_start()] += passive_force(element, still)
     return force
 
 
-def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context) -> Array:
+def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context) -> Array:
     """All forces of elements and inputs at rest, (nv,) [N, N m]; ModelError for spatial ones."""
     forces = drake.MultibodyForces(plant)
-    plant.CalcForceElementsContribution(own, forces)
+    plant.CalcForceElementsContribution(still, forces)
     rest = np.zeros(plant.num_velocities())
-    tau: Array = -plant.CalcInverseDynamics(own, rest, forces)
+    tau: Array = -plant.CalcInverseDynamics(still, rest, forces)
     port = plant.get_actuation_input_port()
     if port.HasValue(context):
         tau = tau + plant.MakeActuationMatrix() @ port.Eval(context)
@@ -277,13 +277,13 @@ def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, own: Conte
 
 
 def limits(
-    plant: MultibodyPlant, own: Context, joints: Mapping[str, Joint], dofs: Array, closed: bool
+    plant: MultibodyPlant, still: Context, joints: Mapping[str, Joint], dofs: Array, closed: bool
 ) -> Extra:
     """Limits of joints as rows.
 
     Parameters
     ----------
-    plant, own : object
+    plant, still : object
         Drake's.
     joints : mapping of str to object
     dofs : ndarray of int, shape (n_v,)
@@ -307,7 +307,7 @@ def limits(
             raise ModelError("has limits of several coordinates", field=f"joint[{name}]")
         if joint.velocity_start() not in places:
             continue
-        here = joint.GetOnePosition(own)
+        here = joint.GetOnePosition(still)
         for end, sign in zip(ends, (1.0, -1.0), strict=True):
             if np.isfinite(end[0]):
                 names.append(f"limit of joint[{name}] ({len(names)})")
@@ -317,9 +317,9 @@ def limits(
     return Extra(tuple(names), np.array(A).reshape(-1, len(dofs)), np.array(b))
 
 
-def words(plant: MultibodyPlant, found: list[Contact]) -> Iterator[str]:
+def words(plant: MultibodyPlant, touching: list[Contact]) -> Iterator[str]:
     """What a step leaves out."""
-    yield from contact_words(found)
+    yield from contact_words(touching)
     for index in plant.GetJointActuatorIndices():
         actuator = plant.get_joint_actuator(index)
         if actuator.has_controller():

@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.guests.compared import WINDOW, Mover, Said, Touch
+from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.drake import MARGIN, at_rest, drake_step
 from quasistatic_ref.optional.guests.drake_pairs import (
     STICTION,
@@ -115,24 +115,24 @@ def drake_opinion(
     h = float(plant.time_step()) or CONTINUOUS
     step_of(h)  # refuses what no step can say
     of_plant = plant.GetMyContextFromRoot(context)
-    own = at_rest(plant, of_plant)
+    still = at_rest(plant, of_plant)
     copied = context.Clone()  # it must outlive the plant's context in it
     evaluated = after_step(plant, copied)
-    contacts = drake_contacts(drake, plant, of_plant, own, margin, stiction_tolerance)
+    contacts = drake_contacts(drake, plant, of_plant, still, margin, stiction_tolerance)
     mean, later = velocities(drake, diagram, plant, context)
     gravity = np.array(plant.gravity_field().gravity_vector())
-    said = Said(
-        touches=tuple(touches(drake, plant, evaluated, own, contacts)),
-        movers=tuple(movers(drake, plant, of_plant, own)),
-        M=plant.CalcMassMatrix(own),
+    state = EngineState(
+        touches=tuple(touches(drake, plant, evaluated, still, contacts)),
+        movers=tuple(movers(drake, plant, of_plant, still)),
+        M=plant.CalcMassMatrix(still),
         gravity=gravity,
         v=plant.GetVelocities(of_plant),
         acceleration=plant.get_generalized_acceleration_output_port().Eval(evaluated),
         mean=mean,
         later=later,
     )
-    weight = float(plant.CalcTotalMass(own) * np.linalg.norm(gravity))
-    return opinion_of(said, step_of, h, tolerance, words(drake, plant), weight, lambda step: {})
+    weight = float(plant.CalcTotalMass(still) * np.linalg.norm(gravity))
+    return opinion_of(state, step_of, h, tolerance, words(drake, plant), weight, lambda step: {})
 
 
 def words(drake: ModuleType, plant: MultibodyPlant) -> Words:
@@ -207,21 +207,21 @@ def after_step(plant: MultibodyPlant, root: Context) -> Context:
 
 def forces(results: ContactResults) -> dict[tuple[GeometryId, GeometryId], tuple[Array, Array]]:
     """The force on the second of two geometries, (3,) [N], and where it acts, (3,) [m]."""
-    found = {}
+    by_pair = {}
     for i in range(results.num_point_pair_contacts()):
         info = results.point_pair_contact_info(i)
         A, B = info.point_pair().id_A, info.point_pair().id_B
-        found[A, B] = np.asarray(info.contact_force()), np.asarray(info.contact_point())
+        by_pair[A, B] = np.asarray(info.contact_force()), np.asarray(info.contact_point())
     for i in range(results.num_hydroelastic_contacts()):
         of_surface = results.hydroelastic_contact_info(i)
         surface = of_surface.contact_surface()
         on_first = np.asarray(of_surface.F_Ac_W().translational())
-        found[surface.id_M(), surface.id_N()] = -on_first, np.asarray(surface.centroid())
-    return found
+        by_pair[surface.id_M(), surface.id_N()] = -on_first, np.asarray(surface.centroid())
+    return by_pair
 
 
 def touches(
-    drake: ModuleType, plant: MultibodyPlant, evaluated: Context, own: Context,
+    drake: ModuleType, plant: MultibodyPlant, evaluated: Context, still: Context,
     contacts: list[Contact],
 ) -> Iterator[Touch]:  # fmt: skip
     """Pairs of geometries that are closed, or that Drake presses on each other.
@@ -229,8 +229,8 @@ def touches(
     Parameters
     ----------
     drake : module
-    plant, evaluated, own : object
-        Drake's; `evaluated` has the outputs of the state, `own` its configuration.
+    plant, evaluated, still : object
+        Drake's; `evaluated` has the outputs of the state, `still` its configuration.
     contacts : list of Contact
     """
     known = forces(plant.get_contact_results_output_port().Eval(evaluated))
@@ -249,8 +249,8 @@ def touches(
         frames = np.array(tangents(np.array([one.n for one in closed]))).transpose(1, 0, 2)
         J = np.array([one.J for one in closed])
         if at is not None:  # its slip is that where its force acts
-            own_J = jacobian(drake, plant, own, list(nearest.bodies), (at, at), nearest.n)
-            J = np.concatenate([own_J[None], J])
+            J_at_force = jacobian(drake, plant, still, list(nearest.bodies), (at, at), nearest.n)
+            J = np.concatenate([J_at_force[None], J])
             frames = np.concatenate(
                 [np.array(tangents(nearest.n[None])).transpose(1, 0, 2), frames]
             )
@@ -280,12 +280,12 @@ def called(plant: MultibodyPlant, body: RigidBody) -> str:
 
 
 def movers(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context
+    drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context
 ) -> Iterator[Mover]:
     """The bodies that can move, each with all that is welded to it."""
     inspector = plant.get_geometry_query_input_port().Eval(context).inspector()
     world = plant.world_frame()
-    M = plant.CalcMassMatrix(own)
+    M = plant.CalcMassMatrix(still)
     seen = {"world"}
     for i in range(plant.num_bodies()):
         body = plant.get_body(drake.BodyIndex(i))
@@ -294,15 +294,15 @@ def movers(
             continue
         seen.add(name)
         group = plant.GetBodiesWeldedTo(body)
-        masses = np.array([one.get_mass(own) for one in group])
-        places = [plant.EvalBodyPoseInWorld(own, one) for one in group]
+        masses = np.array([one.get_mass(still) for one in group])
+        places = [plant.EvalBodyPoseInWorld(still, one) for one in group]
         centres = np.array([
-            X @ one.CalcCenterOfMassInBodyFrame(own) for X, one in zip(places, group, strict=True)
+            X @ one.CalcCenterOfMassInBodyFrame(still) for X, one in zip(places, group, strict=True)
         ])  # fmt: skip
         centre = masses @ centres / masses.sum() if masses.sum() else centres[0]
-        at = plant.EvalBodyPoseInWorld(own, body).inverse() @ centre
+        at = plant.EvalBodyPoseInWorld(still, body).inverse() @ centre
         J = plant.CalcJacobianSpatialVelocity(
-            own, drake.JacobianWrtVariable.kV, body.body_frame(), at, world, world
+            still, drake.JacobianWrtVariable.kV, body.body_frame(), at, world, world
         )
         moves = J.any(axis=0)
         floats = any(one.is_floating_base_body() for one in group)

@@ -98,7 +98,7 @@ def slip_rate(J: Array, n: Array, v: Array) -> float:
 
 
 def drake_contacts(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, own: Context, margin: float,
+    drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context, margin: float,
     stiction_tolerance: float = STICTION,
 ) -> list[Contact]:  # fmt: skip
     """All contacts of geometries that are nearer than the margin [m], pair by pair.
@@ -106,8 +106,8 @@ def drake_contacts(
     Parameters
     ----------
     drake : module
-    plant, context, own : object
-        Drake's; `own` has the same configuration, at rest.
+    plant, context, still : object
+        Drake's; `still` has the same configuration, at rest.
     margin : float
         [m].
     stiction_tolerance : float
@@ -132,7 +132,7 @@ def drake_contacts(
     ]
     number = {i.get_value(): link for link, i in enumerate(ids)}
     v = plant.GetVelocities(context)
-    found = []
+    every = []
     for A, B in sorted(
         sorted(number[i.get_value()] for i in two) for two in inspector.GetCollisionCandidates()
     ):
@@ -148,28 +148,30 @@ def drake_contacts(
         size = min(shapes[link].shape.extent for link in (A, B))
         flat = (points.phi.min() <= 0) & (points.phi <= LIES_FLAT * size)
         for k in kept.tolist():
-            J = jacobian(drake, plant, own, bodies, (points.alpha[k], points.beta[k]), points.n[k])
+            J = jacobian(
+                drake, plant, still, bodies, (points.alpha[k], points.beta[k]), points.n[k]
+            )
             slip = slip_rate(J, points.n[k], v)
             mu_v = friction(*rubs, slip, bool(plant.time_step()), stiction_tolerance)
-            own_name = name if len(kept) == 1 else f"{name}/{points.point[k]}"
-            found.append(
-                Contact(own_name, name, (ids[B], ids[A]), (bodies[0], bodies[1]),
+            name_of_contact = name if len(kept) == 1 else f"{name}/{points.point[k]}"
+            every.append(
+                Contact(name_of_contact, name, (ids[B], ids[A]), (bodies[0], bodies[1]),
                         float(points.phi[k]), points.n[k], J, mu_v, bool(flat[k]))
             )  # fmt: skip
-    return numbered(found)
+    return numbered(every)
 
 
-def numbered(found: list[Contact]) -> list[Contact]:
+def numbered(every: list[Contact]) -> list[Contact]:
     """The contacts, with a number before the names of pairs that another pair has, too."""
-    geometries = list(dict.fromkeys(contact.geometries for contact in found))
-    pairs = {contact.geometries: contact.pair for contact in found}
+    geometries = list(dict.fromkeys(contact.geometries for contact in every))
+    pairs = {contact.geometries: contact.pair for contact in every}
     names = list(pairs.values())
 
-    def own(contact: Contact, name: str) -> str:
+    def unique(contact: Contact, name: str) -> str:
         alone = names.count(contact.pair) == 1
         return name if alone else f"{geometries.index(contact.geometries)}: {name}"
 
-    return [one._replace(name=own(one, one.name), pair=own(one, one.pair)) for one in found]
+    return [one._replace(name=unique(one, one.name), pair=unique(one, one.pair)) for one in every]
 
 
 def shape_of(inspector: SceneGraphInspector, geometry: GeometryId) -> Shape:
@@ -228,7 +230,7 @@ def places_of(
 
 
 def jacobian(
-    drake: ModuleType, plant: MultibodyPlant, own: Context, bodies: list[RigidBody],
+    drake: ModuleType, plant: MultibodyPlant, still: Context, bodies: list[RigidBody],
     points: tuple[Array, Array], n: Array,
 ) -> Array:  # fmt: skip
     """J of Eq. :eq:`eq-3` along Drake's velocities, shape (4, nv), world frame.
@@ -238,9 +240,9 @@ def jacobian(
     world = plant.world_frame()
     relative = np.zeros((6, plant.num_velocities()))
     for body, point, side in zip(bodies, points, (-1.0, 1.0), strict=True):
-        on_body = plant.EvalBodyPoseInWorld(own, body).inverse() @ point
+        on_body = plant.EvalBodyPoseInWorld(still, body).inverse() @ point
         relative += side * plant.CalcJacobianSpatialVelocity(
-            own, drake.JacobianWrtVariable.kV, body.body_frame(), on_body, world, world
+            still, drake.JacobianWrtVariable.kV, body.body_frame(), on_body, world, world
         )
     return np.vstack([relative[3:], n @ relative[:3]])
 
@@ -249,11 +251,11 @@ def friction_of(
     drake: ModuleType, inspector: SceneGraphInspector, A: GeometryId, B: GeometryId
 ) -> tuple[float, float]:
     """Static and dynamic friction of two geometries [-]."""
-    own = [
+    properties = [
         inspector.GetProximityProperties(i).GetProperty("material", "coulomb_friction")
         for i in (A, B)
     ]
-    both = drake.CalcContactFrictionFromSurfaceProperties(*own)
+    both = drake.CalcContactFrictionFromSurfaceProperties(*properties)
     return float(both.static_friction()), float(both.dynamic_friction())
 
 
@@ -280,28 +282,28 @@ def friction(
     return mu_s - (mu_s - mu_d) * x**3 * (10 + x * (6 * x - 15))
 
 
-def contacts(found: list[Contact], T: Array, closed: bool) -> Contacts:
+def contacts(every: list[Contact], T: Array, closed: bool) -> Contacts:
     """Contacts of a step, T (nv, n_v) [-]; if `closed`, no gap below zero or of a flat corner."""
-    n = np.array([contact.n for contact in found]).reshape(-1, 3)
-    phi = np.array([contact.phi for contact in found])
-    flat = np.array([contact.flat for contact in found], dtype=bool)
+    n = np.array([contact.n for contact in every]).reshape(-1, 3)
+    phi = np.array([contact.phi for contact in every])
+    flat = np.array([contact.flat for contact in every], dtype=bool)
     d1, d2 = tangents(n)
     return Contacts(
-        name=tuple(contact.name for contact in found),
+        name=tuple(contact.name for contact in every),
         phi=np.where(flat, 0.0, phi) if closed else phi,
         n=n,
         d1=d1,
         d2=d2,
-        J=np.array([contact.J @ T for contact in found]).reshape(-1, 4, T.shape[1]),
-        mu_v=np.array([contact.mu_v for contact in found]),
-        mu_omega=np.zeros(len(found)),
-        rows=np.full(len(found), 4),
+        J=np.array([contact.J @ T for contact in every]).reshape(-1, 4, T.shape[1]),
+        mu_v=np.array([contact.mu_v for contact in every]),
+        mu_omega=np.zeros(len(every)),
+        rows=np.full(len(every), 4),
     )
 
 
-def contact_words(found: list[Contact]) -> Iterator[str]:
+def contact_words(every: list[Contact]) -> Iterator[str]:
     """The contacts of bodies that are deep in each other."""
-    for contact in found:
+    for contact in every:
         if contact.phi < -DEEP:
             depth = f"its bodies penetrate by {-1e3 * contact.phi:.3g} mm"
             yield f"contact[{contact.name}]: {depth}"

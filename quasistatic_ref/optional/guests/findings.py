@@ -75,8 +75,8 @@ def findings(
     """
     by_name = {body.name: body for body in bodies}
     for body in bodies:
-        own = [c for c in contacts if _mover(c, by_name) is body]
-        yield from _motion(body, own, tolerance, words)
+        touching = [c for c in contacts if _mover(c, by_name) is body]
+        yield from _motion(body, touching, tolerance, words)
     for two in dict.fromkeys(c.bodies for c in contacts):
         between = [c for c in contacts if c.bodies == two]
         both = [by_name[name] for name in two if name in by_name]
@@ -125,12 +125,14 @@ def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
     return max(two, key=lambda b: b.fastest(b.theirs) + b.fastest(b.exact))
 
 
-def _motion(body: Body, own: Sequence[Contact], tolerance: float, words: Words) -> Iterator[Named]:
+def _motion(
+    body: Body, touching: Sequence[Contact], tolerance: float, words: Words
+) -> Iterator[Named]:
     """What contacts let a body do."""
-    moved = [c for c in own if c.exact and _motion_of(c.exact, body) > tolerance]
+    moved = [c for c in touching if c.exact and _motion_of(c.exact, body) > tolerance]
     slides = [c for c in moved if c.exact and c.exact.slip > tolerance]
-    yielding = {c.pair for c in own if _creep(c, body) > tolerance}
-    creeps = [c for c in own if c.pair in yielding and _share(own, c.pair) < INSIDE_CONE]
+    yielding = {c.pair for c in touching if _creep(c, body) > tolerance}
+    creeps = [c for c in touching if c.pair in yielding and _share(touching, c.pair) < INSIDE_CONE]
     rests = body.fastest(body.theirs) <= tolerance
     if slides:
         yield _slides(body, slides, words)
@@ -138,8 +140,8 @@ def _motion(body: Body, own: Sequence[Contact], tolerance: float, words: Words) 
         yield _turns(body, moved, words)
     elif creeps and body.steady and body.fastest(body.theirs) <= FAST:
         yield _creeps(body, creeps, words)
-    elif own and rests and body.fastest(body.exact) > tolerance:
-        yield _moves(body, own, words)
+    elif touching and rests and body.fastest(body.exact) > tolerance:
+        yield _moves(body, touching, words)
 
 
 def _motion_of(side: Bearing, body: Body) -> float:
@@ -147,9 +149,9 @@ def _motion_of(side: Bearing, body: Body) -> float:
     return max(side.slip, side.spin * body.size) if side.normal > 0 else 0.0
 
 
-def _share(own: Sequence[Contact], pair: str) -> float:
+def _share(touching: Sequence[Contact], pair: str) -> float:
     """Of what the contacts of a pair could bear together, the share that the engine's do [-]."""
-    sides = [c.theirs for c in own if c.pair == pair and c.theirs.normal > 0]
+    sides = [c.theirs for c in touching if c.pair == pair and c.theirs.normal > 0]
     normal = sum(side.normal for side in sides)
     return sum(side.share * side.normal for side in sides) / normal if normal else 0.0
 
@@ -169,7 +171,7 @@ def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Named:
     if 1e3 * body.size * turn <= slip:
         creeps = f"{body.name} slips by {slip:.3g} mm/s"
         numbers = {"slip_mm_s": slip}
-    bears = f"{body.bears:.3g} N and {body.asked:.3g} N is"
+    bears = f"{body.bears:.3g} N and {body.needed:.3g} N is"
     if any(c.mu_omega and c.theirs.spin * body.size > c.theirs.slip for c in through):
         most = sum(c.mu_omega * c.exact.normal for c in through if c.exact)
         torque = sum(c.exact.torque for c in through if c.exact)
@@ -183,9 +185,9 @@ def _slides(body: Body, through: Sequence[Contact], words: Words) -> Named:
     cause = f"{body.name} slides: its friction is at its limit"
     share = 1.0
     if body.free:
-        share = body.bears / body.asked
+        share = body.bears / body.needed
         cause = f"{body.name} slides: its contacts hold {share:.2g} of what its load needs, "
-        cause += f"{body.bears:.3g} N of {body.asked:.3g} N"
+        cause += f"{body.bears:.3g} N of {body.needed:.3g} N"
     verb = "sinks" if body.theirs.sinks > body.theirs.speed / 2 else "moves"
     cause += f"; in {words.engine}, {body.name} {verb} by {1e3 * body.theirs.speed:.3g} mm/s"
     return _finding("slides", body, through, words.stronger, cause, {"share": share})

@@ -274,8 +274,8 @@ def coordinate_name(state: Still, dof: int) -> str:
     """One of MuJoCo's velocities by its joint."""
     joint = int(state.model.dof_jntid[dof])
     axes = AXES.get(kind_of(state, "jnt_type", joint))
-    own = f".{axes[dof - state.model.jnt_dofadr[joint]]}" if axes else ""
-    return state.words("joint", joint) + own
+    axis = f".{axes[dof - state.model.jnt_dofadr[joint]]}" if axes else ""
+    return state.words("joint", joint) + axis
 
 
 def velocity_words(v: Array) -> Iterator[str]:
@@ -288,7 +288,7 @@ def quasi_dynamic_number(model: MjModel, data: MjData, state: Still, h: float) -
     """Largest v / (mu_v g h) of the contacts, v the speed at which one slides [-]."""
     g = float(np.linalg.norm(model.opt.gravity))
     largest = 0.0
-    for _, touch in touches.found(state):
+    for _, touch in touches.listed(state):
         if touch.dim == 1:
             continue
         slip = touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel

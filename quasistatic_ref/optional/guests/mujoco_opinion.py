@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.optional.guests import touches
-from quasistatic_ref.optional.guests.compared import WINDOW, Mover, Said, Touch
+from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.findings import Words, overlapping
 from quasistatic_ref.optional.guests.mujoco import Coordinates, step_with
@@ -79,8 +79,8 @@ def second_opinion(
     mean, later = velocities(active, moves, WINDOW)
     rest = state.data
     drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
-    said = Said(
-        touches=tuple(_touch(state, now, name, touch) for name, touch in touches.found(state)),
+    of_engine = EngineState(
+        touches=tuple(_touch(state, now, name, touch) for name, touch in touches.listed(state)),
         movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
         M=state.M,
         gravity=model.opt.gravity,
@@ -113,7 +113,7 @@ def second_opinion(
         for one, when in deep
     ]  # fmt: skip
     h = float(model.opt.timestep)
-    return opinion_of(said, step_of, h, tolerance, words, weight, reasons, overlaps)
+    return opinion_of(of_engine, step_of, h, tolerance, words, weight, reasons, overlaps)
 
 
 def _words(model: MjModel) -> Words:
@@ -159,16 +159,18 @@ def _body(state: Still, geom: int) -> str:
 def _mover(state: Still, b: int) -> Mover:
     """A body by its number, with all that is welded to it."""
     model = state.model
-    own = np.flatnonzero(model.body_weldid == b)
-    geoms = np.flatnonzero(np.isin(model.geom_bodyid, own))
-    mass = float(model.body_mass[own].sum())
-    centre = model.body_mass[own] @ state.data.xipos[own] / mass if mass else state.data.xpos[b]
+    welded = np.flatnonzero(model.body_weldid == b)
+    geoms = np.flatnonzero(np.isin(model.geom_bodyid, welded))
+    mass = float(model.body_mass[welded].sum())
+    centre = (
+        model.body_mass[welded] @ state.data.xipos[welded] / mass if mass else state.data.xpos[b]
+    )
     linear = np.zeros((3, model.nv))
     angular = np.zeros((3, model.nv))
     state.mujoco.mj_jac(model, state.data, linear, angular, centre, b)
     free = (
         kind_of(state, "jnt_type", model.body_jntadr[b]) == "FREE"
-        and len(own) == np.isin(model.body_rootid, b).sum()
+        and len(welded) == np.isin(model.body_rootid, b).sum()
     )
     far = np.linalg.norm(state.data.geom_xpos[geoms] - centre, axis=1)
     size = float((far + model.geom_rbound[geoms]).max(initial=0.0))

@@ -11,7 +11,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, Said
+from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, EngineState
 from quasistatic_ref.optional.guests.findings import Named, Words, findings, not_unique
 from quasistatic_ref.optional.guests.mujoco import Coordinates
 from quasistatic_ref.simulate.finding import Finding, finding_table
@@ -116,7 +116,7 @@ def _digits(number: float, size: float = 1.0) -> str:
 
 
 def opinion_of(
-    said: Said,
+    state: EngineState,
     step_of: Callable[[float], tuple[StepData, Coordinates]],
     h: float,
     tolerance: float,
@@ -129,7 +129,7 @@ def opinion_of(
 
     Parameters
     ----------
-    said : Said
+    state : EngineState
     step_of : callable
         The step of the state with a time step [s].
     h : float
@@ -155,12 +155,12 @@ def opinion_of(
     T = coordinates.T
     answer = solve_step(step)
     exact = T @ answer.delta_q / h
-    both = Compared(said, answer, exact / h, exact)
+    both = Compared(state, answer, exact / h, exact)
     contacts = tuple(both.contacts())
     if any(c.exact and c.exact.slip > tolerance for c in contacts):
         # What slides lifts off by a part of its way, about a h^2, against what presses it.
         short = solve_step(step_of(h * SHORT)[0])
-        both = Compared(said, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
+        both = Compared(state, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
     every = [*findings(contacts, bodies, reasons(step), weight, tolerance, words), *overlaps]

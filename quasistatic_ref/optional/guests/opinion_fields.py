@@ -45,7 +45,7 @@ TABLES = Tables({
         "rests": Field("boolean", "whether the engine has it at rest in the state itself"),
         "steady": Field("boolean", "whether the engine's motion of it stays as it is"),
         "free": Field("boolean", "whether nothing but contacts holds it"),
-        "asked": Field("number", "the friction that balances its loads", "N", least=0),
+        "needed": Field("number", "the friction that balances its loads", "N", least=0),
         "bears": Field("number", "the sum of mu_v times normal force", "N"),
         "torque": Field("number", "moment that nothing balances", "N m"),
         "balanced": Field("boolean", "whether the engine's forces on it add up to none"),

@@ -72,7 +72,7 @@ def overlaps(state: Still) -> Iterator[Overlap]:
 def near(state: Still) -> list[MjContact]:
     """One contact of each pair of geoms whose bounding balls meet, by MuJoCo's own filters."""
     mujoco = state.mujoco
-    balls = copy.copy(state.own)
+    balls = copy.copy(state.adapted)
     plane = int(mujoco.mjtGeom.mjGEOM_PLANE)
     is_plane = balls.geom_type == plane
     balls.geom_type[:] = np.where(is_plane, plane, int(mujoco.mjtGeom.mjGEOM_SPHERE))

@@ -91,7 +91,7 @@ class Places:
         self.number = np.full((state.model.ngeom,) * 2, -1)
         self.number[self.geoms[:, 0], self.geoms[:, 1]] = np.arange(len(pairs))
         self.number[self.geoms[:, 1], self.geoms[:, 0]] = np.arange(len(pairs))
-        for gaps, share in _gaps(state.own):
+        for gaps, share in _gaps(state.adapted):
             gaps += share * margin
 
     def _pair(self, state: Still, touch: MjContact, a: int, b: int) -> ContactPair:
@@ -122,11 +122,11 @@ class Places:
         own. A pair that is farther apart than the margin has the centres of its geoms there.
         """
         data = state.data
-        found = data.contact
-        used = np.flatnonzero(np.isin(found.exclude, USED_OR_IN_GAP))
-        geoms = np.asarray(found.geom).reshape(-1, 2)[used]
+        listed = data.contact
+        used = np.flatnonzero(np.isin(listed.exclude, USED_OR_IN_GAP))
+        geoms = np.asarray(listed.geom).reshape(-1, 2)[used]
         pair = self.number[geoms[:, 0], geoms[:, 1]]
-        phi = (found.dist - found.includemargin)[used]
+        phi = (listed.dist - listed.includemargin)[used]
         order = np.lexsort((used, phi, pair))
         order = order[pair[order] >= 0]
         used, geoms, pair, phi = used[order], geoms[order], pair[order], phi[order]
@@ -134,9 +134,9 @@ class Places:
         kept = rank < self.counts[pair]
         used, geoms, pair, phi, rank = (x[kept] for x in (used, geoms, pair, phi, rank))
         turned = np.where(geoms[:, 0] == self.geoms[pair, 0], 1.0, -1.0)[:, None]
-        n = turned * found.frame.reshape(-1, 9)[used, :3]
-        half = found.dist[used, None] / 2 * n
-        middle = found.pos.reshape(-1, 3)[used]
+        n = turned * listed.frame.reshape(-1, 9)[used, :3]
+        half = listed.dist[used, None] / 2 * n
+        middle = listed.pos.reshape(-1, 3)[used]
 
         centres = data.geom_xpos[self.geoms]
         between = centres[:, 1] - centres[:, 0]
@@ -202,7 +202,7 @@ def _filtered(state: Still) -> list[MjContact]:
     All geoms but planes are balls there, which touch whatever they are near to.
     """
     mujoco = state.mujoco
-    balls = copy.copy(state.own)
+    balls = copy.copy(state.adapted)
     plane, ball = int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_SPHERE)
     balls.geom_type[:] = np.where(balls.geom_type == plane, plane, ball)
     for gaps, _ in _gaps(balls):
@@ -222,8 +222,8 @@ def _filtered(state: Still) -> list[MjContact]:
             "fewer geoms"
         )
         raise ModelError(problem, field="geoms that may touch")
-    found = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
-    return [found[geoms] for geoms in sorted(found)]
+    listed = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
+    return [listed[geoms] for geoms in sorted(listed)]
 
 
 def _gaps(model: MjModel) -> tuple[tuple[Array, float], ...]:

@@ -73,8 +73,8 @@ class MujocoScenario(Scenario):
         if extension is not None:
             raise InputError("is not taken by a MuJoCo scene", field="extension")
         system = self.of_mujoco
-        own = system.extension if system.rows.names or len(system.rises) else None
-        return MujocoSimulator(**self.settings(), extension=own)
+        rows = system.extension if system.rows.names or len(system.rises) else None
+        return MujocoSimulator(**self.settings(), extension=rows)
 
     @property
     def force(self) -> Callable[[float, Array], Array]:
@@ -116,10 +116,10 @@ class Crossing(Observer):
         cause += f"{system.places.margin:g} m to {1e3 * depth:.3g} mm deep in step {k}, which had "
         cause += "no row for it"
         numbers = {"depth_mm": 1e3 * depth, "step": k}
-        found = Finding("crossed margin", True, remedy, cause, numbers)
+        finding = Finding("crossed margin", True, remedy, cause, numbers)
         if self.printed:
-            print(f"quasistatic-ref: {found}", file=sys.stderr)
-        findings = [*trajectory.header["findings"], finding_table(found)]
+            print(f"quasistatic-ref: {finding}", file=sys.stderr)
+        findings = [*trajectory.header["findings"], finding_table(finding)]
         return replace(trajectory, header={**trajectory.header, "findings": findings})
 
 

@@ -37,7 +37,7 @@ class Still:
     mujoco : module
     model : mujoco.MjModel
         The user's.
-    own : mujoco.MjModel
+    adapted : mujoco.MjModel
         The copy.
     data : mujoco.MjData
         The copy.
@@ -45,7 +45,7 @@ class Still:
 
     mujoco: ModuleType
     model: MjModel
-    own: MjModel
+    adapted: MjModel
     data: MjData
 
     @property
@@ -102,7 +102,7 @@ class Still:
         size = int(self.model.narena)
         try:
             for stage in STAGES:
-                getattr(self.mujoco, stage)(self.own, self.data)
+                getattr(self.mujoco, stage)(self.adapted, self.data)
         except self.mujoco.FatalError as error:
             problem = f"may be too small: MuJoCo stops, {str(error).splitlines()[0]}"
             raise ModelError(problem, field="size.memory", value=size) from error
@@ -113,8 +113,8 @@ class Still:
     def rows(self, *kinds: str) -> tuple[Array, Indices]:
         """The Jacobians and numbers of MuJoCo's constraints of some kinds, (m, nv) and (m,)."""
         wanted = [int(getattr(self.mujoco.mjtConstraint, f"mjCNSTR_{kind}")) for kind in kinds]
-        found = np.flatnonzero(np.isin(self.data.efc_type[: self.data.nefc], wanted))
-        return self.data.efc_J.reshape(-1, self.model.nv)[found], found
+        numbers = np.flatnonzero(np.isin(self.data.efc_type[: self.data.nefc], wanted))
+        return self.data.efc_J.reshape(-1, self.model.nv)[numbers], numbers
 
     def words(self, kind: str, i: int) -> str:
         """An element in words, such as ``joint[knee]``; by its number if it has no name."""
@@ -145,9 +145,9 @@ class Still:
 def awake(model: MjModel) -> MjModel:
     """A copy of a model in which nothing sleeps: what does has no contacts and does not move."""
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
-    own = copy.copy(model)
-    own.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    return own
+    adapted = copy.copy(model)
+    adapted.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    return adapted
 
 
 def check_finite(data: MjData) -> None:
@@ -175,12 +175,14 @@ def still(model: MjModel, data: MjData) -> Still:
     if not model.nv:
         raise ModelError("has no joint that can move", field="model")
     check_finite(data)
-    own = awake(model)
-    own.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    own.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    adapted = awake(model)
+    adapted.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    adapted.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     for flag in ("IPC", "SPECULATIVE"):
-        own.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, f"mjENBL_{flag}"))
-    own.jnt_margin[:] = own.tendon_margin[:] = FAR  # a step may reach limits that are not near
+        adapted.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, f"mjENBL_{flag}"))
+    adapted.jnt_margin[:] = adapted.tendon_margin[:] = (
+        FAR  # a step may reach limits that are not near
+    )
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
-    return Still(mujoco, model, own, at_rest)
+    return Still(mujoco, model, adapted, at_rest)

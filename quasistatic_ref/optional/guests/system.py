@@ -370,7 +370,7 @@ class MujocoSystem(Mechanism):
         before = data.ctrl.copy(), data.act.copy()
         data.ctrl[:] = actuation.values[: self.model.nu]
         data.act[:] = actuation.act
-        state.mujoco.mj_fwdActuation(state.own, data)
+        state.mujoco.mj_fwdActuation(state.adapted, data)
         servos = self._servos()
         moments = state.moments
         force = data.actuator_force[servos] @ moments[servos]
@@ -379,7 +379,7 @@ class MujocoSystem(Mechanism):
         force = force + np.where(moments[servos].any(axis=0), taken, 0.0)
         others = data.qfrc_actuator - force
         data.ctrl[:], data.act[:] = before
-        state.mujoco.mj_fwdActuation(state.own, data)
+        state.mujoco.mj_fwdActuation(state.adapted, data)
         return force, others
 
     def activation_after(self, act: Array, values: Array) -> Array:

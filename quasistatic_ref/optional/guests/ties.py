@@ -112,7 +112,7 @@ def limits(
     second result says which limits are left out, since nothing moves what they limit; `in_place`
     has rows in their places that hold nothing, so that their number is the same at every q.
     """
-    found = []
+    parts = []
     left_out: list[str] = []
     model = state.model
     for kind, margins, limited in (
@@ -129,8 +129,8 @@ def limits(
             held |= {*np.flatnonzero(limited)} - {*of}  # MuJoCo has no row if all of it is zero
         left_out += [f"limit of {state.words(kind.lower(), i)}: {HELD}" for i in sorted(held)]
         b = -(gaps if as_is else np.maximum(gaps, 0.0))
-        found.append(_of_places(names, J @ scale.T, b, ~empty, in_place))
-    return _rows(found, scale.T.shape[1]), tuple(left_out)
+        parts.append(_of_places(names, J @ scale.T, b, ~empty, in_place))
+    return _rows(parts, scale.T.shape[1]), tuple(left_out)
 
 
 def equalities(
@@ -168,12 +168,12 @@ def equalities(
     left_out = []
     residuals = state.data.efc_pos[rows] * as_is
     for k in np.flatnonzero(~np.isin(rows, tied.eliminated)).tolist():
-        own = natural[k]
+        rest = natural[k]
         for _ in range(2):  # the second takes away what rounding left in the first
-            own = own - own @ basis.T @ basis
-        length = np.linalg.norm(own)
+            rest = rest - rest @ basis.T @ basis
+        length = np.linalg.norm(rest)
         if length > least[k]:
-            basis = np.vstack([basis, own / length])
+            basis = np.vstack([basis, rest / length])
             kept.append(k)
             continue
         name = state.words("equality", state.data.efc_id[rows[k]])
@@ -182,11 +182,11 @@ def equalities(
             problem = 'contradicts other equalities, which depth = "closed" takes as they stand'
             raise ModelError(problem, field=name, value=float(residuals[k]))
         left_out.append(f"{name}: {HELD}")
-    own = np.flatnonzero(~np.isin(rows, tied.eliminated))
-    names = [state.words("equality", i) for i in state.data.efc_id[rows[own]]]
-    kept_here = np.isin(own, kept)
+    rest = np.flatnonzero(~np.isin(rows, tied.eliminated))
+    names = [state.words("equality", i) for i in state.data.efc_id[rows[rest]]]
+    kept_here = np.isin(rest, kept)
     both = _rows(
-        [_of_places(names, side * A[own], -side * residuals[own], kept_here, in_place)
+        [_of_places(names, side * A[rest], -side * residuals[rest], kept_here, in_place)
          for side in (1.0, -1.0)],
         A.shape[1],
     )  # fmt: skip
@@ -225,7 +225,7 @@ def followers(state: Still, tied: Tied) -> Sequence[tuple[int, int, tuple[float,
         Naming an equality of higher order, or one that takes another joint than its first.
     """
     model = state.model
-    found = []
+    parts = []
     for row in tied.eliminated:
         i = int(state.data.efc_id[row])
         a, b, *higher = model.eq_data[i, :5].tolist()
@@ -234,8 +234,8 @@ def followers(state: Still, tied: Tied) -> Sequence[tuple[int, int, tuple[float,
             raise ModelError(problem, field=f"{state.words('equality', i)}.polycoef", value=higher)
         first, second = int(model.eq_obj1id[i]), int(model.eq_obj2id[i])
         of_second = int(model.jnt_qposadr[second]) if second >= 0 else -1
-        found.append((int(model.jnt_qposadr[first]), of_second, (a, b)))
+        parts.append((int(model.jnt_qposadr[first]), of_second, (a, b)))
     taken = {int(model.jnt_dofadr[model.eq_obj1id[state.data.efc_id[r]]]) for r in tied.eliminated}
     if taken & set(tied.dofs.tolist()):
         raise ModelError("of joints tie a joint twice; leave one out", field="equality")
-    return found
+    return parts

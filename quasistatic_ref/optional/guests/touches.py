@@ -26,7 +26,7 @@ SOON = 1.0
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
-def found(state: Still) -> list[tuple[str, MjContact]]:
+def listed(state: Still) -> list[tuple[str, MjContact]]:
     """MuJoCo's contacts with their names, without those between bodies that do not move.
 
     A name has MuJoCo's number of the contact, and its geoms, or the bodies of geoms without names.
@@ -39,7 +39,7 @@ def found(state: Still) -> list[tuple[str, MjContact]]:
 
 def rubs(state: Still) -> bool:
     """Whether a contact has friction; without it, all cones are the same."""
-    return any(touch.dim > 1 for _, touch in found(state))
+    return any(touch.dim > 1 for _, touch in listed(state))
 
 
 def gap(touch: MjContact) -> float:
@@ -85,14 +85,14 @@ def contacts(
     ModelError
         Naming a contact whose friction differs in its two directions.
     """
-    all_of_them = found(state)
-    J = np.array([jacobian(state, touch) for _, touch in all_of_them]).reshape(-1, 4, len(scale.T))
-    n = np.array([touch.frame[:3] for _, touch in all_of_them]).reshape(-1, 3)
+    every = listed(state)
+    J = np.array([jacobian(state, touch) for _, touch in every]).reshape(-1, 4, len(scale.T))
+    n = np.array([touch.frame[:3] for _, touch in every]).reshape(-1, 3)
     empty = scale.empty(np.einsum("jc,jci->ji", n, J[:, :3]), basis)
-    left_out = [f"contact[{all_of_them[k][0]}]: {HELD}" for k in np.flatnonzero(empty)]
+    left_out = [f"contact[{every[k][0]}]: {HELD}" for k in np.flatnonzero(empty)]
     kept = np.flatnonzero(~empty)
-    names = tuple(all_of_them[k][0] for k in kept)
-    touches = [all_of_them[k][1] for k in kept]
+    names = tuple(every[k][0] for k in kept)
+    touches = [every[k][1] for k in kept]
     frames = np.array([touch.frame.reshape(3, 3) for touch in touches]).reshape(-1, 3, 3)
     friction = np.array([touch.friction for touch in touches]).reshape(-1, 5)
     condim = np.array([touch.dim for touch in touches], dtype=np.int64)
@@ -137,7 +137,7 @@ def jacobian(state: Still, touch: MjContact) -> Array:
 
 def words(state: Still) -> Iterator[str]:
     """What a step leaves out of contacts."""
-    for called, touch in found(state):
+    for called, touch in listed(state):
         if touch.dim == 6:
             yield f"contact[{called}]: rolling friction, for which there is no row"
 
@@ -168,7 +168,7 @@ def deep_words(state: Still, step: StepData) -> Iterator[str]:
 
 def deep(state: Still, step: StepData) -> Iterator[tuple[str, float, str]]:
     """The name, depth [m] and reason of each contact that is deep."""
-    deep_ones = [(called, touch) for called, touch in found(state) if gap(touch) < -DEEP]
+    deep_ones = [(called, touch) for called, touch in listed(state) if gap(touch) < -DEEP]
     if not deep_ones:
         return
     theirs = copy.copy(state.data)

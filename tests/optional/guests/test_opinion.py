@@ -55,11 +55,11 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
     """Weights and slopes by hand; the pads of the capsule press with what MuJoCo says, too."""
     slope = np.radians(15)
     block = opinions["block"].bodies[0]
-    assert block.asked == pytest.approx(GRAVITY * np.sin(slope), rel=1e-6)
+    assert block.needed == pytest.approx(GRAVITY * np.sin(slope), rel=1e-6)
     assert block.bears == pytest.approx(0.5 * GRAVITY * np.cos(slope), rel=1e-6)
     cap = opinions["capsule"].bodies[-1]
     normal = sum(c.theirs.normal for c in opinions["capsule"].contacts)
-    assert cap.asked == pytest.approx(0.045 * GRAVITY, rel=1e-6)
+    assert cap.needed == pytest.approx(0.045 * GRAVITY, rel=1e-6)
     assert cap.bears == pytest.approx(0.7 * normal, rel=1e-3)
     mug = opinions["mug"].bodies[-1]
     assert mug.torque == pytest.approx(0.3 * GRAVITY * 0.03, rel=1e-6)
@@ -67,7 +67,7 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
         [19.9] * 2
     )
     weak = opinions["mug, condim 4, weak"].bodies[-1]
-    assert weak.asked == pytest.approx(0.3 * GRAVITY, rel=1e-6)
+    assert weak.needed == pytest.approx(0.3 * GRAVITY, rel=1e-6)
     assert weak.bears == pytest.approx(2 * 0.8 * 1000 * 0.0009, rel=0.01)
 
 

@@ -131,8 +131,8 @@ def test_mujocos_point_between_the_surfaces_makes_other_slips(seed, tmp_path):
     mujoco.mj_forward(model, data)
     state = still(model, data)
     state.run()
-    assert len(touches.found(state)) == 3
-    for _, touch in touches.found(state):
+    assert len(touches.listed(state)) == 3
+    for _, touch in touches.listed(state):
         ours = touches.jacobian(state, touch)
         first = touch.efc_address
         theirs = data.efc_J.reshape(-1, model.nv)[first : first + 6]
