@@ -136,13 +136,14 @@ def _words(model: MjModel) -> Words:
 
 def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
     """A contact of MuJoCo's, with the force that it has in the state itself."""
+    mu_v, mu_omega, _ = touches.friction(touch, name)
     return Touch(
         name=name,
         pair=name.partition(": ")[2],
         bodies=(_body(state, touch.geom[0]), _body(state, touch.geom[1])),
         depth=max(0.0, -touches.gap(touch)),
-        mu_v=float(touch.friction[0]) if touch.dim > 1 else 0.0,
-        mu_omega=float(touch.friction[2]) if touch.dim > 3 else 0.0,
+        mu_v=mu_v,
+        mu_omega=mu_omega,
         of_step=(name,),
         J=touches.jacobian(state, touch)[None],
         tangents=touch.frame[3:].reshape(1, 2, 3),

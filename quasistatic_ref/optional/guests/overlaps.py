@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,13 +14,13 @@ from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, geom_kind, placed
+from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
 from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import DEEP, PIERCES
 
 if TYPE_CHECKING:
-    from mujoco import MjContact
+    pass
 
 
 class Overlap(NamedTuple):
@@ -61,27 +60,12 @@ def misplaced(state: Still) -> Iterator[Overlap]:
 
 def overlaps(state: Still) -> Iterator[Overlap]:
     """All pairs of geoms that MuJoCo's filters let touch, and that are in each other."""
-    for touch in near(state):
+    for touch in candidates(state):
         a, b = sorted(touch.geom.tolist())
         if {geom_kind(state, a), geom_kind(state, b)} <= {*KINDS_OF_GEOMS}:
             depth = depth_of(state, a, b)
             if depth > 0:
                 yield Overlap(f"{state.called('geom', a)}/{state.called('geom', b)}", (a, b), depth)
-
-
-def near(state: Still) -> list[MjContact]:
-    """One contact of each pair of geoms whose bounding balls meet, by MuJoCo's own filters."""
-    mujoco = state.mujoco
-    balls = copy.copy(state.adapted)
-    plane = int(mujoco.mjtGeom.mjGEOM_PLANE)
-    is_plane = balls.geom_type == plane
-    balls.geom_type[:] = np.where(is_plane, plane, int(mujoco.mjtGeom.mjGEOM_SPHERE))
-    balls.geom_size[~is_plane, 0] = balls.geom_rbound[~is_plane]
-    data = copy.copy(state.data)
-    mujoco.mj_kinematics(balls, data)
-    mujoco.mj_collision(balls, data)
-    each = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
-    return [each[geoms] for geoms in sorted(each)]
 
 
 def depth_of(state: Still, a: int, b: int) -> float:

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.still import Still
-from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP
+from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP, friction
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -78,7 +78,7 @@ class Places:
         self.geoms = np.zeros((0, 2), dtype=np.int64)
         pairs = []
         geoms = []
-        touching = _filtered(state)
+        touching = candidates(state, ALL)
         _check_count(state, touching)
         for touch in touching:
             a, b = sorted(touch.geom.tolist(), key=lambda g: (state.model.geom_type[g], g))
@@ -99,20 +99,10 @@ class Places:
             if g not in self.shapes:
                 self.shapes[g] = placed(state, g)
         sides = [self.shapes[g] for g in (a, b)]
-        mu = touch.friction
         name = f"{_tree(state, a)}-{_tree(state, b)}({sides[0].name}, {sides[1].name})"
-        if touch.dim > 1 and mu[0] != mu[1]:
-            problem = "differs in its two directions, for which there is no cone; use one for both"
-            raise ModelError(problem, field=f"contact[{name}].friction", value=mu[:2].tolist())
-        return ContactPair(
-            name=name,
-            alpha=sides[0],
-            beta=sides[1],
-            mu_v=float(mu[0]) if touch.dim > 1 else 0.0,
-            mu_omega=float(mu[2]) if touch.dim > 3 else 0.0,
-            rows=6 if touch.dim > 3 else 4,
-            k=_places_of(state, a, b),
-        )
+        mu_v, mu_omega, rows = friction(touch, name)
+        k = _places_of(state, a, b)
+        return ContactPair(name, sides[0], sides[1], mu_v, mu_omega, rows=rows, k=k)
 
     def points(self, state: Still) -> ClosestPoints:
         """The contacts of all pairs in their places, each pair's in ascending distance.
@@ -196,34 +186,41 @@ def _check_count(state: Still, touching: list[MjContact]) -> None:
     raise ModelError(problem, field="geoms that may touch")
 
 
-def _filtered(state: Still) -> list[MjContact]:
-    """One contact of each pair that may touch, by MuJoCo's own filters.
+def candidates(state: Still, gap: float = 0.0) -> list[MjContact]:
+    """One contact of each pair of geoms that may touch within a gap [m], by MuJoCo's filters.
 
-    All geoms but planes are balls there, which touch whatever they are near to.
+    All geoms but planes are their bounding balls there.
+
+    Raises
+    ------
+    ModelError
+        If they are more than MuJoCo's memory or a run holds.
     """
     mujoco = state.mujoco
     balls = copy.copy(state.adapted)
     plane, ball = int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_SPHERE)
-    balls.geom_type[:] = np.where(balls.geom_type == plane, plane, ball)
+    is_plane = balls.geom_type == plane
+    balls.geom_type[:] = np.where(is_plane, plane, ball)
+    balls.geom_size[~is_plane, 0] = balls.geom_rbound[~is_plane]
     for gaps, _ in _gaps(balls):
-        gaps[:] = ALL
+        gaps += gap
     data = copy.copy(state.data)
     mujoco.mj_kinematics(balls, data)
-    count = int(((balls.geom_contype | balls.geom_conaffinity) != 0).sum())
     try:
         mujoco.mj_collision(balls, data)
-        held = not data.warning[mujoco.mjtWarning.mjWARN_CONTACTFULL].number
+        full = data.warning[mujoco.mjtWarning.mjWARN_CONTACTFULL].number > 0
     except mujoco.FatalError:
-        held = False
-    if not held or data.ncon > MOST_PLACES:
+        full = True
+    if full or data.ncon > MOST_PLACES:
+        count = int(((balls.geom_contype | balls.geom_conaffinity) != 0).sum())
         problem = (
             f"are {count}, and make more pairs than size.memory holds, {balls.narena} bytes, or a "
             f"run, {MOST_PLACES}; exclude some (contact/exclude, contype, conaffinity), or take "
             "fewer geoms"
         )
         raise ModelError(problem, field="geoms that may touch")
-    listed = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
-    return [listed[geoms] for geoms in sorted(listed)]
+    each = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}
+    return [each[geoms] for geoms in sorted(each)]
 
 
 def _gaps(model: MjModel) -> tuple[tuple[Array, float], ...]:

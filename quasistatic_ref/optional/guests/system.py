@@ -66,8 +66,7 @@ class Actuation(NamedTuple):
     Parameters
     ----------
     values : ndarray, shape (nu + joints,)
-        Controls, and targets of the joints that have springs towards them [the actuators' units; m,
-        rad].
+        Controls, and targets of joints that have springs towards them [their units].
     act : ndarray, shape (na,)
         Activations [the same].
     """
@@ -393,7 +392,7 @@ class MujocoSystem(Mechanism):
         act : ndarray, shape (na,)
             Those before [the same].
         values : ndarray, shape (nu + joints,)
-            As of an Actuation.
+            As of an Actuation [the same].
         """
         model = self.model
         after = act.copy()

@@ -94,14 +94,10 @@ def contacts(
     names = tuple(every[k][0] for k in kept)
     touches = [every[k][1] for k in kept]
     frames = np.array([touch.frame.reshape(3, 3) for touch in touches]).reshape(-1, 3, 3)
-    friction = np.array([touch.friction for touch in touches]).reshape(-1, 5)
-    condim = np.array([touch.dim for touch in touches], dtype=np.int64)
     phi = np.array([gap(touch) for touch in touches])
     sticks = np.array([touch.adhesion > 0 for touch in touches], dtype=bool) & (phi <= DEEP)
-    for called, mu, dim in zip(names, friction, condim, strict=True):
-        if dim > 1 and mu[0] != mu[1]:
-            problem = "differs in its two directions, for which there is no cone; use one for both"
-            raise ModelError(problem, field=f"contact[{called}].friction", value=mu[:2].tolist())
+    rubs = [friction(touch, name) for name, touch in zip(names, touches, strict=True)]
+    mu_v, mu_omega, rows = np.array(rubs).reshape(-1, 3).T
     at_rest = Contacts(
         name=names,
         phi=phi if as_is else np.where(sticks, 0.0, np.maximum(phi, 0.0)),
@@ -109,11 +105,28 @@ def contacts(
         d1=frames[:, 1],
         d2=frames[:, 2],
         J=J[kept] @ scale.T,
-        mu_v=np.where(condim > 1, friction[:, 0], 0.0),
-        mu_omega=np.where(condim > 3, friction[:, 2], 0.0),
-        rows=np.where(condim > 3, 6, 4),
+        mu_v=mu_v,
+        mu_omega=mu_omega,
+        rows=rows.astype(np.int64),
     )
     return at_rest, tuple(left_out)
+
+
+def friction(touch: MjContact, name: str) -> tuple[float, float, int]:
+    """mu_v [-], mu_omega [m] and rows of a contact.
+
+    Raises
+    ------
+    ModelError
+        Naming it, if its friction differs in its two directions.
+    """
+    if touch.dim == 1:
+        return 0.0, 0.0, 4
+    mu = touch.friction.tolist()
+    if mu[0] != mu[1]:
+        problem = "differs in its two directions, for which there is no cone; use one for both"
+        raise ModelError(problem, field=f"contact[{name}].friction", value=mu[:2])
+    return (mu[0], mu[2], 6) if touch.dim > 3 else (mu[0], 0.0, 4)
 
 
 def jacobian(state: Still, touch: MjContact) -> Array:

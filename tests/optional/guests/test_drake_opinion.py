@@ -89,14 +89,6 @@ def test_contacts_of_one_name_have_numbers():
         assert normals[f"{mass:.0f} kg"] == pytest.approx(mass * GRAVITY)
 
 
-def test_a_block_on_a_slope_slides_by_statics():
-    """By tan 15 degrees, 0.27: 0.2 holds 0.2 / 0.27 of the load."""
-    (finding,) = opinion_on_block(0.2, mu=0.2, slope=SLOPE).findings
-    assert (finding.name, "block slides: " in finding.cause) == ("slides", True)
-    assert finding.numbers == {"share": pytest.approx(0.2 / np.tan(SLOPE), rel=0.03)}
-    assert "coulomb_friction" in finding.remedy
-
-
 def test_drakes_friction_creeps_with_its_stiction_tolerance():
     def soft(drake, plant, body):
         plant.set_stiction_tolerance(0.05)
