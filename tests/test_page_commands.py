@@ -1,0 +1,59 @@
+"""The commands of pages run in their order, in an empty folder.
+
+Those of docs/guides/first_scene.md run in tests/meta/test_first_scene.py, those of docs/studies.md
+in tests/lab/study/test_a_solver_of_your_own.py. Lines that name a file of the reader's own are not
+run: they say how a command is called.
+"""
+
+import re
+import shlex
+import shutil
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from tests.extras import marked_parameters
+from tests.pages import EXAMPLES, ROOT, shell_lines
+
+DOCS = ROOT / "docs"
+PAGES = [
+    "artifacts.md",
+    "cones.md",
+    "coulomb.md",
+    "distances.md",
+    "findings.md",
+    "guides/check_your_implementation.md",
+    "guides/does_my_contact_hold.md",
+    "guides/file_formats.md",
+    "guides/runs.md",
+    "guides/write_a_scenario.md",
+    "quickstart.md",
+]
+READERS_OWN = "my_sim"
+FINDS = "opinion"
+"""The command that ends with 1 where it finds something, as on its page."""
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize(
+    "page", marked_parameters(PAGES, {"guides/does_my_contact_hold.md": "engines"})
+)
+def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if "contact_hold" in page:  # the scenes that the page links to
+        shutil.copytree(EXAMPLES / "opinion", tmp_path, dirs_exist_ok=True)
+    lines = [shlex.split(line) for line in shell_lines((DOCS / page).read_text("utf-8"))]
+    commands = [words[1:] for words in lines if words[0] == "quasistatic-ref"]
+    assert commands
+    for words in commands:
+        if not any(READERS_OWN in word for word in words):
+            assert main(words) == (words[0] == FINDS), words
+
+
+@pytest.mark.parametrize("page", ["conventions.md", "figures.md"])
+def test_the_programs_of_a_page_run(page, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    programs = PYTHON.findall((DOCS / page).read_text("utf-8"))
+    assert programs
+    for program in programs:
+        exec(compile(program, page, "exec"), {})
