@@ -89,6 +89,7 @@ OF_RUN = (
     *(Check(finds, is_cut_short) for finds in task.OF_TASK),
     Check(guides.locked, is_beyond, "locked guides"),
     Check(sunk.sunk),
+    Check(sunk.crossed),
     Check(drag.out_of_balance, is_beyond, "equilibrium"),
     Check(leaps.leaps),
     Check(targets.joints_beyond),

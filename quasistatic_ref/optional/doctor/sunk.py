@@ -10,7 +10,7 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import SUNK
+from quasistatic_ref.tolerances import FILLED, SUNK
 
 
 def sunk(run: Run) -> Iterator[Finding]:
@@ -23,6 +23,24 @@ def sunk(run: Run) -> Iterator[Finding]:
         if said and (name not in first or said.numbers["step"] < first[name].numbers["step"]):
             first[name] = said
     yield from first.values()
+
+
+def crossed(run: Run) -> Iterator[Finding]:
+    """The first pair that comes from where MuJoCo looks for no contact into the other's depth."""
+    counts = np.array([pair.n_c for pair in run.pairs], dtype=np.int64)
+    nearest = np.cumsum(counts) - counts
+    phi = run["phi"][:, nearest]
+    if not (phi >= FILLED).any():
+        return
+    last = run.simulator.closest_points(run.system.kinematics(run["q"][-1])).phi[nearest]
+    phi = np.vstack([phi, last])
+    steps, pairs = np.nonzero((phi[:-1] >= FILLED) & (phi[1:] < 0))
+    for k, j in zip(steps[:1].tolist(), pairs[:1].tolist(), strict=True):
+        depth = -1e3 * float(phi[k + 1, j])
+        cause = f"{run.pairs[j].name} comes from beyond the margin to {depth:.3g} mm deep in step "
+        cause += f"{k}, which had no row for it"
+        numbers = {"depth_mm": depth, "step": k}
+        yield Finding("crossed margin", True, "raise margin, or take a smaller h", cause, numbers)
 
 
 def _surprise(

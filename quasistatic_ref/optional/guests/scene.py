@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -22,17 +21,12 @@ from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
-from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.extension import ExtensionOfQ
-from quasistatic_ref.tolerances import FILLED
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
@@ -80,47 +74,6 @@ class MujocoScenario(Scenario):
     def force(self) -> Callable[[float, Array], Array]:
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
         return self.drive.force
-
-    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
-        """Simulate the whole scene; as :meth:`.Scenario.run`."""
-        return super().run(progress, [*observers, Crossing(progress)])
-
-
-class Crossing(Observer):
-    """Finds pairs that come from beyond the margin into each other in one step.
-
-    Parameters
-    ----------
-    printed : bool
-        Whether to print what is found on standard error.
-    """
-
-    def __init__(self, printed: bool) -> None:
-        self.printed = printed
-
-    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """The trajectory with its findings."""
-        if not (trajectory.steps and recorder.simulator.pairs):
-            return trajectory
-        system = cast("MujocoSystem", recorder.system)
-        first = system.places.first
-        last = recorder.simulator.closest_points(system.kinematics(trajectory["q"][-1])).phi
-        phi = np.vstack([trajectory["phi"], last])[:, first]
-        steps, pairs = np.nonzero((phi[:-1] >= FILLED) & (phi[1:] < 0))
-        if not len(steps):
-            return trajectory
-        k, j = int(steps[0]), int(pairs[0])
-        depth = -float(phi[k + 1, j])
-        remedy = "raise margin, or take a smaller h"
-        cause = f"{recorder.simulator.pairs[j].name} comes from beyond the margin of "
-        cause += f"{system.places.margin:g} m to {1e3 * depth:.3g} mm deep in step {k}, which had "
-        cause += "no row for it"
-        numbers = {"depth_mm": 1e3 * depth, "step": k}
-        finding = Finding("crossed margin", True, remedy, cause, numbers)
-        if self.printed:
-            print(f"quasistatic-ref: {finding}", file=sys.stderr)
-        findings = [*trajectory.header["findings"], finding_table(finding)]
-        return replace(trajectory, header={**trajectory.header, "findings": findings})
 
 
 def mujoco_scenario(

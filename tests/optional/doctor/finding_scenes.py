@@ -314,6 +314,18 @@ found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp=
 # %% target without effect: a gain of zero, which a motor has by mistake
 found = of_mujoco("", '<general joint="j" gainprm="0"/>')
 
+# %% crossed margin: a ball 8 mm above the floor, which a force moves by h^2 f / m, 20 mm
+floor = '<geom type="plane" size="1 1 1"/><body pos="0 0 .108">'
+ball_on_rail = '<joint name="z" type="slide" axis="0 0 1"/><geom size=".1" mass="1"/></body>'
+pull = '<actuator><motor name="down" joint="z"/></actuator>'
+text = (
+    f'<mujoco><option gravity="0 0 0"/><worldbody>{floor}{ball_on_rail}</worldbody>{pull}</mujoco>'
+)
+scene = mujoco_scenario(
+    MjModel.from_xml_string(text), targets=lambda t: {"down": -200.0}, steps=1, margin=0.004
+)
+found = scene.run(progress=False).findings
+
 # %% target beyond a limit: the URDF ends at 1 m
 found = findings([motor("finger")], [], target=[1.5])
 
