@@ -164,7 +164,7 @@ def drake_step(
     g = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
     slides = max((contact.slides(v) for contact in touching), default=0.0)
     number = slides / (g * h) if slides and g else np.inf if slides else 0.0
-    return step, Coordinates(names, dofs, T, left_out, number)
+    return step, Coordinates(names, T, left_out, number)
 
 
 def at_rest(plant: MultibodyPlant, context: Context) -> Context:

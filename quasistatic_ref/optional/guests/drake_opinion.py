@@ -132,7 +132,7 @@ def drake_opinion(
         later=later,
     )
     weight = float(plant.CalcTotalMass(still) * np.linalg.norm(gravity))
-    return opinion_of(state, step_of, h, tolerance, words(drake, plant), weight, lambda step: {})
+    return opinion_of(state, step_of, h, tolerance, words(drake, plant), weight)
 
 
 def words(drake: ModuleType, plant: MultibodyPlant) -> Words:

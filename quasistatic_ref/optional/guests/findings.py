@@ -54,7 +54,6 @@ Named = tuple[str, Finding]
 def findings(
     contacts: Sequence[Contact],
     bodies: Sequence[Body],
-    reasons: Mapping[str, str],
     weight: float,
     tolerance: float,
     words: Words,
@@ -65,8 +64,6 @@ def findings(
     ----------
     contacts : sequence of Contact
     bodies : sequence of Body
-    reasons : mapping of str to str
-        What keeps deep contacts where they are.
     weight : float
         Of the whole model [N].
     tolerance : float
@@ -88,7 +85,7 @@ def findings(
         elif all(one.rests or one.steady for one in both) and (
             depth > DEEP or not _borne(contacts, both)
         ):
-            yield from _penetration(between, body, reasons, weight, words)
+            yield from _penetration(between, body, weight, words)
 
 
 def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
@@ -214,7 +211,7 @@ def _moves(body: Body, through: Sequence[Contact], words: Words) -> Named:
 
 
 def _penetration(
-    between: Sequence[Contact], body: Body, reasons: Mapping[str, str], weight: float, words: Words
+    between: Sequence[Contact], body: Body, weight: float, words: Words
 ) -> Iterator[Named]:
     """Whether two bodies are pushed apart by more than their loads."""
     depth = max(c.depth for c in between)
@@ -224,8 +221,6 @@ def _penetration(
     if not pushes or (depth <= DEEP and theirs <= PRESSES * ours):
         return
     cause = f"and are pushed apart with {theirs:.3g} N where their loads ask for {ours:.3g} N"
-    reason = next((reasons[c.name] for c in between if c.name in reasons), "")
-    cause += f"; what keeps them there: {reason}" if reason else ""
     yield _penetrates(between, body, depth, cause, words.apart)
 
 

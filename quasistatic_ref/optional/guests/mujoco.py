@@ -22,7 +22,7 @@ from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import FULL_RANK, LIGHT
 
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
 DEPTHS = ("closed", "as is")
-ELIMINATED = {PYRAMID: ("JOINT",), ELLIPSOID: ("JOINT", "TENDON", "CONNECT", "WELD")}
-"""Equalities that take coordinates away. Others are rows, two of which leave no interior, in which
-an enclosure is sought."""
 AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
 """Coordinates of a joint: of a free one, along the world's axes and about the body's own."""
 
@@ -45,8 +42,6 @@ class Coordinates(Plain):
     ----------
     names : tuple of str, length n_v
         ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
-    dofs : ndarray of int, shape (n_v,)
-        Their places among the engine's velocities; -1 for those that friction appends, (R40).
     T : ndarray, shape (nv, n_v)
         The engine's displacement, per unit of delta_q [-]: what MuJoCo's ``mj_integratePos`` takes
         is T delta_q, with dt = 1.
@@ -58,13 +53,12 @@ class Coordinates(Plain):
     """
 
     names: tuple[str, ...]
-    dofs: Indices
     T: Array
     left_out: tuple[str, ...]
     quasi_dynamic_number: float
 
     def __post_init__(self) -> None:
-        freeze_copies(self, "dofs", "T")
+        freeze_copies(self, "T")
 
 
 def step_from(
@@ -113,7 +107,8 @@ def mujoco_step(
     Returns
     -------
     StepData
-        In the ellipsoid if the model's cone is elliptic and a contact rubs.
+        In the ellipsoid if the model's cone is elliptic, a contact rubs, and no row is an
+        equality's.
     Coordinates
 
     Raises
@@ -156,8 +151,7 @@ def step_with(
     check(state)
     state.run()
     of_state = loads(state)
-    cone = ELLIPSOID if model.opt.cone and touches.rubs(state) else PYRAMID
-    kinds = () if as_is else ELIMINATED[cone]
+    kinds = () if as_is else ("JOINT",)
     tied = ties.tied_joints(state, kinds, of_state.heavy(state.M, h))
     order, n_a, K_q = actuated(state, of_state.springs, tied.T)
     tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
@@ -170,15 +164,20 @@ def step_with(
     contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
     forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
     extra = ties.together(limits, held.rows)
+    cone, notes = default_cone(model, touches.rubs(state), extra)
     step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (
         *of_state.left_out, *held.left_out, *free_limits, *free_contacts, *touches.words(state),
-        *touches.deep_words(state, step), *velocity_words(data.qvel),
+        *velocity_words(data.qvel), *notes,
     )  # fmt: skip
-    step, dofs, rubbed = with_friction(step, state, tied)
+    rises, rubbed = joint_friction(state, T, h * diagonal)
+    if rubbed:
+        with needing("frictionloss"):
+            from quasistatic_ref.optional.extensions.rises import with_rises
+        step = with_rises(step, rises)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
     T = np.pad(T, ((0, 0), (0, len(rubbed))))
-    return step, Coordinates(names, dofs, T, left_out, quasi_dynamic_number(model, data, state, h))
+    return step, Coordinates(names, T, left_out, quasi_dynamic_number(model, data, state, h))
 
 
 def actuated(state: Still, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:
@@ -209,23 +208,20 @@ def actuated(state: Still, springs: Sequence[Spring], T: Array) -> tuple[Indices
     return np.concatenate([a, u]), len(a), K_q
 
 
-def with_friction(
-    step: StepData, state: Still, tied: ties.Tied
-) -> tuple[StepData, Indices, list[str]]:
-    """A step with what ``frictionloss`` appends to it, its places, and names of what is appended.
+def default_cone(model: MjModel, rubs: bool, extra: Extra) -> tuple[str, tuple[str, ...]]:
+    """The cone of a model, of which contacts rub or not, and a note where it is another."""
+    if not (model.opt.cone and rubs):
+        return PYRAMID, ()
+    if equality := first_equality(extra):
+        note = f'option.cone: elliptic; "pyramid" is taken, since {equality} is two rows, which '
+        return PYRAMID, (f"{note}leave the ellipsoid no interior",)
+    return ELLIPSOID, ()
 
-    Raises
-    ------
-    ModelError
-        As :func:`joint_friction`.
-    """
-    heavy = np.concatenate([step.h**2 * np.diag(step.K_q), np.diag(step.M_u)])
-    rises, names = joint_friction(state, tied.T, heavy)
-    if names:
-        with needing("frictionloss"):
-            from quasistatic_ref.optional.extensions.rises import with_rises
-        step = with_rises(step, rises)
-    return step, np.concatenate([tied.dofs, np.full(len(names), -1)]), names
+
+def first_equality(extra: Extra) -> str:
+    """The first equality among rows; empty if there is none."""
+    names = (name.partition(" (")[0] for name in extra.names if name.startswith("equality"))
+    return next(names, "")
 
 
 def joint_friction(state: Still, T: Array, heavy: Array) -> tuple[Rises, list[str]]:

@@ -90,10 +90,6 @@ def second_opinion(
         later=later,
     )
 
-    def reasons(step: StepData) -> dict[str, str]:
-        """What keeps deep contacts where they are."""
-        return {name: reason for name, _, reason in touches.deep(state, step)}
-
     def step_of(h: float) -> tuple[StepData, Coordinates]:
         """The step of the state under what its dampers bear at its velocity."""
         step, coordinates = step_with(model, data, h, "closed", drag)
@@ -113,7 +109,7 @@ def second_opinion(
         for one, when in deep
     ]  # fmt: skip
     h = float(model.opt.timestep)
-    return opinion_of(of_engine, step_of, h, tolerance, words, weight, reasons, overlaps)
+    return opinion_of(of_engine, step_of, h, tolerance, words, weight, overlaps)
 
 
 def _words(model: MjModel) -> Words:

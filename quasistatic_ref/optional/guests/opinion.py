@@ -122,7 +122,6 @@ def opinion_of(
     tolerance: float,
     words: Words,
     weight: float,
-    reasons: Callable[[StepData], Mapping[str, str]],
     overlaps: Sequence[Named] = (),
 ) -> Opinion:
     """The exact answer next to an engine's, and what is found.
@@ -139,8 +138,6 @@ def opinion_of(
     words : Words
     weight : float
         Of the whole model [N].
-    reasons : callable
-        What keeps deep contacts of the step where they are.
     overlaps : sequence of (str, Finding)
         About bodies in each other that contacts do not tell.
 
@@ -163,7 +160,7 @@ def opinion_of(
         both = Compared(state, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    every = [*findings(contacts, bodies, reasons(step), weight, tolerance, words), *overlaps]
+    every = [*findings(contacts, bodies, weight, tolerance, words), *overlaps]
     left_out = [*not_unique(contacts, bodies, weight, words), *coordinates.left_out]
     moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
     if {*moving} - {body for body, _ in every}:

@@ -15,6 +15,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
+from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.settled import numbered
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import needed_package
@@ -25,7 +26,7 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
 
 if TYPE_CHECKING:
@@ -134,7 +135,6 @@ def mujoco_scenario(
         if name not in FIELDS:
             problem = f"is not for a MuJoCo scene{suggestion(name, FIELDS)}"
             raise ScenarioError(problem, field=name, value=tables[name])
-    named_cone = "cone" in tables
     top.take("roots", None)
     h, steps = value(top, TOP, "h"), value(top, TOP, "steps")
     margin = top.number("margin", MARGIN)
@@ -149,17 +149,15 @@ def mujoco_scenario(
         if keys:
             mujoco.mj_resetDataKeyframe(model, data, numbered(model, "KEY", keys[0]))
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
-    elliptic = bool(model.opt.cone) and any(pair.mu_v for pair in system.places.pairs)
-    cone = value(top, TOP, "cone") if named_cone else ELLIPSOID if elliptic else PYRAMID
-    of_equalities = [n for n in system.rows.names if n.startswith("equality")]
-    if cone == ELLIPSOID and of_equalities:
-        held = of_equalities[0].partition(" (")[0]
-        if named_cone:
+    if "cone" in tables:
+        cone = value(top, TOP, "cone")
+        equality = first_equality(system.rows)
+        if cone == ELLIPSOID and equality:
             problem = 'is two rows, which leave the ellipsoid no interior; take cone = "pyramid"'
-            raise ModelError(problem, field=held)
-        cone = PYRAMID
-        note = f'option.cone: elliptic; the run takes "pyramid", since {held} is two rows, which '
-        system.notes = (*system.notes, note + "leave the ellipsoid no interior")
+            raise ModelError(problem, field=equality)
+    else:
+        rubs = any(pair.mu_v for pair in system.places.pairs)
+        cone, system.notes = default_cone(model, rubs, system.rows)
     certify = value(solver, SOLVER, "certify")
     drive = drive_of(system, data, steps * h, targets)
     gravity = (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -13,16 +12,13 @@ from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import DEEP, FULL_RANK
+from quasistatic_ref.tolerances import DEEP
 
 if TYPE_CHECKING:
     from mujoco import MjContact, MjData
 
 USED_OR_IN_GAP = (0, 1)
 """Values of ``exclude`` of contacts that a step has."""
-SOON = 1.0
-"""Time within which MuJoCo parts bodies that nothing keeps in each other [s]."""
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
@@ -153,6 +149,8 @@ def words(state: Still) -> Iterator[str]:
     for called, touch in listed(state):
         if touch.dim == 6:
             yield f"contact[{called}]: rolling friction, for which there is no row"
+        if gap(touch) < -DEEP:
+            yield f"contact[{called}]: its bodies penetrate by {-1e3 * gap(touch):.3g} mm"
 
 
 def forces(state: Still, data: MjData) -> Array:
@@ -170,39 +168,3 @@ def forces(state: Still, data: MjData) -> Array:
 def number(called: str) -> int:
     """MuJoCo's number of a contact, by its name."""
     return int(called.partition(":")[0])
-
-
-def deep_words(state: Still, step: StepData) -> Iterator[str]:
-    """Contacts that are deep, and what keeps them there."""
-    for called, depth, reason in deep(state, step):
-        by = f"its bodies penetrate by {1e3 * depth:.3g} mm"
-        yield f"contact[{called}]: {by}; what keeps them there: {reason}"
-
-
-def deep(state: Still, step: StepData) -> Iterator[tuple[str, float, str]]:
-    """The name, depth [m] and reason of each contact that is deep."""
-    deep_ones = [(called, touch) for called, touch in listed(state) if gap(touch) < -DEEP]
-    if not deep_ones:
-        return
-    theirs = copy.copy(state.data)
-    state.mujoco.mj_forward(state.model, theirs)
-    of_equalities = np.array([called.startswith("equality") for called in step.extra.names])
-    tied = np.abs(step.extra.A[of_equalities.astype(bool)]).max(axis=0, initial=0.0)
-    contacts = step.contacts
-    along_n = np.einsum("jci,jc->ji", contacts.J[:, :3], contacts.n)
-    rows = dict(zip(contacts.name, along_n, strict=True))
-    for called, touch in deep_ones:
-        apart = touch.frame[:3] @ jacobian(state, touch)[:3] @ theirs.qacc
-        out_in = np.sqrt(-2 * gap(touch) / apart) if apart > 0 else np.inf
-        row = np.flatnonzero(np.abs(rows.get(called, 0.0)) > FULL_RANK)
-        if called not in rows:
-            reason = "joints or equalities leave no way out"
-        elif out_in < SOON:
-            reason = "nothing: MuJoCo pushes them apart as soon as it runs"
-        elif tied[row].any():
-            reason = "an equality or the load"
-        elif (row < step.n_a).any():
-            reason = "a servo, a spring or the load"
-        else:
-            reason = "the load"
-        yield called, -gap(touch), reason

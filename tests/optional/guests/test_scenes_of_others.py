@@ -33,7 +33,7 @@ def test_equalities_in_the_elliptic_cone_take_the_pyramid_with_a_note(equality):
     made = scene(ON_FLOOR, equality, ELLIPTIC, steps=2)
     assert made.cone == "pyramid"
     (note,) = made.system.notes
-    assert note.startswith('option.cone: elliptic; the run takes "pyramid", since equality[0] is')
+    assert note.startswith('option.cone: elliptic; "pyramid" is taken, since equality[0] is')
     assert len(made.run(progress=False)) == 2
     with pytest.raises(ModelError, match=r"equality\[0\]: is two rows"):
         scene(ON_FLOOR, equality, ELLIPTIC, cone="ellipsoid")

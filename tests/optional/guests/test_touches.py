@@ -11,9 +11,6 @@ from quasistatic_ref.solve.solve import solve_step
 
 H, GRAVITY, MASS, K = 0.01, 9.81, 2.0, 500.0
 SERVO = f'<actuator><position joint="z" kp="{K}"/></actuator>'
-WELD = '<equality><weld body1="ball"/></equality>'
-
-CONNECT = '<equality><connect body1="ball" anchor=".5 0 0"/></equality>'
 
 
 def ball(joint, depth, more="", how=""):
@@ -46,33 +43,6 @@ def test_a_depth_that_is_closed_adds_a_force_and_one_that_is_not_none(depth, spr
     added = depth * (springs or MASS / H**2)
     assert solve_step(closed).wrench[0, 2] == pytest.approx(MASS * GRAVITY, rel=1e-12)
     assert solve_step(as_is).wrench[0, 2] == pytest.approx(MASS * GRAVITY + added, rel=1e-12)
-
-
-SOFT = 'solref="-500 -40" solimp=".9 .9 .001"'
-
-
-@pytest.mark.parametrize(
-    ("made", "reason"),
-    [
-        ((FREE, 0.005), "nothing: MuJoCo pushes them apart as soon as it runs"),
-        (('<joint type="slide" axis="1 0 0"/>', 0.005), "joints or equalities leave no way out"),
-        ((FREE, 0.005, "", SOFT), "the load"),
-        ((SLIDE, 0.005, SERVO, SOFT), "a servo, a spring or the load"),
-        ((FREE, 0.005, WELD, SOFT), "joints or equalities leave no way out"),
-        ((FREE, 0.005, CONNECT, SOFT), "an equality or the load"),
-    ],
-)  # fmt: skip
-def test_what_keeps_a_body_in_another_is_said(made, reason):
-    model, data = ball(*made)
-    if SOFT in made:
-        for _ in range(1000):
-            mujoco.mj_step(model, data)
-        mujoco.mj_forward(model, data)
-    depth = -1e3 * data.contact.dist[0]
-    assert depth > 1
-    notes = " ".join(mujoco_step(model, data, H)[1].left_out)
-    assert f"contact[0: floor/ball]: its bodies penetrate by {depth:.3g} mm" in notes
-    assert notes.partition("what keeps them there: ")[2].startswith(reason)
 
 
 @pytest.mark.parametrize("condim", [1, 3])
