@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,12 +14,13 @@ from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests.drake_pairs import (
     STICTION,
     Contact,
+    DrakeState,
     contact_words,
     contacts,
     drake_contacts,
+    drake_state,
 )
 from quasistatic_ref.optional.guests.mujoco import DEPTHS, Coordinates, step_from, velocity_words
-from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import Extra, StepData
 
@@ -132,30 +132,29 @@ def drake_step(
     >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
     np.float64(2.943)
     """
-    drake = needed_package("pydrake.all", "drake", "drake_step")
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
     if not 0 < stiction_tolerance < np.inf:
         problem = "must be a positive speed [m/s]"
         raise InputError(problem, field="stiction_tolerance", value=stiction_tolerance)
-    check(plant)
-    still = at_rest(plant, context)
+    state = drake_state(plant, context)
+    still = state.still
     joints = {
         scoped(plant, joint): joint for joint in map(plant.get_joint, plant.GetJointIndices())
     }
-    K, of_springs = springs(drake, plant, still, named(joints), stiffness, targets or {})
+    K, of_springs, of_elements = springs(state, named(joints), stiffness, targets or {})
     moving = [j for j in joints.values() if j.num_velocities() and not j.is_locked(still)]
     free = np.sort([j.velocity_start() + i for j in moving for i in range(j.num_velocities())])
     dofs = np.concatenate([free[K[free] > 0], free[K[free] == 0]])
     n_a = int((K[dofs] > 0).sum())
     T = np.eye(plant.num_velocities())[:, dofs]
     M = plant.CalcMassMatrix(still)[np.ix_(dofs[n_a:], dofs[n_a:])]
-    tau = (loads(drake, plant, context, still) - passive(drake, plant, still))[dofs]
+    tau = (loads(state) - of_elements)[dofs]
     K_q = np.diag(K[dofs[:n_a]])
-    every = drake_contacts(drake, plant, context, still, margin, stiction_tolerance)
+    every = drake_contacts(state, margin, stiction_tolerance)
     touching = [contact for contact in every if (contact.J @ T).any()]
     closed = depth == "closed"
-    extra = limits(plant, still, joints, dofs, closed)
+    extra = limits(state, joints, dofs, closed)
     of_contacts = contacts(touching, T, closed)
     step = step_from(h, K_q, M, tau, of_springs[dofs], contacts=of_contacts, extra=extra)
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
@@ -165,14 +164,6 @@ def drake_step(
     slides = max((contact.slides(v) for contact in touching), default=0.0)
     number = slides / (g * h) if slides and g else np.inf if slides else 0.0
     return step, Coordinates(names, T, left_out, number)
-
-
-def at_rest(plant: MultibodyPlant, context: Context) -> Context:
-    """A context of the plant's alone, without velocity."""
-    still = plant.CreateDefaultContext()
-    still.SetTimeStateAndParametersFrom(context)
-    plant.SetVelocities(still, np.zeros(plant.num_velocities()))
-    return still
 
 
 def scoped(plant: MultibodyPlant, joint: Joint) -> str:
@@ -186,21 +177,13 @@ def named(joints: Mapping[str, Joint]) -> dict[str, Joint]:
     return {**joints, **{j.name(): j for j in joints.values() if names.count(j.name()) == 1}}
 
 
-def check(plant: MultibodyPlant) -> None:
-    """Refuse what no step can say: ModelError."""
-    if plant.num_constraints():
-        raise ModelError("are not supported; remove them", field="plant constraints")
-    if plant.deformable_model().num_bodies():
-        raise ModelError("is not supported: bodies are rigid", field="plant deformable_model")
-    if not plant.geometry_source_is_registered():
-        raise ModelError("has no scene graph, and so no signed distances", field="plant")
-
-
 def springs(
-    drake: ModuleType, plant: MultibodyPlant, still: Context, joints: Mapping[str, Joint],
+    state: DrakeState, joints: Mapping[str, Joint],
     stiffness: Mapping[str, float], targets: Mapping[str, float],
-) -> tuple[Array, Array]:  # fmt: skip
-    """Stiffness and force of the springs of each velocity, (nv,) each [N/m, N m/rad; N, N m].
+) -> tuple[Array, Array, Array]:  # fmt: skip
+    """Stiffness and force of the springs of each velocity, and the force of force elements alone.
+
+    (nv,) each [N/m, N m/rad; N, N m; N, N m].
 
     `stiffness` and `targets` are those of :func:`drake_step` [m, rad].
 
@@ -209,8 +192,7 @@ def springs(
     ModelError
         Naming a joint that is not there or has several coordinates, or a stiffness.
     """
-    K = np.zeros(plant.num_velocities())
-    force = np.zeros(plant.num_velocities())
+    K, force, of_elements = np.zeros((3, state.plant.num_velocities()))
     for name in targets:
         if name not in stiffness:
             raise ModelError("has no stiffness", field=f"targets[{name}]", value=targets[name])
@@ -220,26 +202,24 @@ def springs(
         if not k > 0:
             raise ModelError("must be greater than 0", field=f"stiffness[{name}]", value=k)
         v = joints[name].velocity_start()
-        here = joints[name].GetOnePosition(still)
+        here = joints[name].GetOnePosition(state.still)
         K[v] += k
         force[v] += k * (targets.get(name, here) - here)
-    for element in elements(drake, plant, SPRINGS):
+    for element in elements(state):
         v = element.joint().velocity_start()
         K[v] += element.stiffness()
-        force[v] += passive_force(element, still)
-    return K, force
+        of_elements[v] += passive_force(element, state.still)
+    return K, force + of_elements, of_elements
 
 
-def elements(
-    drake: ModuleType, plant: MultibodyPlant, kinds: tuple[str, ...]
-) -> Iterator[ForceElement]:
-    """Force elements of some kinds; ModelError, naming it, at one that no step has."""
-    for i in range(plant.num_force_elements()):
-        element = plant.get_force_element(drake.ForceElementIndex(i))
+def elements(state: DrakeState) -> Iterator[ForceElement]:
+    """The springs among force elements; ModelError, naming it, at one that no step has."""
+    for i in range(state.plant.num_force_elements()):
+        element = state.plant.get_force_element(state.drake.ForceElementIndex(i))
         kind = type(element).__name__
         if kind not in (*SPRINGS, GRAVITY):
             raise ModelError("is not supported", field=f"force element {i}", value=kind)
-        if kind in kinds:
+        if kind in SPRINGS:
             yield element
 
 
@@ -250,16 +230,9 @@ def passive_force(spring: ForceElement, still: Context) -> float:
     return float(spring.stiffness()) * (nominal - float(spring.joint().GetOnePosition(still)))
 
 
-def passive(drake: ModuleType, plant: MultibodyPlant, still: Context) -> Array:
-    """Forces of the springs that are force elements, (nv,) [N, N m]."""
-    force = np.zeros(plant.num_velocities())
-    for element in elements(drake, plant, SPRINGS):
-        force[element.joint().velocity_start()] += passive_force(element, still)
-    return force
-
-
-def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context) -> Array:
+def loads(state: DrakeState) -> Array:
     """All forces of elements and inputs at rest, (nv,) [N, N m]; ModelError for spatial ones."""
+    drake, plant, context, still = state
     forces = drake.MultibodyForces(plant)
     plant.CalcForceElementsContribution(still, forces)
     rest = np.zeros(plant.num_velocities())
@@ -276,15 +249,12 @@ def loads(drake: ModuleType, plant: MultibodyPlant, context: Context, still: Con
     return tau
 
 
-def limits(
-    plant: MultibodyPlant, still: Context, joints: Mapping[str, Joint], dofs: Array, closed: bool
-) -> Extra:
+def limits(state: DrakeState, joints: Mapping[str, Joint], dofs: Array, closed: bool) -> Extra:
     """Limits of joints as rows.
 
     Parameters
     ----------
-    plant, still : object
-        Drake's.
+    state : DrakeState
     joints : mapping of str to object
     dofs : ndarray of int, shape (n_v,)
         Drake's velocities of the coordinates.
@@ -307,7 +277,7 @@ def limits(
             raise ModelError("has limits of several coordinates", field=f"joint[{name}]")
         if joint.velocity_start() not in places:
             continue
-        here = joint.GetOnePosition(still)
+        here = joint.GetOnePosition(state.still)
         for end, sign in zip(ends, (1.0, -1.0), strict=True):
             if np.isfinite(end[0]):
                 names.append(f"limit of joint[{name}] ({len(names)})")

@@ -12,11 +12,13 @@ import numpy as np
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
-from quasistatic_ref.optional.guests.drake import MARGIN, at_rest, drake_step
+from quasistatic_ref.optional.guests.drake import MARGIN, drake_step
 from quasistatic_ref.optional.guests.drake_pairs import (
     STICTION,
     Contact,
+    DrakeState,
     drake_contacts,
+    drake_state,
     jacobian,
 )
 from quasistatic_ref.optional.guests.findings import Words
@@ -114,19 +116,19 @@ def drake_opinion(
     )  # fmt: skip
     h = float(plant.time_step()) or CONTINUOUS
     step_of(h)  # refuses what no step can say
-    of_plant = plant.GetMyContextFromRoot(context)
-    still = at_rest(plant, of_plant)
+    of_plant = drake_state(plant, plant.GetMyContextFromRoot(context))
+    still = of_plant.still
     copied = context.Clone()  # it must outlive the plant's context in it
     evaluated = after_step(plant, copied)
-    contacts = drake_contacts(drake, plant, of_plant, still, margin, stiction_tolerance)
+    contacts = drake_contacts(of_plant, margin, stiction_tolerance)
     mean, later = velocities(drake, diagram, plant, context)
     gravity = np.array(plant.gravity_field().gravity_vector())
     state = EngineState(
-        touches=tuple(touches(drake, plant, evaluated, still, contacts)),
-        movers=tuple(movers(drake, plant, of_plant, still)),
+        touches=tuple(touches(of_plant, evaluated, contacts)),
+        movers=tuple(movers(of_plant)),
         M=plant.CalcMassMatrix(still),
         gravity=gravity,
-        v=plant.GetVelocities(of_plant),
+        v=plant.GetVelocities(of_plant.context),
         acceleration=plant.get_generalized_acceleration_output_port().Eval(evaluated),
         mean=mean,
         later=later,
@@ -205,51 +207,46 @@ def after_step(plant: MultibodyPlant, root: Context) -> Context:
     return of_plant
 
 
-def forces(results: ContactResults) -> dict[tuple[GeometryId, GeometryId], tuple[Array, Array]]:
+def forces(
+    results: ContactResults,
+) -> dict[tuple[GeometryId, GeometryId], tuple[Array, Array | None]]:
     """The force on the second of two geometries, (3,) [N], and where it acts, (3,) [m]."""
-    by_pair = {}
+    known: dict[tuple[GeometryId, GeometryId], tuple[Array, Array | None]] = {}
     for i in range(results.num_point_pair_contacts()):
         info = results.point_pair_contact_info(i)
         A, B = info.point_pair().id_A, info.point_pair().id_B
-        by_pair[A, B] = np.asarray(info.contact_force()), np.asarray(info.contact_point())
+        known[A, B] = np.asarray(info.contact_force()), np.asarray(info.contact_point())
     for i in range(results.num_hydroelastic_contacts()):
         of_surface = results.hydroelastic_contact_info(i)
         surface = of_surface.contact_surface()
         on_first = np.asarray(of_surface.F_Ac_W().translational())
-        by_pair[surface.id_M(), surface.id_N()] = -on_first, np.asarray(surface.centroid())
-    return by_pair
+        known[surface.id_M(), surface.id_N()] = -on_first, np.asarray(surface.centroid())
+    return known | {(B, A): (-force, at) for (A, B), (force, at) in known.items()}
 
 
-def touches(
-    drake: ModuleType, plant: MultibodyPlant, evaluated: Context, still: Context,
-    contacts: list[Contact],
-) -> Iterator[Touch]:  # fmt: skip
+def touches(state: DrakeState, evaluated: Context, contacts: list[Contact]) -> Iterator[Touch]:
     """Pairs of geometries that are closed, or that Drake presses on each other.
 
     Parameters
     ----------
-    drake : module
-    plant, evaluated, still : object
-        Drake's; `evaluated` has the outputs of the state, `still` its configuration.
+    state : DrakeState
+    evaluated : object
+        Drake's context, with the outputs of the state.
     contacts : list of Contact
     """
+    plant = state.plant
     known = forces(plant.get_contact_results_output_port().Eval(evaluated))
     for alpha, beta in dict.fromkeys(contact.geometries for contact in contacts):
         of_pair = [contact for contact in contacts if contact.geometries == (alpha, beta)]
         nearest = min(of_pair, key=lambda contact: contact.phi)
-        force, at = np.zeros(3), None
-        if (alpha, beta) in known:
-            force, at = known[alpha, beta]
-        elif (beta, alpha) in known:
-            opposite, at = known[beta, alpha]
-            force = -opposite
-        elif nearest.phi > 0:
+        force, at = known.get((alpha, beta), (np.zeros(3), None))
+        if at is None and nearest.phi > 0:
             continue
         closed = [contact for contact in of_pair if contact.flat] or [nearest]
         frames = np.array(tangents(np.array([one.n for one in closed]))).transpose(1, 0, 2)
         J = np.array([one.J for one in closed])
         if at is not None:  # its slip is that where its force acts
-            J_at_force = jacobian(drake, plant, still, list(nearest.bodies), (at, at), nearest.n)
+            J_at_force = jacobian(state, list(nearest.bodies), (at, at), nearest.n)
             J = np.concatenate([J_at_force[None], J])
             frames = np.concatenate(
                 [np.array(tangents(nearest.n[None])).transpose(1, 0, 2), frames]
@@ -279,10 +276,9 @@ def called(plant: MultibodyPlant, body: RigidBody) -> str:
     return str(first.name() if alone else first.scoped_name())
 
 
-def movers(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context
-) -> Iterator[Mover]:
+def movers(state: DrakeState) -> Iterator[Mover]:
     """The bodies that can move, each with all that is welded to it."""
+    drake, plant, context, still = state
     inspector = plant.get_geometry_query_input_port().Eval(context).inspector()
     world = plant.world_frame()
     M = plant.CalcMassMatrix(still)

@@ -17,6 +17,7 @@ from quasistatic_ref.contact.distance import number_within, pair_closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -43,6 +44,45 @@ HULLS = ("Convex", "Mesh")
 ROUND = ("Sphere", "Ellipsoid")
 FEWEST = 4
 """Contacts of two shapes that may touch with a face: more where more corners are as near."""
+
+
+class DrakeState(NamedTuple):
+    """A plant in a state.
+
+    Parameters
+    ----------
+    drake : module
+    plant, context : object
+        Drake's.
+    still : object
+        A context of the same configuration, without velocity.
+    """
+
+    drake: ModuleType
+    plant: MultibodyPlant
+    context: Context
+    still: Context
+
+
+def drake_state(plant: MultibodyPlant, context: Context) -> DrakeState:
+    """A plant in a state.
+
+    Raises
+    ------
+    ModelError
+        If pydrake is not installed, or the plant has what no step can say.
+    """
+    drake = needed_package("pydrake.all", "drake", "drake_step")
+    if plant.num_constraints():
+        raise ModelError("are not supported; remove them", field="plant constraints")
+    if plant.deformable_model().num_bodies():
+        raise ModelError("is not supported: bodies are rigid", field="plant deformable_model")
+    if not plant.geometry_source_is_registered():
+        raise ModelError("has no scene graph, and so no signed distances", field="plant")
+    still = plant.CreateDefaultContext()
+    still.SetTimeStateAndParametersFrom(context)
+    plant.SetVelocities(still, np.zeros(plant.num_velocities()))
+    return DrakeState(drake, plant, context, still)
 
 
 class Contact(NamedTuple):
@@ -98,16 +138,13 @@ def slip_rate(J: Array, n: Array, v: Array) -> float:
 
 
 def drake_contacts(
-    drake: ModuleType, plant: MultibodyPlant, context: Context, still: Context, margin: float,
-    stiction_tolerance: float = STICTION,
-) -> list[Contact]:  # fmt: skip
+    state: DrakeState, margin: float, stiction_tolerance: float = STICTION
+) -> list[Contact]:
     """All contacts of geometries that are nearer than the margin [m], pair by pair.
 
     Parameters
     ----------
-    drake : module
-    plant, context, still : object
-        Drake's; `still` has the same configuration, at rest.
+    state : DrakeState
     margin : float
         [m].
     stiction_tolerance : float
@@ -120,6 +157,7 @@ def drake_contacts(
     ModelError
         Naming a geometry whose shape is none of a step.
     """
+    drake, plant, context, _ = state
     query = plant.get_geometry_query_input_port().Eval(context)
     inspector = query.inspector()
     ids = sorted(inspector.GetAllGeometryIds(drake.Role.kProximity), key=lambda i: i.get_value())
@@ -132,15 +170,20 @@ def drake_contacts(
     ]
     number = {i.get_value(): link for link, i in enumerate(ids)}
     v = plant.GetVelocities(context)
-    every = []
-    for A, B in sorted(
-        sorted(number[i.get_value()] for i in two) for two in inspector.GetCollisionCandidates()
-    ):
-        if bounds_apart(inspector, (ids[A], ids[B]), (places[A], places[B])) > margin:
-            continue
+    discrete = bool(plant.time_step())
+    near = [
+        (B, A)
+        for A, B in sorted(
+            sorted(number[i.get_value()] for i in two) for two in inspector.GetCollisionCandidates()
+        )
+        if bounds_apart(inspector, (ids[A], ids[B]), (places[A], places[B])) <= margin
+    ]
+    names = [f"{shapes[B].name}/{shapes[A].name}" for B, A in near]
+    contacts = []
+    for i, (B, A) in enumerate(near):
         bodies = [plant.GetBodyFromFrameId(inspector.GetFrameId(ids[link])) for link in (B, A)]
         rubs = friction_of(drake, inspector, ids[A], ids[B])
-        name = f"{shapes[B].name}/{shapes[A].name}"
+        name = names[i] if names.count(names[i]) == 1 else f"{i}: {names[i]}"
         pair = ContactPair(name, shapes[B], shapes[A], 0.0, 0.0, rows=4, k=1)
         pair = replace(pair, k=places_of(inspector, pair, (ids[A], ids[B]), R, t))
         points = pair_closest_points(pair, R, t)
@@ -148,30 +191,15 @@ def drake_contacts(
         size = min(shapes[link].shape.extent for link in (A, B))
         flat = (points.phi.min() <= 0) & (points.phi <= LIES_FLAT * size)
         for k in kept.tolist():
-            J = jacobian(
-                drake, plant, still, bodies, (points.alpha[k], points.beta[k]), points.n[k]
-            )
+            J = jacobian(state, bodies, (points.alpha[k], points.beta[k]), points.n[k])
             slip = slip_rate(J, points.n[k], v)
-            mu_v = friction(*rubs, slip, bool(plant.time_step()), stiction_tolerance)
-            name_of_contact = name if len(kept) == 1 else f"{name}/{points.point[k]}"
-            every.append(
-                Contact(name_of_contact, name, (ids[B], ids[A]), (bodies[0], bodies[1]),
-                        float(points.phi[k]), points.n[k], J, mu_v, bool(flat[k]))
+            mu_v = friction(*rubs, slip, discrete, stiction_tolerance)
+            contacts.append(
+                Contact(name if len(kept) == 1 else f"{name}/{points.point[k]}", name,
+                        (ids[B], ids[A]), (bodies[0], bodies[1]), float(points.phi[k]),
+                        points.n[k], J, mu_v, bool(flat[k]))
             )  # fmt: skip
-    return numbered(every)
-
-
-def numbered(every: list[Contact]) -> list[Contact]:
-    """The contacts, with a number before the names of pairs that another pair has, too."""
-    geometries = list(dict.fromkeys(contact.geometries for contact in every))
-    pairs = {contact.geometries: contact.pair for contact in every}
-    names = list(pairs.values())
-
-    def unique(contact: Contact, name: str) -> str:
-        alone = names.count(contact.pair) == 1
-        return name if alone else f"{geometries.index(contact.geometries)}: {name}"
-
-    return [one._replace(name=unique(one, one.name), pair=unique(one, one.pair)) for one in every]
+    return contacts
 
 
 def shape_of(inspector: SceneGraphInspector, geometry: GeometryId) -> Shape:
@@ -230,13 +258,13 @@ def places_of(
 
 
 def jacobian(
-    drake: ModuleType, plant: MultibodyPlant, still: Context, bodies: list[RigidBody],
-    points: tuple[Array, Array], n: Array,
-) -> Array:  # fmt: skip
+    state: DrakeState, bodies: list[RigidBody], points: tuple[Array, Array], n: Array
+) -> Array:
     """J of Eq. :eq:`eq-3` along Drake's velocities, shape (4, nv), world frame.
 
     `bodies` and `points` (3,) [m] are alpha's and beta's; n, (3,), is the normal.
     """
+    drake, plant, _, still = state
     world = plant.world_frame()
     relative = np.zeros((6, plant.num_velocities()))
     for body, point, side in zip(bodies, points, (-1.0, 1.0), strict=True):
