@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from importlib import import_module
 from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,7 +16,7 @@ from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.optional.guests.settled import numbered
-from quasistatic_ref.optional.guests.system import Actuation, MujocoSystem
+from quasistatic_ref.optional.guests.system import MujocoSystem
 from quasistatic_ref.simulate.target import Targets, piecewise_linear
 from quasistatic_ref.step.arrays import Array
 
@@ -47,22 +48,82 @@ class Drive(Targets):
     acts: list[Array]
     idle: tuple[str, ...] = ()
 
-    def actuation(self, t: float) -> Actuation:
-        """What drives the scene at a time [s]."""
+    def at(self, t: float) -> tuple[Array, Array]:
+        """Controls and targets of joints at a time [s], (nu + joints,), and activations, (na,)."""
         h = self.system.h
         k = round(t / h)
         while len(self.acts) <= k:
             values = self.values(h * len(self.acts))
-            self.acts.append(self.system.activation_after(self.acts[-1], values))
-        return Actuation(self.values(t), self.acts[k])
+            self.acts.append(_activations_after(self.system, self.acts[-1], values))
+        return self.values(t), self.acts[k]
 
     def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
         """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
-        return self.system.target(q, self.actuation(t))
+        return _target(self.system, q, *self.at(t))
 
     def force(self, t: float, q: Array) -> Array:
         """The force of motors at time t [s] and q, shape (n_v,) [N, N m]."""
-        return self.system.motors(q, self.actuation(t))
+        return _motors(self.system, q, *self.at(t))
+
+
+def _actuator_forces(
+    system: MujocoSystem, q: Array, values: Array, act: Array
+) -> tuple[Array, Array]:
+    """Forces of servos, within their ranges, and of other actuators, (nv,) each [N, N m].
+
+    `values` and the activations `act` are those of a Drive at a time.
+    """
+    state = system.state(q)
+    data = state.data
+    before = data.ctrl.copy(), data.act.copy()
+    data.ctrl[:] = values[: len(data.ctrl)]
+    data.act[:] = act
+    state.mujoco.mj_fwdActuation(state.adapted, data)
+    servos = system.servos
+    moments = state.moments
+    force = data.actuator_force[servos] @ moments[servos]
+    # Where a servo acts, what the range of a joint or tendon takes away is the servo's.
+    taken = data.qfrc_actuator - data.actuator_force @ moments
+    force = force + np.where(moments[servos].any(axis=0), taken, 0.0)
+    others = data.qfrc_actuator - force
+    data.ctrl[:], data.act[:] = before
+    state.mujoco.mj_fwdActuation(state.adapted, data)
+    return force, others
+
+
+def _motors(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
+    """The force of all actuators but servos, shape (n_v,) [N, N m]."""
+    return np.asarray(system.T.T @ _actuator_forces(system, q, values, act)[1]) + 0.0
+
+
+def _target(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
+    """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,)."""
+    force = _actuator_forces(system, q, values, act)[0] + system.state(q).data.qfrc_spring
+    short = values[system.model.nu :] - system.qpos(q)[system.driven_entries]
+    for spring, length in zip(system.driven.values(), short, strict=True):
+        force += spring.k * length * spring.m
+    ahead = np.linalg.solve(system.K_q, (system.T.T @ force)[: system.n_a])
+    return system.integrate(q, np.concatenate([ahead, np.zeros(system.n_u)]))[: system.n_q_a]
+
+
+def _activations_after(system: MujocoSystem, act: Array, values: Array) -> Array:
+    """Activations a time step later, (na,) [the actuators' units].
+
+    A filter is at rest, where its activation is its control; an integrator's advances by h times
+    its control. `act` are those before, and `values` those of a Drive.
+    """
+    model = system.model
+    integrates = model.actuator_dyntype == import_module("mujoco").mjtDyn.mjDYN_INTEGRATOR
+    after = act.copy()
+    for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
+        place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
+        u = values[i]
+        if model.actuator_ctrllimited[i]:
+            u = np.clip(u, *model.actuator_ctrlrange[i])
+        after[place] = act[place] + system.h * u if integrates[i] else u
+        if model.actuator_actlimited[i]:
+            after[place] = np.clip(after[place], *model.actuator_actrange[i])
+    return after
 
 
 def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> Drive:
@@ -134,11 +195,12 @@ def _of_keyframes(
 
 def _is_idle(system: MujocoSystem, rows: Sequence[Array], act: Array) -> bool:
     """Whether controls differ, and yet have the same forces where the run starts."""
+    q = system.q_start
     forces = set()
     for values in rows:
-        one = Actuation(values, system.activation_after(act, values))
-        q = system.q_start
-        forces.add((system.target(q, one).tobytes(), system.motors(q, one).tobytes()))
+        after = _activations_after(system, act, values)
+        both = _target(system, q, values, after), _motors(system, q, values, after)
+        forces.add(tuple(force.tobytes() for force in both))
     return len(rows) > 1 and len(forces) == 1
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,21 +60,6 @@ ELSEWHERE = 0.1
 """How far from the start springs are looked at once more [m, rad]."""
 
 
-class Actuation(NamedTuple):
-    """What drives a MuJoCo model at a time.
-
-    Parameters
-    ----------
-    values : ndarray, shape (nu + joints,)
-        Controls, and targets of joints that have springs towards them [their units].
-    act : ndarray, shape (na,)
-        Activations [the same].
-    """
-
-    values: Array
-    act: Array
-
-
 class Velocities(ColumnMap):
     """Which of MuJoCo's velocities move a body, and with which coordinates.
 
@@ -115,8 +100,8 @@ class MujocoSystem(Mechanism):
     MuJoCo's velocities, without those that equalities of joints take away, the actuated ones first:
     of a free joint along the world's axes and about the body's own. q has the same order, and
     quaternions [x y z w]. Forces of servos and springs are K_q (q_bar_a - q_a): where a servo's
-    force is at the end of its range, :meth:`target` is no farther than that force reaches. Motors
-    are external forces, by :meth:`motors`.
+    force is at the end of its range, a target is no farther than that force reaches. Motors are
+    external forces.
 
     Parameters
     ----------
@@ -215,11 +200,12 @@ class MujocoSystem(Mechanism):
         state = self._state
         servos = (
             Spring(named(state, "actuator_biasprm", i), stiffness(state, i), state.moments[i])
-            for i in self._servos()
+            for i in self.servos
         )
         return (*passive_springs(state), *servos, *self.driven.values())
 
-    def _servos(self) -> list[int]:
+    @property
+    def servos(self) -> list[int]:
         """The actuators whose force falls with their length."""
         state = self._state
         return [i for i in range(self.model.nu) if stiffness(state, i) and not disabled(state, i)]
@@ -231,7 +217,7 @@ class MujocoSystem(Mechanism):
         if j < 0 or kind_of(state, "jnt_type", j) not in ("HINGE", "SLIDE"):
             raise ModelError("is no hinge or slide of the model", field="joint", value=name)
         dof = int(self.model.jnt_dofadr[j])
-        if any(state.moments[i, dof] for i in self._servos()):
+        if any(state.moments[i, dof] for i in self.servos):
             problem = "has a servo; name that in the table of targets instead"
             raise ModelError(problem, field=f"stiffness.{name}", value=k)
         return Spring(f"stiffness.{name}", float(k), np.eye(self.model.nv)[dof])
@@ -357,70 +343,6 @@ class MujocoSystem(Mechanism):
         data = self.state(q).data
         force: Array = self.T.T @ (data.qfrc_smooth - data.qfrc_actuator - data.qfrc_spring)
         return force + 0.0
-
-    def motors(self, q: Array, actuation: Actuation) -> Array:
-        """The force of all actuators but servos, shape (n_v,) [N, N m]."""
-        return np.asarray(self.T.T @ self._driven(q, actuation)[1]) + 0.0
-
-    def _driven(self, q: Array, actuation: Actuation) -> tuple[Array, Array]:
-        """Forces of servos, within their ranges, and of other actuators at q, (nv,) each."""
-        state = self.state(q)
-        data = state.data
-        before = data.ctrl.copy(), data.act.copy()
-        data.ctrl[:] = actuation.values[: self.model.nu]
-        data.act[:] = actuation.act
-        state.mujoco.mj_fwdActuation(state.adapted, data)
-        servos = self._servos()
-        moments = state.moments
-        force = data.actuator_force[servos] @ moments[servos]
-        # Where a servo acts, what the range of a joint or tendon takes away is the servo's.
-        taken = data.qfrc_actuator - data.actuator_force @ moments
-        force = force + np.where(moments[servos].any(axis=0), taken, 0.0)
-        others = data.qfrc_actuator - force
-        data.ctrl[:], data.act[:] = before
-        state.mujoco.mj_fwdActuation(state.adapted, data)
-        return force, others
-
-    def activation_after(self, act: Array, values: Array) -> Array:
-        """Activations a time step later, (na,) [the actuators' units].
-
-        A filter is at rest, where its activation is its control; an integrator's advances by h
-        times its control.
-
-        Parameters
-        ----------
-        act : ndarray, shape (na,)
-            Those before [the same].
-        values : ndarray, shape (nu + joints,)
-            As of an Actuation [the same].
-        """
-        model = self.model
-        after = act.copy()
-        for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
-            place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
-            u = values[i]
-            if model.actuator_ctrllimited[i]:
-                u = np.clip(u, *model.actuator_ctrlrange[i])
-            integrates = kind_of(self._state, "actuator_dyntype", i) == "INTEGRATOR"
-            after[place] = act[place] + self.h * u if integrates else u
-            if model.actuator_actlimited[i]:
-                after[place] = np.clip(after[place], *model.actuator_actrange[i])
-        return after
-
-    def target(self, q: Array, actuation: Actuation) -> Array:
-        """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,).
-
-        Parameters
-        ----------
-        q : ndarray, shape (n_q,)
-        actuation : Actuation
-        """
-        force = self._driven(q, actuation)[0] + self.state(q).data.qfrc_spring
-        short = actuation.values[self.model.nu :] - self.qpos(q)[self.driven_entries]
-        for spring, length in zip(self.driven.values(), short, strict=True):
-            force += spring.k * length * spring.m
-        ahead = np.linalg.solve(self.K_q, (self.T.T @ force)[: self.n_a])
-        return self.integrate(q, np.concatenate([ahead, np.zeros(self.n_u)]))[: self.n_q_a]
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """From q_a of q to a target, shape (n_a,)."""

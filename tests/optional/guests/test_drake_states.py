@@ -195,28 +195,6 @@ def test_gaps_of_curved_shapes_are_1_mm(two):
     assert coordinates.left_out == ()
 
 
-def test_the_gap_at_the_corner_of_a_box_is_the_one_by_hand():
-    """A point of the cylinder is 1.0002 mm from the corner: the gap is no more."""
-    scene = Plant(None, time_step=0.0)
-    drake = scene.drake
-    scene.geometry(
-        scene.plant.world_body(), drake.RigidTransform(), drake.Box(0.2, 0.3, 0.1), "box"
-    )
-    rod = scene.solid("rod", drake.Cylinder(0.1, 0.2), [0.0, 0.0, 1.0])
-    scene.done()
-    turned = drake.RollPitchYaw(-1.0, 0.0, -1.2).ToRotationMatrix()
-    t = np.array([-0.065287, 0.270657, 0.116675])
-    scene.plant.SetFreeBodyPose(scene.own, rod, drake.RigidTransform(turned, t))
-    point = np.array([-0.100402, 0.150904, 0.050147])
-    local = turned.matrix().T @ (point - t)
-    assert np.hypot(local[0], local[1]) <= 0.1
-    way = point - [-0.1, 0.15, 0.05]
-    step, _ = qr.drake_step(scene.plant, scene.own, 0.01, {}, margin=0.05)
-    nearest = step.contacts.phi.argmin()
-    assert 0.999e-3 < step.contacts.phi[nearest] <= np.linalg.norm(way)
-    assert abs(step.contacts.n[nearest] @ way) > (1 - 1e-6) * np.linalg.norm(way)
-
-
 def test_a_surface_of_contact_counts_by_its_force():
     """A soft box on a hydroelastic floor: its weight by hand, in both answers."""
     scene = Plant(None)

@@ -19,7 +19,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.optional.guests import fates
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
 
@@ -397,14 +396,3 @@ def test_violations_vanish_with_time_step_and_softness(name, cone, seed):
         closed.append(as_is.x / as_is.load)
     coarse, fine = closed
     assert coarse == pytest.approx(RATIO * fine, rel=0.1)
-
-
-def test_each_kind_that_is_used_has_a_state():
-    seen = {field: set() for field in fates.KINDS}
-    for case in CASES.values():
-        model, _ = random_model(case, "pyramidal", FINE, 0)
-        for field, (enumeration, *_) in fates.KINDS.items():
-            kinds = getattr(mujoco, enumeration)
-            seen[field] |= {kinds(int(k)).name.split("_")[1] for k in getattr(model, field)}
-    for field, (_, used, said, _) in fates.KINDS.items():
-        assert seen[field] >= {*used.split(), *said.split()}, field

@@ -4,9 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.mujoco import mujoco_step
-from quasistatic_ref.optional.guests.still import still
 from quasistatic_ref.solve.solve import solve_step
 
 H, GRAVITY, MASS, K = 0.01, 9.81, 2.0, 500.0
@@ -53,35 +51,3 @@ def test_the_quasi_dynamic_number_is_the_drag_over_the_friction(condim):
     expected = MASS * 0.05 / H / (0.3 * MASS * GRAVITY) if condim > 1 else 0.0
     assert mujoco_step(model, data, H)[1].quasi_dynamic_number == pytest.approx(expected)
     assert not np.any(mujoco_step(model, data, H)[0].tau_u[:2])
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_mujocos_point_between_the_surfaces_makes_other_slips(seed):
-    """The points at p -+ n phi / 2 add phi / 2 (n x t) . (omega_1 + omega_2) to those at p.
-
-    Since v(p + r) = v(p) + omega x r, and t . (omega x n) = (n x t) . omega.
-    """
-    geom = '<geom size=".1" margin=".05" condim="4" friction=".6 .03 0"/>'
-    bodies = "".join(f'<body pos="{x} .1 .2"><joint type="ball" pos=".1 .1 {x}"/>{geom}</body>'
-                     for x in (0, 0.22))  # fmt: skip
-    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
-    data = mujoco.MjData(model)
-    turns = np.random.default_rng(seed).normal(size=(2, 3)) / 100
-    mujoco.mj_integratePos(model, data.qpos, turns.ravel(), 1.0)
-    mujoco.mj_forward(model, data)
-    state = still(model, data)
-    state.run()
-    ((_, touch),) = touches.listed(state)
-    J = touches.jacobian(state, touch)
-    theirs = data.efc_J.reshape(-1, model.nv)[touch.efc_address : touch.efc_address + 6]
-    spins = np.zeros((2, 3, model.nv))
-    for spin, geom_number in zip(spins, touch.geom, strict=True):
-        mujoco.mj_jacGeom(model, data, None, spin, geom_number)
-    n, *tangents = touch.frame.reshape(3, 3)
-    assert n @ J[:3] == pytest.approx((theirs[0] + theirs[1]) / 2, abs=1e-15)
-    assert J[3] == pytest.approx((theirs[4] - theirs[5]) / (2 * touch.friction[2]), abs=1e-14)
-    for k, t in enumerate(tangents):
-        row = (theirs[2 * k] - theirs[2 * k + 1]) / (2 * touch.friction[k])
-        other = touch.dist / 2 * np.cross(n, t) @ spins.sum(axis=0)
-        assert t @ J[:3] - row == pytest.approx(other, abs=1e-15)
-        assert np.abs(other).max() > 1e-3
