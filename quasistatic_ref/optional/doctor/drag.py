@@ -1,8 +1,8 @@
 """Artifacts of the model where they change what happens: drag, boundary layer, corners.
 
 Each is measured by what it changes in documented steps of a run
-(:mod:`~quasistatic_ref.optional.doctor.compared`). Of bodies that are not in equilibrium nothing
-else is said.
+(:mod:`~quasistatic_ref.optional.doctor.compared`). Of bodies that are not in equilibrium in a step
+nothing else is said of that step: of another, in which their contacts bear them, it is.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,6 @@ from quasistatic_ref.optional.doctor.compared import (
 )
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import bodies
-from quasistatic_ref.optional.doctor.telling import length
 from quasistatic_ref.simulate.finding import Finding
 
 DISTANCE = "the step shows where to, not how far"
@@ -37,7 +36,10 @@ def out_of_balance(run: Run) -> Iterator[Finding]:
 
 
 def corners(run: Run) -> Iterator[Finding]:
-    """Bodies and pairs that slip in the corners of the pyramid, and not in the ellipsoid."""
+    """Bodies and pairs that slip in the corners of the pyramid, and not in the ellipsoid.
+
+    Of a pair that does not slip without its drag either, the drag is said: speed comes first.
+    """
     names = run.compared.held_in_ellipsoid
     if names:
         k = min(names.values())
@@ -56,13 +58,14 @@ def corners(run: Run) -> Iterator[Finding]:
             continue
         for i, here, there in _pairs(run, at, at.in_ellipsoid):
             pair = run.pairs[i]
-            if _slips_more(at, i, here, there):
+            slow = at.without_drag
+            by_drag = slow is not None and _slips_more(at, i, here, slow[i])
+            if _slips_more(at, i, here, there) and not by_drag:
                 yield Finding(
                     "corners of the cone",
                     False,
                     'set cone = "ellipsoid"',
-                    f"{pair.name} slips by {length(here.way)} in step {at.k}, and in the ellipsoid "
-                    f"by {length(there.way)}",
+                    f"{pair.name} {_slip(at, i, here, there)} in the ellipsoid, in step {at.k}",
                     {"slip_mm": 1e3 * here.way, "ellipsoid_mm": 1e3 * there.way, "step": at.k},
                 )
                 return
@@ -80,8 +83,7 @@ def drag(run: Run) -> Iterator[Finding]:
                 continue
             does = f"{here.normal:.3g} N, without it {there.normal:.3g} N"
             if slips:
-                does = f"it slips by {length(here.way)}, without it by {length(there.way)}, under "
-                does += f"{here.normal:.3g} N, without it {there.normal:.3g} N"
+                does = f"it {_slip(at, i, here, there)} without it"
             finding = Finding(
                 "drag",
                 False,
@@ -146,11 +148,10 @@ def _pairs(
     """
     if changed is None:
         return
-    others = run.compared.unbalanced.keys() | run.compared.held_in_ellipsoid.keys()
     largest = max((pair.normal for pair in at.as_it_is), default=0.0)
     for i, (here, there) in enumerate(zip(at.as_it_is, changed, strict=True)):
         bears = max(here.normal, there.normal) >= COUNTS * largest
-        if bears and not bodies(run.system, run.pairs[i]) & others:
+        if bears and not bodies(run.system, run.pairs[i]) & at.unbalanced.keys():
             yield i, here, there
 
 
@@ -173,6 +174,19 @@ def _relative_way(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> float:
 def _slips_more(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
     """Whether a pair with friction slips or spins in the first of two answers alone."""
     pair = at.run.pairs[i]
-    slips = pair.mu_v > 0 and a.way > at.shortest[i] and b.way < COUNTS * a.way
     turns = pair.rows == 6 and pair.mu_omega > 0
-    return slips or (turns and a.spin > SHORT and b.spin < COUNTS * a.spin)
+    spins = turns and a.spin > SHORT and b.spin < COUNTS * a.spin
+    return spins or (pair.mu_v > 0 and _farther(at, i, a, b))
+
+
+def _farther(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
+    return bool(a.way > at.shortest[i] and b.way < COUNTS * a.way)
+
+
+def _slip(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> str:
+    """How far a pair slips or spins in the first of two answers, and in the second."""
+    if _farther(at, i, a, b):
+        there = f"by {1e3 * b.way:.2g} mm" if b.way > at.shortest[i] else "not"
+        return f"slips by {1e3 * a.way:.2g} mm, and {there}"
+    there = f"by {np.degrees(b.spin):.2g} degrees" if b.spin > SHORT else "not"
+    return f"turns by {np.degrees(a.spin):.2g} degrees, and {there}"

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.optional.doctor.compared import LookedAt
-from tests.optional.doctor.urdfs import ball, block, slides
+from tests.optional.doctor.urdfs import ball, block, collision, slides
 
 FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
 ARTIFACTS = {"drag", "boundary layer", "corners of the cone", "not in equilibrium"}
@@ -106,6 +106,74 @@ def test_a_slab_that_drag_keeps_from_going_with_its_belt():
     assert -2.2e-3 < run["q"][-1][3] < -1.8e-3
     (finding,) = found(run)
     assert (finding.name, "it slips by 0.05" in finding.cause) == ("drag", True)
+
+
+TIP = "<sphere radius='0.01'/>"
+
+
+def lifted(mu_omega, speed=0.2 / 3, load=0.0):
+    """A bar of 0.35 kg that two fingers lift 13.9 mm from its centre, with 10 N each.
+
+    W (1 / mu_v + e / mu_omega) <= 2 N holds for mu_omega from 3.04 mm on; with W + m v / h in the
+    place of W, 34 % more, from 4.49 mm on. A `load` [N] pulls it down at the end.
+    """
+    links = '<link name="post"/><link name="hand"/>'
+    joints = (
+        '<joint name="lift" type="prismatic"><parent link="post"/><child link="hand"/>'
+        '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1000" velocity="1"/></joint>'
+    )
+    for name, sign in (("left", 1), ("right", -1)):
+        links += f'<link name="{name}">{collision(TIP)}</link>'
+        joints += (
+            f'<joint name="{name}" type="prismatic"><parent link="hand"/><child link="{name}"/>'
+            f'<origin xyz="0.0139 {0.05 * sign} 0"/><axis xyz="0 {-sign} 0"/>'
+            '<limit lower="-1" upper="1" effort="1000" velocity="1"/></joint>'
+        )
+    inside = {"left": 2.5e-3, "right": 2.5e-3}
+    bodies = {
+        "gripper": {
+            "urdf": f'<robot name="g">{links}{joints}</robot>',
+            "actuated": "all",
+            "K_q": {"lift": 3000, "left": 4000, "right": 4000},
+            "targets": [{"t": 0.0, "lift": 0.0, **inside},
+                        {"t": 0.4, "lift": 0.4 * speed, **inside}],
+        },
+        "bar": {"urdf": block(0.35, (0.1, 0.08, 0.02)), "base": "floating",
+                "wrenches": [{"t": t, "force": [0, 0, f]}
+                             for t, f in ((0.0, 0), (0.48, 0), (0.58, -load))]},
+    }  # fmt: skip
+    grip = {"mu_v": 0.8, "mu_omega": mu_omega, "rows": 6, "k": 1, "beta": "bar"}
+    grip["alpha"] = ["gripper/left", "gripper/right"]
+    scene = {"h": 0.02, "steps": 30, "bodies": bodies, "contacts": {"grip": grip}}
+    return load_scenario(scene).run(progress=False)
+
+
+@pytest.mark.parametrize(
+    ("mu_omega", "speed", "names"),
+    [
+        (4.0e-3, 0.2 / 3, ["drag"]),
+        (4.0e-3, 0.05 / 3, []),
+        (3.2e-3, 0.005 / 3, []),
+        (4.7e-3, 0.2 / 3, []),
+        (2.2e-3, 0.005 / 3, ["not in equilibrium"]),
+    ],
+)
+def test_a_grip_that_turns_by_its_drag_alone(mu_omega, speed, names):
+    run = lifted(mu_omega, speed)
+    assert [finding.name for finding in found(run)] == names
+    assert bool(np.linalg.norm(run["q"][-1][-4:-1]) > 1e-3) is bool(names)
+    if names == ["drag"]:
+        (finding,) = found(run)
+        assert finding.remedy == "move more slowly, or take a larger h"
+        assert ", and not without it, in step" in finding.cause
+
+
+def test_what_is_out_of_balance_in_one_step_is_compared_in_the_others():
+    """At the end 1 N pulls out of the pyramid what its drag alone turned before."""
+    assert {finding.name for finding in found(lifted(4.0e-3, load=1.0))} == {
+        "corners of the cone",
+        "drag",
+    }
 
 
 def loaded(urdf, z, force=(0, 0, 0), mu_v=0.5, **more):
