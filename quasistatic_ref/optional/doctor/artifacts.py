@@ -16,6 +16,11 @@ from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.ordered import dot
 from quasistatic_ref.tolerances import BEARS
 
+LIGHT = 1e-3
+"""Force that is none, over the weight of a scene's bodies or its largest load [-]."""
+BORNE = 0.1
+"""Normal forces over the weight of a body below which they do not bear it [-]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Drag:
@@ -27,7 +32,8 @@ class Drag:
     drag : ndarray, shape (steps,)
         ||M_u delta_q_u / h^2|| of its translation [N]; NaN where float64 has no number for it.
     bears : ndarray, shape (steps,)
-        Sum of mu_v f_n of its contacts [N]; where they bear nothing by friction, its weight.
+        Sum of mu_v f_n of its contacts [N]; where they bear nothing by friction, or press with less
+        than a tenth of its weight, its weight.
     touched, rubs : ndarray of bool, shape (steps,)
         Whether its contacts press at all, and whether they bear anything by friction.
     """
@@ -80,8 +86,9 @@ def drags(
         own = moved(first.contacts, x)
         drag = _quotient(_lengths(momentum[:, x - first.n_a : x - first.n_a + 3]), first.h**2)
         friction = _sums(rubs[:, own])
-        rubbed = friction > BEARS * drag
-        bears = np.where(rubbed, friction, system.mass(body) * g)
+        weight = system.mass(body) * g
+        rubbed = (friction > BEARS * drag) & (_sums(presses[:, own]) >= BORNE * weight)
+        bears = np.where(rubbed, friction, weight)
         touched = _sums(presses[:, own]) > BEARS * drag
         found.append(Drag(body, drag, bears, touched, rubbed))
     return found

@@ -14,6 +14,7 @@ import numpy as np
 
 from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.equilibrium import missing_force
 from quasistatic_ref.optional.doctor.start import bodies, free_bases, least, slices
 from quasistatic_ref.solve.solve import solve_step
@@ -34,8 +35,6 @@ SETTLED = 0.01
 """Change of rises and of normal forces, over the largest, at which Coulomb's law holds [-]."""
 COUNTS = 0.1
 """Least difference that counts, over the larger of two numbers [-]."""
-LIGHT = 1e-3
-"""Force that is none, over the weight of a scene's bodies or its largest load [-]."""
 FARTHEST = 1.0
 """Size that stands for that of a half-space [m]."""
 SHORT = 1e-6
@@ -187,14 +186,19 @@ class LookedAt:
         slip = np.hypot(*np.vecdot(motion[:, None, :3], self._tangents).T)
         return bool((inside & (slip > SHORT * self._sizes)).any())
 
-    @cached_property
+    @property
     def unbalanced(self) -> dict[str, Missing]:
         """Free bodies that touch something and are not in equilibrium, and what is missing."""
+        return {name: lacks for name, lacks in self.moved.items() if name in self._touched}
+
+    @cached_property
+    def moved(self) -> dict[str, Missing]:
+        """Free bodies that are not in equilibrium, those among them that touch nothing."""
         return self._unbalanced(self.step)
 
     @cached_property
     def unbalanced_in_ellipsoid(self) -> dict[str, Missing]:
-        """The same in the ellipsoid."""
+        """As `unbalanced`, in the ellipsoid."""
         return self.unbalanced if self._rounder is None else self._unbalanced(self._rounder)
 
     @cached_property
@@ -211,22 +215,36 @@ class LookedAt:
         contacts = step.contacts
         names = [system.coordinates[i].joint.partition("/")[0] for i in range(step.n_a, step.n_v)]
         masses = np.array([system.mass(name) for name in names])
-        touching = (contacts.phi <= SHORT * self._sizes) | self._presses(self.forces)
         actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
         at_most = np.where(actuated, np.maximum(self.forces[:, 2], 0.0), np.inf)
-        missing = missing_force(step, touching, at_most, masses)
+        missing = missing_force(step, self._touching, at_most, masses)
         found = {}
         for name in free_bases(system):
             own = np.flatnonzero([other == name for other in names])
             amount = float(np.linalg.norm(missing[own]))
-            on = [name in bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
-            if (touching & np.array(on, dtype=bool)).any() and amount > self.light:
+            if amount > self.light:
                 force, turn = np.split(missing[own], [3])
                 gyration = np.linalg.cholesky(step.inertia(own))[3:, 3:]
                 torque = gyration @ turn / np.sqrt(masses[own[0]])
                 lengths = float(np.linalg.norm(force)), float(np.linalg.norm(torque))
                 found[name] = Missing(amount, *lengths, self.k)
         return found
+
+    @property
+    def _touching(self) -> Mask:
+        phi = self.step.contacts.phi
+        return np.asarray((phi <= SHORT * self._sizes) | self._presses(self.forces))
+
+    @cached_property
+    def _touched(self) -> set[str]:
+        """Bodies that something touches."""
+        touching = self._touching
+        return {
+            name
+            for pair, own in slices(self.run.pairs)
+            if touching[own].any()
+            for name in bodies(self.run.system, pair)
+        }
 
     @cached_property
     def light(self) -> float:

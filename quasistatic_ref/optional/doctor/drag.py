@@ -18,14 +18,22 @@ from quasistatic_ref.optional.doctor.compared import (
 )
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import bodies
+from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
 
 DISTANCE = "the step shows where to, not how far"
 
 
 def out_of_balance(run: Run) -> Iterator[Finding]:
-    """Free bodies whose loads no forces in the cones of their contacts bear."""
+    """Free bodies whose loads no forces in the cones of their contacts bear.
+
+    A body that falls until the end because its contacts bear nothing is in free fall.
+    """
+    falling = falls(run)
     for name, missing in run.compared.unbalanced.items():
+        weight = run.system.mass(name) * run.g
+        if name in falling and missing.force >= (1 - COUNTS) * weight:
+            continue
         yield Finding(
             "not in equilibrium",
             False,
@@ -151,7 +159,7 @@ def _pairs(
     largest = max((pair.normal for pair in at.as_it_is), default=0.0)
     for i, (here, there) in enumerate(zip(at.as_it_is, changed, strict=True)):
         bears = max(here.normal, there.normal) >= COUNTS * largest
-        if bears and not bodies(run.system, run.pairs[i]) & at.unbalanced.keys():
+        if bears and not bodies(run.system, run.pairs[i]) & at.moved.keys():
             yield i, here, there
 
 

@@ -7,17 +7,40 @@ least r, in the sum of its sizes, with A_u' lam + tau_u + r = 0.
 """
 
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.tolerances import SAME_NORMAL
 
 AROUND = 72
 """Directions of friction that stand for the circle of a curved cone [-]."""
+CHEAP = 1e-6
+"""Cost of a normal force over that of as much that is missing [-]."""
+TINY = 1e-300
+"""Of a coordinate that no contact moves."""
 TORSIONS = np.linspace(-0.5, 0.5, 13) * np.pi
 """Latitudes at which they stand, from torsion alone to torsion alone [rad]."""
+
+
+class Statics(NamedTuple):
+    """Forces by which contacts bear a load, and what is missing.
+
+    Parameters
+    ----------
+    missing : ndarray, shape (n_u,)
+        [N], zero if the load is borne. Its entries are along axes in which the kinetic energy of a
+        body is a sum of squares: of a free body first those of its translation, then torques about
+        its centre of mass over its radii of gyration.
+    normal : ndarray, shape (n_c,)
+        Normal forces [N] with the least sum that bear the rest.
+    """
+
+    missing: Array
+    normal: Array
 
 
 def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array) -> Array:
@@ -39,9 +62,7 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
     Returns
     -------
     ndarray, shape (n_u,)
-        [N], zero if the loads are borne. Its entries are along axes in which the kinetic energy of
-        a body is a sum of squares: of a free body first those of its translation, then torques
-        about its centre of mass over its radii of gyration.
+        [N], as in :class:`Statics`.
 
     Examples
     --------
@@ -50,9 +71,15 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
     >>> bool(np.abs(borne).sum() > 0)  # it spins: its torque is beyond mu_omega m g
     True
     """
+    return statics(step, touching, at_most, masses).missing
+
+
+def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> Statics:
+    """What :func:`missing_force` says, and the least normal forces; parameters as there."""
     from scipy.optimize import linprog  # takes as long as a short run
 
     n_u = step.n_u
+    n_c = step.contacts.n_c
     rows, contact = _cone_rows(step, touching)
     root = np.linalg.cholesky(step.M_u)
     scale = np.sqrt(masses)
@@ -61,21 +88,46 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
     load = along[:, -1]
     size = float(np.abs(load).max(initial=0.0))
     if not size:
-        return np.zeros(n_u)
-    pressing = np.zeros((step.contacts.n_c, len(rows) + 2 * n_u))
+        return Statics(np.zeros(n_u), np.zeros(n_c))
+    pressing = np.zeros((n_c, len(rows) + 2 * n_u))
     pressing[contact, np.arange(len(rows))] = 1.0  # a row pushes by 1 along n
     limited = np.isfinite(at_most) & touching
     answer = linprog(
-        np.concatenate([np.zeros(len(rows)), np.ones(2 * n_u)]),
+        np.concatenate([np.full(len(rows), CHEAP), np.ones(2 * n_u)]),
         A_ub=pressing[limited],
         b_ub=at_most[limited] / size,
         A_eq=np.column_stack([along[:, :-1], np.eye(n_u), -np.eye(n_u)]),
         b_eq=-load / size,
     )
     if answer.x is None:  # with r it has a solution: only where HiGHS fails
-        return np.zeros(n_u)
+        return Statics(np.zeros(n_u), np.zeros(n_c))
     plus, minus = answer.x[len(rows) :].reshape(2, n_u)
-    return np.asarray(size * (plus - minus))
+    return Statics(np.asarray(size * (plus - minus)), np.asarray(size * (pressing @ answer.x)))
+
+
+def unsqueezed(step: StepData, normal: Array) -> Array:
+    """Normal forces, shape (n_c,) [N], less those by which contacts squeeze what is between them.
+
+    A squeeze, of forces in the cones with A_u' w = 0, moves nothing. In a rigid guide it may have
+    any size, so that friction would bear any load: no force is taken to have made it.
+    """
+    from scipy.optimize import linprog  # takes as long as a short run
+
+    presses = normal > CHEAP * normal.max(initial=0.0)
+    if not presses.any():
+        return np.zeros_like(normal)
+    rows, contact = _cone_rows(step, presses)
+    along = rows[:, step.n_a :]
+    along = along / np.abs(along).max(axis=0, initial=TINY)
+    size = float(normal.max())
+    of_contact = np.zeros((len(normal), len(rows)))
+    of_contact[contact, np.arange(len(rows))] = 1.0
+    answer = linprog(
+        np.full(len(rows), -1.0),
+        A_ub=np.vstack([along.T, -along.T, of_contact]),
+        b_ub=np.concatenate([np.full(2 * step.n_u, SAME_NORMAL), normal / size]),
+    )
+    return normal if answer.x is None else np.asarray(normal - size * (of_contact @ answer.x))
 
 
 def _cone_rows(step: StepData, touching: Mask) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.optional.doctor.borne import borne
+from quasistatic_ref.optional.doctor.borne import at_rest, borne
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
@@ -144,6 +144,8 @@ def guided(start: Start) -> Iterator[Finding]:
         if fastest >= CRAWL or key in said or (under_coulomb and guide.clearance):
             continue
         said.add(key)
+        if _holds(start, guide, start.q_start, contacts, squeezed=False):
+            continue  # by its lever arms, and not because it is locked
         unit = "rad" if guide.turns else "m"
         cause = (
             f"{' and '.join(joints)} cannot open the gap of {' and '.join(names)}, "
@@ -165,25 +167,50 @@ def guided(start: Start) -> Iterator[Finding]:
         )
 
 
+def _by_lever_arms(run: Run, k: int, contacts: Contacts, wrench: Array) -> Array:
+    """Normal forces that bear the loads of step k without a squeeze, shape (n_c,) [N].
+
+    Contacts of actuated bodies are loads, as they press in the step.
+    """
+    rest = at_rest(run, run["q"][k], contacts)
+    step = run.step_data(k)
+    actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
+    J_n = frame_jacobian(contacts, contacts.J)[0][:, step.n_a :]
+    pushed = step.tau_u + np.where(actuated, wrench[:, 2], 0.0) @ J_n
+    step = step.replace(tau_u=pushed)
+    return rest._replace(step=step, touching=rest.touching & ~actuated).without_squeeze()
+
+
 def _joints(start: Start, guide: Guide) -> list[str]:
     coordinates = start.system.coordinates
     return list(dict.fromkeys(coordinates[i].joint for i in np.flatnonzero(guide.moved)))
+
+
+def _holds(start: Start, guide: Guide, q: Array, contacts: Contacts, squeezed: bool) -> bool:
+    """Whether friction of a guide bears a free body that would fall without it."""
+    joint = start.system.joint(_joints(start, guide)[0])
+    name = joint.name.partition("/")[0]
+    mu_v = contacts.mu_v.copy()
+    mu_v[list(guide.contacts)] = 0.0
+    smooth = replace(contacts, mu_v=mu_v)
+    return (
+        joint.free
+        and borne(start, q, contacts, name, squeezed)
+        and not borne(start, q, smooth, name)
+    )
 
 
 def _remedy(start: Start, guide: Guide, q: Array, contacts: Contacts) -> str:
     names = [start.simulator.layout.names[j] for j in guide.contacts]
     tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
     joint = start.system.joint(_joints(start, guide)[0])
+    name = joint.name.partition("/")[0]
     if joint.free:
-        mu_v = contacts.mu_v.copy()
-        mu_v[list(guide.contacts)] = 0.0
-        name = joint.name.partition("/")[0]
-        without = replace(contacts, mu_v=mu_v)
-        if borne(start, q, contacts, name) and not borne(start, q, without, name):
-            return f"let a spring (K_q) press one side of {tables}, whose friction holds {name}"
+        if _holds(start, guide, q, contacts, squeezed=True):
+            return f"let a spring (K_q) press one side of {tables}, so that friction holds {name}"
         return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
     instead = "support" if isinstance(joint, Planar) else "joint_friction"
-    return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
+    return f"leave out {tables}, and say {instead} in [bodies.{name}]"
 
 
 def locked(run: Run) -> Iterator[Finding]:
@@ -191,7 +218,8 @@ def locked(run: Run) -> Iterator[Finding]:
 
     That is the step with most friction. What contacts could bear is their friction coefficients
     times the forces of the same step without friction: there, no guide presses because it is to
-    rise. A coordinate is locked if it moves by less than a tenth of what it then would.
+    rise. Lever arms press, too: a body that hangs beyond its guide is pressed on both sides of it.
+    A coordinate is locked if it moves by less than a tenth of what it then would.
     """
     rubbing = np.abs(run["wrench"][:, :, [0, 1, 3]]).sum(axis=(1, 2))
     if not rubbing.any():
@@ -214,7 +242,8 @@ def locked(run: Run) -> Iterator[Finding]:
         return
     J_n, *J_rubs = frame_jacobian(contacts, contacts.J)
     force = np.concatenate([step.tau_a, step.tau_u]) + wrench[:, 2] @ J_n  # all but friction
-    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * without[:, 2:3])
+    presses = np.maximum(without[:, 2], _by_lever_arms(run, k, contacts, wrench))
+    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * presses[:, None])
     inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
     beyond = np.abs(force) - could
     moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia

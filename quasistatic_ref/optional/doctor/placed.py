@@ -21,7 +21,7 @@ from quasistatic_ref.optional.doctor.start import (
     table,
 )
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import NEAR, SUNK
+from quasistatic_ref.tolerances import NEAR, SAME_NORMAL, SUNK
 
 BEARING = 0.1
 """Cosine of the steepest surface that may bear a body [-]: 84 degrees."""
@@ -33,6 +33,8 @@ def gravity(start: Start) -> Iterator[Finding]:
         near = [x for x in own if x[1] <= SUNK * least(x[0])]
         world = [x for x in near if "world" in bodies(start.system, x[0])]
         if not world or len(world) < len(near) or max(up for *_, up in near) >= BEARING:
+            continue
+        if _clamped(start, name):
             continue
         if not (start.small and borne(start, start.q_start, start.contacts_at_start, name)):
             pair, _, up = world[0]
@@ -107,6 +109,24 @@ def _falling(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float]
     for name in [x for x in loose if x not in borne]:
         with suppress(ContactError):  # of a pose that no step has
             yield name, [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
+
+
+def _clamped(start: Start, name: str) -> bool:
+    """Whether a body is touched from opposite sides: no direction of gravity would press it there.
+
+    Of some contacts that are near, sum w n = 0 with w >= 0.
+    """
+    from scipy.optimize import nnls  # takes as long as a short run
+
+    assert start.points is not None
+    normals = [
+        start.points.n[at][start.points.phi[at] <= SUNK * least(pair)]
+        for pair, at in slices(start.pairs)
+        if name in bodies(start.system, pair)
+    ]
+    n = np.concatenate(normals)
+    _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
+    return bool(left <= SAME_NORMAL)
 
 
 def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float, float]]]]:

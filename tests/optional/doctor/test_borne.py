@@ -3,36 +3,99 @@
 import pytest
 
 import quasistatic_ref as qr
+from quasistatic_ref.optional.doctor.borne import at_rest
+from quasistatic_ref.optional.doctor.start import Start
+from tests.optional.doctor.urdfs import block
+
+MU_V = 0.25
+WEIGHT = 9.81
+CLEARANCE = 1e-8
+"""Of each side [m]: it counts as none."""
+CLAMP = (("upper", -0.03, 1.0), ("lower", 0.03, 0.0))
+SLEEVE = (*CLAMP, ("third", 0.03, 1.0), ("fourth", -0.03, 0.0))
 
 
-def clamp(reach, offset, mu_v=0.25, steps=3):
-    """Two balls on opposite sides of a post, `offset` apart in height [m], a load `reach` out."""
-    balls = "".join(
-        f'<collision name="{name}"><origin xyz="{x} 0 {z}"/><geometry><sphere radius="0.01"/>'
-        "</geometry></collision>"
-        for name, x, z in (("upper", -0.03, offset), ("lower", 0.03, 0.0))
+def scenario(reach, offset, balls=CLAMP, steps=3):
+    """Balls on both sides of a post, up to `offset` apart in height [m], a load `reach` out."""
+    collisions = "".join(
+        f'<collision name="{name}"><origin xyz="{x} 0 {z * offset}"/><geometry>'
+        '<sphere radius="0.01"/></geometry></collision>'
+        for name, x, z in balls
     )
     urdf = (
         f'<robot name="c"><link name="c"><inertial><origin xyz="{reach} 0 0"/><mass value="1"/>'
         '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'{balls}<collision name="load"><origin xyz="{reach} 0 0"/><geometry>'
+        f'{collisions}<collision name="load"><origin xyz="{reach} 0 0"/><geometry>'
         '<box size="0.1 0.05 0.02"/></geometry></collision></link></robot>'
     )
-    on = {"alpha": "post", "mu_v": mu_v, "rows": 4}
+    on = {"alpha": "post", "mu_v": MU_V, "rows": 4}
     scene = {
         "h": 0.01,
         "steps": steps,
-        "gravity": [0, 0, -9.81],
+        "gravity": [0, 0, -WEIGHT],
         "bodies": {"c": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, 0.4]}}},
-        "shapes": {"post": {"box": {"size": [0.04, 1, 2]}}},
-        "contacts": {name: {**on, "beta": f"c/{name}"} for name in ("upper", "lower")},
+        "shapes": {"post": {"box": {"size": [0.04 - 2 * CLEARANCE, 1, 2]}}},
+        "contacts": {name: {**on, "beta": f"c/{name}"} for name, *_ in balls},
     }
-    return qr.load_scenario(scene).run(progress=False)
+    return qr.load_scenario(scene)
 
 
+@pytest.mark.parametrize("balls", [CLAMP, SLEEVE])
 @pytest.mark.parametrize(("reach", "offset"), [(0.25, 0.1), (0.4, 0.15)])
-def test_a_clamp_that_holds_has_no_finding(reach, offset):
-    """It holds where 2 mu_v reach >= offset."""
-    run = clamp(reach, offset)
+def test_what_its_lever_arms_hold_has_no_finding(reach, offset, balls):
+    """It holds where 2 mu_v reach >= offset, a sleeve with clearance 0 as a clamp does."""
+    run = scenario(reach, offset, balls).run(progress=False)
     assert [str(one) for one in run.findings] == []
-    assert abs(run["q"][-1] - run["q"][0]).max() < 1e-12
+    assert abs(run["q"][-1] - run["q"][0]).max() < 1e-6
+
+
+@pytest.mark.parametrize("balls", [CLAMP, SLEEVE])
+@pytest.mark.parametrize(("reach", "offset"), [(0.25, 0.1), (0.1, 0.1), (0.3, 0.2)])
+def test_friction_bears_what_lever_arms_press(reach, offset, balls):
+    """N offset = W reach on both sides, so that friction could bear 2 mu_v N: 12.3 N for 9.81 N.
+
+    It need not be equal on both sides, 20 mm from the middle: N is as uncertain.
+    """
+    scene = scenario(reach, offset, balls)
+    start = Start(scene.simulator(), scene.system.q_start)
+    normal = at_rest(start, start.q_start, start.contacts_at_start).without_squeeze()
+    by_hand = 2 * MU_V * WEIGHT * reach / offset
+    if balls == CLAMP and by_hand < WEIGHT:
+        by_hand = 0.0  # it falls, and turns away from the post
+    assert abs(MU_V * normal.sum() - by_hand) <= 2 * MU_V * (by_hand > 0) * WEIGHT * 0.02 / offset
+
+
+@pytest.mark.parametrize(("reach", "offset"), [(0.1, 0.1), (0.3, 0.2)])
+def test_a_clamp_that_falls_is_told_that_nothing_bears_it(reach, offset):
+    run = scenario(reach, offset, steps=100).run(progress=False)
+    (finding,) = run.findings
+    assert finding.name == "free fall"
+    assert 0.09 < -run["q"][-1][2] + 0.4 < 0.099
+    assert 1 <= run.header["largest_drag_share"] <= 10 / MU_V
+
+
+def test_a_sleeve_whose_lever_arms_press_too_little_is_locked():
+    """N = 9.81 N on both sides, so that friction could bear 4.9 N of 9.81 N."""
+    guided, locked = scenario(0.1, 0.1, SLEEVE).run(progress=False).findings
+    assert (guided.name, locked.name) == ("guided friction", "locked guide")
+    assert locked.numbers["could_bear"] == pytest.approx(4.905, abs=2 * MU_V * WEIGHT * 0.2)
+    assert "mu_v" not in guided.remedy + locked.remedy
+
+
+def test_a_body_that_touches_what_cannot_bear_it_is_not_told_of_a_gap():
+    """A box that touches a ceiling: its gap is rounding, and none."""
+    box = {
+        "urdf": block(1.0, (0.1, 0.1, 0.1)),
+        "base": "floating",
+        "pose": {"xyz": [0, 0, 0.3]},
+    }
+    scene = {
+        "h": 0.01,
+        "steps": 5,
+        "bodies": {"box": box},
+        "shapes": {"ceiling": {"halfspace": {"normal": [0, 0, -1], "offset": -0.35}}},
+        "contacts": {"on": {"alpha": "ceiling", "beta": "box", "mu_v": 0.5, "rows": 4, "k": 4}},
+    }
+    run = qr.load_scenario(scene).run(progress=False)
+    (fall,) = [one for one in run.findings if one.name == "free fall"]
+    assert fall.remedy == "let what touches it at the start, on(ceiling, box/shape), bear it"
