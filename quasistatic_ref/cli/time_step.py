@@ -1,12 +1,16 @@
 """What a scenario says about its time step h: a rule of thumb, before anything runs."""
 
 import math
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.tolerances import BEYOND
 
 SLOW: Final = 0.1
 """Largest share of the friction that contacts can bear [-] which the spurious drag may take without
@@ -28,8 +32,10 @@ def time_step_record(scenario: Scenario) -> dict[str, float | None]:
     dict
         ``target_speed``: of the fastest shape, at its origin [m/s]. ``small_drag_from``: the h
         [s] from which on the drag m v / h of a body that is as fast is below a tenth of mu_v m g,
-        with the smallest mu_v > 0. ``target_turn``: the largest turn of a link in a step [rad].
-        ``between_waypoints``: the shortest time [s]. None where there is none.
+        with the smallest mu_v > 0. ``small_layer_to``: the h [s] up to which the layer mu_v h v
+        under what slides is below a tenth of the depth to which targets press it. ``target_turn``:
+        the largest turn of a link in a step [rad]. ``between_waypoints``: the shortest time [s].
+        None where there is none.
     """
     way, turn = _fastest(scenario)
     speed = way / scenario.h
@@ -40,6 +46,7 @@ def time_step_record(scenario: Scenario) -> dict[str, float | None]:
     return {
         "target_speed": speed,
         "small_drag_from": h if math.isfinite(h) else None,
+        "small_layer_to": _thinnest_layer(scenario),
         "target_turn": turn,
         "between_waypoints": min((float(np.diff(times).min()) for times in tracks), default=None),
     }
@@ -62,6 +69,11 @@ def time_step_words(record: dict[str, float | None]) -> str:
         words.append(f"targets move by up to {speed:.3g} m/s")
     if h:
         words.append(f"drag is below a tenth of friction on a body's weight from h = {h:.3g} s on")
+    if layer := record["small_layer_to"]:
+        words.append(
+            "where what targets press slides, its layer is below a tenth of their depth up to "
+            f"h = {layer:.3g} s"
+        )
     if turn:
         words.append(f"targets turn by up to {turn:g} rad a step")
     if words and between:
@@ -72,19 +84,14 @@ def time_step_words(record: dict[str, float | None]) -> str:
 def _fastest(scenario: Scenario) -> tuple[float, float]:
     """The longest way [m] and the largest turn [rad] that targets take in a step."""
     placed = [shape for pair in scenario.pairs for shape in (pair.alpha, pair.beta)]
-    tracks = scenario.targets.tracks
-    if not placed or not tracks:
+    if not placed:
         return 0.0, 0.0
     links = np.array([shape.link for shape in placed])
     origins = np.array([shape.t for shape in placed])
-    h = scenario.h
-    steps = scenario.steps
-    waypoints = np.concatenate([track.times for track in tracks])
-    after = np.floor(np.clip(waypoints, 0, steps * h) / h).astype(int)
     way = turn = 0.0
-    for k in np.unique(np.clip([after - 1, after], 0, steps - 1)).tolist():
-        R, x = _at(scenario, k * h, links, origins)
-        R_next, x_next = _at(scenario, (k + 1) * h, links, origins)
+    for before, after in _steps(scenario):
+        R, x = before.R[links], _origins(before, links, origins)
+        R_next, x_next = after.R[links], _origins(after, links, origins)
         chord = np.linalg.norm(R_next - R, axis=(1, 2))  # sqrt(8) sin(angle / 2)
         angle = 2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1.0))
         way = max(way, float(np.linalg.norm(x_next - x, axis=1).max()))
@@ -92,9 +99,63 @@ def _fastest(scenario: Scenario) -> tuple[float, float]:
     return way, turn
 
 
-def _at(scenario: Scenario, t: float, links: Indices, origins: Array) -> tuple[Array, Array]:
-    """Rotations of links, and origins [m] of shapes on them, where targets are reached."""
+def _thinnest_layer(scenario: Scenario) -> float | None:
+    """The least h [s] for which mu_v h v is a tenth of the depth of a pair that slides.
+
+    Free bodies stand where they start: of their pairs, which they follow from then on, the first
+    step counts in which they press and slide.
+    """
+    simulator = scenario.simulator()
+    column_map = scenario.system.column_map
+    free = np.any(column_map.moves[:, :, column_map.owner >= scenario.system.n_a], axis=(1, 2))
+    bounds: dict[str, list[float]] = {}
+    for before, after in _steps(scenario):
+        try:
+            points = simulator.closest_points(after)
+        except ContactError:  # a pose that no step has
+            continue
+        end = 0
+        for pair in scenario.pairs:
+            start, end = end, end + pair.n_c
+            j = start + int(points.phi[start:end].argmin())
+            depth = -float(points.phi[j])
+            links = [pair.alpha.link, pair.beta.link]
+            moved = [_moved(before, after, link, points.beta[j]) for link in links]
+            slip = moved[1] - moved[0]
+            along = slip - (slip @ points.n[j]) * points.n[j]
+            way = float(np.linalg.norm(along))
+            followed = free[links].any() and pair.name in bounds
+            if min(depth, way) > BEYOND and pair.mu_v > 0 and not followed:
+                h = SLOW * depth / (pair.mu_v * way / scenario.h)
+                bounds.setdefault(pair.name, []).append(h)
+    return min((h for each in bounds.values() for h in each), default=None)
+
+
+def _steps(scenario: Scenario) -> Iterator[tuple[Kinematics, Kinematics]]:
+    """Where links are before and after the steps next to a waypoint, targets being reached."""
+    tracks = scenario.targets.tracks
+    if not tracks:
+        return
+    h = scenario.h
+    steps = scenario.steps
+    waypoints = np.concatenate([track.times for track in tracks])
+    at = np.floor(np.clip(waypoints, 0, steps * h) / h).astype(int)
+    for k in np.unique(np.clip([at - 1, at], 0, steps - 1)).tolist():
+        yield _at(scenario, k * h), _at(scenario, (k + 1) * h)
+
+
+def _at(scenario: Scenario, t: float) -> Kinematics:
     system = scenario.system
-    kinematics = system.kinematics(system.with_actuated(system.q_start, scenario.targets(t)))
-    R = kinematics.R[links]
-    return R, kinematics.t[links] + np.einsum("sij,sj->si", R, origins)
+    return system.kinematics(system.with_actuated(system.q_start, scenario.targets(t)))
+
+
+def _origins(kinematics: Kinematics, links: Indices, origins: Array) -> Array:
+    """Origins of shapes on links, shape (n, 3) [m]."""
+    turned = np.einsum("sij,sj->si", kinematics.R[links], origins)
+    return np.asarray(kinematics.t[links] + turned)
+
+
+def _moved(before: Kinematics, after: Kinematics, link: int, x: Array) -> Array:
+    """How far the point of a link that is at x after a step moves in it, shape (3,) [m]."""
+    own = (x - after.t[link]) @ after.R[link]
+    return np.asarray(x - before.R[link] @ own - before.t[link])
