@@ -110,6 +110,8 @@ class Drive(Plain):
         Of its error, ``"m"`` or ``"rad"``.
     error : ndarray, shape (steps,)
         Distance from its target at the end of each step [m], of a joint that turns [rad].
+    way : float
+        How far its target goes from where it starts, at most; in the unit of the error.
     spring : ndarray, shape (steps,), or None
         Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
         K_q is not diagonal.
@@ -118,6 +120,7 @@ class Drive(Plain):
     of: Joint
     unit: str
     error: Array
+    way: float
     spring: Array | None
 
 

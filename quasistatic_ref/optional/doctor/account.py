@@ -279,9 +279,16 @@ def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
 
 def _drive(joint: Joint, run: Trajectory, stiffness: Array) -> Drive:
     target = run["q_bar_a"]
-    q = run["q"][1:, : target.shape[1]]
-    away = np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1)
-    error = away if joint.lengths else _angle(joint, q, target)
+    n = target.shape[1]
+    error = _distance(joint, run["q"][1:, :n], target)
+    way = float(_distance(joint, np.broadcast_to(run["q"][0, :n], target.shape), target).max())
     scalar = joint.v.stop == joint.v.start + 1
     spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
-    return Drive(joint, "m" if joint.lengths else "rad", error, spring)
+    return Drive(joint, "m" if joint.lengths else "rad", error, way, spring)
+
+
+def _distance(joint: Joint, q: Array, target: Array) -> Array:
+    """From q to a target, both of shape (n, n_q_a) [m]; of a joint that only turns [rad]."""
+    if not joint.lengths:
+        return _angle(joint, q, target)
+    return np.asarray(np.linalg.norm((q - target)[:, joint.q][:, : joint.lengths], axis=1))

@@ -60,6 +60,8 @@ def _of_motion(motion: Motion) -> dict[str, float]:
 
 def _of_drive(drive: Drive) -> dict[str, float]:
     numbers = {f"ends_from_target_{drive.unit}": float(drive.error[-1])}
+    if drive.way > 0:
+        numbers["share_of_way_left"] = float(drive.error[-1]) / drive.way
     if drive.spring is not None:
         unit = "N" if drive.unit == "m" else "Nm"
         numbers[f"largest_spring_{unit}"] = float(drive.spring.max())

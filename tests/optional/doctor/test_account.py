@@ -11,6 +11,7 @@ from quasistatic_ref import InputError, Trajectory, load_scenario, relative_turn
 from quasistatic_ref.optional.doctor.telling import lines, measures
 from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
+from tests.optional.doctor.urdfs import slides
 from tests.tolerances import ROUNDING
 
 RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
@@ -116,6 +117,32 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
             assert numbers["ends_from_target_m"] == error[-1]
             K_q = stiffness[run.header["coordinates"].index(name)]
             assert_relative(numbers["largest_spring_N"], K_q * error.max(), ROUNDING)
+
+
+@pytest.mark.parametrize(("way", "depth", "left"), [(0.01, 0.01, 1.0), (0.02, 0.015, 0.75)])
+def test_how_much_of_its_way_a_joint_has_left(way, depth, left):
+    """A slide whose target goes down by `way`, of which a floor takes `depth`: 0 of 10 mm."""
+    scene = {
+        "h": 0.01,
+        "steps": 10,
+        "bodies": {
+            "finger": {
+                "urdf": slides("z", "<sphere radius='0.01'/>"),
+                "actuated": ["z"],
+                "K_q": {"z": 1e3},
+                "pose": {"xyz": [0, 0, 0.01 + way - depth]},
+                "targets": [{"t": 0.0, "z": 0.0}, {"t": 0.05, "z": -way}],
+            }
+        },
+        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+        "contacts": {
+            "on": {"alpha": "floor", "beta": "finger/tip", "mu_v": 0.5, "rows": 4, "k": 1}
+        },
+    }
+    run = load_scenario(scene, record="forces").run(progress=False)
+    numbers = run.account().numbers["joints"]["finger/z"]
+    assert numbers["ends_from_target_m"] == pytest.approx(depth, rel=1e-9)
+    assert numbers["share_of_way_left"] == pytest.approx(left, rel=1e-9)
 
 
 def test_the_turn_in_a_hand_is_that_of_the_two_links():
