@@ -111,7 +111,7 @@ class Drive(Plain):
     error : ndarray, shape (steps,)
         Distance from its target at the end of each step [m], of a joint that turns [rad].
     way : float
-        How far its target goes from where it starts, at most; in the unit of the error.
+        How far its target goes from where it starts, at most [m], of a joint that turns [rad].
     spring : ndarray, shape (steps,), or None
         Force of its spring where a step ends, K_q times that [N, N m]; None of a base, and where
         K_q is not diagonal.

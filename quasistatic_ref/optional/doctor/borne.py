@@ -39,7 +39,15 @@ class AtRest(NamedTuple):
 
 
 def at_rest(start: Start, q: Array, contacts: Contacts) -> AtRest:
-    """A step at q, shape (n_q,), under the loads of t = 0 and with these contacts."""
+    """A step whose targets are where its joints are, under the loads of t = 0.
+
+    Parameters
+    ----------
+    start : Start
+    q : ndarray, shape (n_q,)
+    contacts : Contacts
+        At q.
+    """
     system = start.system
     simulator = start.simulator
     load = simulator.generalised_force(q, 0.0)
@@ -51,11 +59,21 @@ def at_rest(start: Start, q: Array, contacts: Contacts) -> AtRest:
 
 
 def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool = True) -> bool:
-    """Whether forces in the cones of touching contacts bear a body's weight at q, shape (n_q,).
+    """Whether forces in the cones of touching contacts bear a body's weight.
 
-    Lever arms count. A force below 1e-3 of the body's weight counts as none. Where contacts may not
-    be `squeezed`, they press by what bears the load and no more: in a guide a squeeze of any size
-    would be in equilibrium.
+    Lever arms count. A force below 1e-3 of the body's weight counts as none.
+
+    Parameters
+    ----------
+    start : Start
+    q : ndarray, shape (n_q,)
+    contacts : Contacts
+        At q.
+    name : str
+        Of a free body.
+    squeezed : bool
+        Whether contacts may squeeze the body: by a squeeze of any size a guide bears any load.
+        Otherwise they press by what bears the load and no more.
     """
     rest = at_rest(start, q, contacts)
     at_most = np.full(contacts.n_c, np.inf) if squeezed else rest.without_squeeze()

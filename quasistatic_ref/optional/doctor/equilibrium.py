@@ -75,7 +75,17 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
 
 
 def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> Statics:
-    """What :func:`missing_force` says, and the least normal forces; parameters as there."""
+    """What :func:`missing_force` returns, and the least normal forces.
+
+    Parameters
+    ----------
+    step : StepData
+    touching : ndarray of bool, shape (n_c,)
+    at_most : ndarray, shape (n_c,)
+        [N].
+    masses : ndarray, shape (n_u,)
+        [kg].
+    """
     from scipy.optimize import linprog  # takes as long as a short run
 
     n_u = step.n_u
@@ -110,6 +120,12 @@ def unsqueezed(step: StepData, normal: Array) -> Array:
 
     A squeeze, of forces in the cones with A_u' w = 0, moves nothing. In a rigid guide it may have
     any size, so that friction would bear any load: no force is taken to have made it.
+
+    Parameters
+    ----------
+    step : StepData
+    normal : ndarray, shape (n_c,)
+        [N].
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
