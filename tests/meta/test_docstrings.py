@@ -8,13 +8,17 @@ import quasistatic_ref
 from tests.meta.docstrings import complaints, units_of_symbols
 
 PACKAGE = Path(quasistatic_ref.__file__).parent
-NOTATION = Path(__file__).parents[2] / "docs" / "conventions.md"
+NOTATION = [
+    PACKAGE.parent / "docs" / "conventions.md",
+    PACKAGE / "lab" / "claims" / "closed_forms" / "__init__.py",
+]
+"""Tables of symbols with their units."""
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
 @pytest.fixture(scope="module")
 def symbols():
-    return units_of_symbols(NOTATION.read_text())
+    return units_of_symbols("\n".join(path.read_text("utf-8") for path in NOTATION))
 
 
 def test_every_public_name_states_shapes_units_and_errors(symbols):

@@ -54,9 +54,10 @@ def test_a_function_of_a_file_runs_in_a_study_of_ten_problems(folder, capsys):
 
 @pytest.mark.extra("fast")  # a C compiler
 def test_a_program_in_c_runs_in_a_study(folder):
-    shutil.copy(EXAMPLES / "hildreth.c", folder)
-    (compiled,) = (line for line in FILES["hildreth.py"].splitlines() if "cc -O2" in line)
-    command = compiled.partition("after: ")[2]
+    for name in ("hildreth.c", "hildreth.py"):
+        shutil.copy(EXAMPLES / name, folder)
+    lines = Path("hildreth.py").read_text("utf-8").splitlines()
+    (command,) = (line.removeprefix("First: ") for line in lines if "cc -O2" in line)
     subprocess.run([*shlex.split(command), "-Wall"], check=True)
     Path("study.toml").write_text(IN_C, "utf-8")
     assert main(["study", "run", "study.toml", "--out", "study"]) == 0
