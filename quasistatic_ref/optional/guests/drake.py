@@ -20,7 +20,13 @@ from quasistatic_ref.optional.guests.drake_pairs import (
     drake_contacts,
     drake_state,
 )
-from quasistatic_ref.optional.guests.mujoco import DEPTHS, Coordinates, step_from, velocity_words
+from quasistatic_ref.optional.guests.mujoco import (
+    DEPTHS,
+    Coordinates,
+    quasi_dynamic_number,
+    step_from,
+    velocity_words,
+)
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import Extra, StepData
 
@@ -160,9 +166,9 @@ def drake_step(
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
     v = plant.GetVelocities(context)
     left_out = (*velocity_words(v), *words(plant, touching))
-    g = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
-    slides = max((contact.slides(v) for contact in touching), default=0.0)
-    number = slides / (g * h) if slides and g else np.inf if slides else 0.0
+    slips = np.array([contact.slip(v) * (contact.phi <= 0) for contact in touching])
+    gravity = plant.gravity_field().gravity_vector()
+    number = quasi_dynamic_number(slips, of_contacts.mu_v, gravity, h)
     return step, Coordinates(names, T, left_out, number)
 
 

@@ -123,13 +123,6 @@ class Contact(NamedTuple):
         """Speed of one surface along the other at a velocity v, (nv,) [m/s]."""
         return slip_rate(self.J, self.n, v)
 
-    def slides(self, v: Array) -> float:
-        """The slip rate over mu_v [m/s] of a contact that is closed, at a velocity v, (nv,)."""
-        speed = self.slip(v)
-        if self.phi > 0 or not speed or not self.mu_v:
-            return 0.0
-        return speed / self.mu_v
-
 
 def slip_rate(J: Array, n: Array, v: Array) -> float:
     """Speed of one surface along the other [m/s], from J (4, nv) and a velocity v, (nv,)."""

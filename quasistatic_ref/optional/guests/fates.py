@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.guests.still import Still
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 
 USED = """
 body_contype body_conaffinity
@@ -102,13 +102,13 @@ OBJECTS = {"jnt": "joint", "eq": "equality"}
 """MuJoCo's names of elements, where fields abbreviate them."""
 
 
-def kind_of(state: Still, field: str, i: int) -> str:
+def kind_of(state: MujocoState, field: str, i: int) -> str:
     """The kind of an element, such as ``"MUSCLE"``, by one of the fields of ``KINDS``."""
     kinds = getattr(state.mujoco, KINDS[field][0])
     return str(kinds(int(getattr(state.model, field)[i])).name).split("_", 1)[1]
 
 
-def check(state: Still) -> None:
+def check(state: MujocoState) -> None:
     """Refuse what no step can say.
 
     Raises
@@ -138,7 +138,7 @@ def check(state: Still) -> None:
                 raise ModelError(problem, field=named(state, field, i), value=kind.lower())
 
 
-def check_run(state: Still) -> None:
+def check_run(state: MujocoState) -> None:
     """Refuse what a state can say and a run cannot: ModelError, naming element and field."""
     model = state.model
     loose = model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1]
@@ -159,7 +159,7 @@ def check_run(state: Still) -> None:
             raise ModelError(sticky, field=named(state, field, i))
 
 
-def named(state: Still, field: str, i: int) -> str:
+def named(state: MujocoState, field: str, i: int) -> str:
     """An element's field in words, such as ``joint[knee].stiffnesspoly``."""
     kind, _, rest = field.partition("_")
     return f"{state.words(OBJECTS.get(kind, kind), i)}.{rest}"

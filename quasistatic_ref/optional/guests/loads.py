@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.fates import kind_of, named
-from quasistatic_ref.optional.guests.still import Still
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.step.arrays import Array
 
 
@@ -52,7 +52,7 @@ class Loads:
         return np.where(k > 0, h * k, np.diag(M) / h)
 
 
-def loads(state: Still) -> Loads:
+def loads(state: MujocoState) -> Loads:
     """The loads of a state.
 
     Raises
@@ -87,7 +87,7 @@ def check_stiff(springs: Iterable[Spring]) -> None:
             raise ModelError(problem, field=spring.field, value=spring.k)
 
 
-def passive_springs(state: Still) -> Iterator[Spring]:
+def passive_springs(state: MujocoState) -> Iterator[Spring]:
     """The springs of joints and of tendons that are taut."""
     model = state.model
     if state.disables("SPRING"):
@@ -102,13 +102,13 @@ def passive_springs(state: Still) -> Iterator[Spring]:
             yield Spring(named(state, "tendon_stiffness", i), k, m)
 
 
-def slack(state: Still, i: int) -> bool:
+def slack(state: MujocoState, i: int) -> bool:
     """Whether the spring of a tendon is within the lengths at which it does not pull."""
     shortest, longest = state.model.tendon_lengthspring[i]
     return bool(shortest < state.data.ten_length[i] < longest)
 
 
-def passive_words(state: Still) -> Iterator[str]:
+def passive_words(state: MujocoState) -> Iterator[str]:
     """What a step leaves out of passive springs."""
     model = state.model
     if state.disables("SPRING"):
@@ -126,19 +126,19 @@ def passive_words(state: Still) -> Iterator[str]:
             yield f"{named(state, 'tendon_stiffness', i)}: its spring is slack, and stays so"
 
 
-def disabled(state: Still, i: int) -> bool:
+def disabled(state: MujocoState, i: int) -> bool:
     """Whether the model switches an actuator off."""
     group = 1 << int(state.model.actuator_group[i])
     return state.disables("ACTUATION") or bool(state.model.opt.disableactuator & group)
 
 
-def stiffness(state: Still, i: int) -> float:
+def stiffness(state: MujocoState, i: int) -> float:
     """By how much the force of an actuator falls with its length [N/m, N m/rad]."""
     affine = kind_of(state, "actuator_biastype", i) == "AFFINE"
     return -float(state.model.actuator_biasprm[i, 1]) if affine else 0.0
 
 
-def saturated(state: Still, i: int, m: Array) -> bool:
+def saturated(state: MujocoState, i: int, m: Array) -> bool:
     """Whether the force of an actuator is as large as it, its joint or its tendon may have it."""
     model = state.model
     data = state.data
@@ -161,7 +161,7 @@ def _at_end(force: float, ends: Array) -> bool:
     return not ends[0] < force < ends[1]
 
 
-def actuator_words(state: Still, i: int) -> Iterator[str]:
+def actuator_words(state: MujocoState, i: int) -> Iterator[str]:
     """What a step leaves out of an actuator."""
     model = state.model
     data = state.data

@@ -13,11 +13,11 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.optional.guests import ties, touches
+from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, loads
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, mujoco_state
 from quasistatic_ref.optional.guests.natural import Natural, moved
-from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
@@ -147,23 +147,23 @@ def step_with(
     if depth not in DEPTHS:
         raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
     as_is = depth == "as is"
-    state = still(model, data)
+    state = mujoco_state(model, data)
     check(state)
     state.run()
     of_state = loads(state)
     kinds = () if as_is else ("JOINT",)
-    tied = ties.tied_joints(state, kinds, of_state.heavy(state.M, h))
+    tied = constraints.tied_joints(state, kinds, of_state.heavy(state.M, h))
     order, n_a, K_q = actuated(state, of_state.springs, tied.T)
     tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
     T = tied.T
     M_u = T[:, n_a:].T @ state.M @ T[:, n_a:]
     diagonal = np.concatenate([h * np.diag(K_q), np.diag(M_u) / h])
     scale = Natural(state, T, coordinate_units(diagonal))
-    held = ties.equalities(state, tied, scale, as_is)
-    limits, free_limits = ties.limits(state, scale, held.basis, as_is)
+    held = constraints.equalities(state, tied, scale, as_is)
+    limits, free_limits = constraints.limits(state, scale, held.basis, as_is)
     contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
     forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
-    extra = ties.together(limits, held.rows)
+    extra = constraints.together(limits, held.rows)
     cone, notes = default_cone(model, touches.rubs(state), extra)
     step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (
@@ -177,10 +177,15 @@ def step_with(
         step = with_rises(step, rises)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
     T = np.pad(T, ((0, 0), (0, len(rubbed))))
-    return step, Coordinates(names, T, left_out, quasi_dynamic_number(model, data, state, h))
+    of_tangents = [touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel
+                   for _, touch in touches.listed(state)]  # fmt: skip
+    slips = np.linalg.norm(np.reshape(of_tangents, (-1, 2)), axis=1)
+    mu_v = np.array([touches.friction(touch, name)[0] for name, touch in touches.listed(state)])
+    number = quasi_dynamic_number(slips, mu_v, model.opt.gravity, h)
+    return step, Coordinates(names, T, left_out, number)
 
 
-def actuated(state: Still, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:
+def actuated(state: MujocoState, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:
     """An order of coordinates in which the actuated ones come first, their number, and K_q.
 
     A coordinate is actuated if a servo or spring acts on it. T has the shape (nv, n) [-].
@@ -224,12 +229,12 @@ def first_equality(extra: Extra) -> str:
     return next(names, "")
 
 
-def joint_friction(state: Still, T: Array, heavy: Array) -> tuple[Rises, list[str]]:
+def joint_friction(state: MujocoState, T: Array, heavy: Array) -> tuple[Rises, list[str]]:
     """What ``frictionloss`` appends to a step, and its names.
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
     T : ndarray, shape (nv, n)
         MuJoCo's displacement, per unit of the coordinates [-].
     heavy : ndarray, shape (n,)
@@ -258,7 +263,7 @@ def joint_friction(state: Still, T: Array, heavy: Array) -> tuple[Rises, list[st
     return rises, names
 
 
-def friction_name(state: Still, row: int) -> str:
+def friction_name(state: MujocoState, row: int) -> str:
     """The joint or tendon of a constraint of friction."""
     i = int(state.data.efc_id[row])
     if state.data.efc_type[row] == state.mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON:
@@ -266,7 +271,7 @@ def friction_name(state: Still, row: int) -> str:
     return coordinate_name(state, i)
 
 
-def coordinate_name(state: Still, dof: int) -> str:
+def coordinate_name(state: MujocoState, dof: int) -> str:
     """One of MuJoCo's velocities by its joint."""
     joint = int(state.model.dof_jntid[dof])
     axes = AXES.get(kind_of(state, "jnt_type", joint))
@@ -280,16 +285,19 @@ def velocity_words(v: Array) -> Iterator[str]:
         yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
 
 
-def quasi_dynamic_number(model: MjModel, data: MjData, state: Still, h: float) -> float:
-    """Largest v / (mu_v g h) of the contacts, v the speed at which one slides [-]."""
-    g = float(np.linalg.norm(model.opt.gravity))
-    largest = 0.0
-    for _, touch in touches.listed(state):
-        if touch.dim == 1:
-            continue
-        slip = touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel
-        v = float(np.linalg.norm(slip))
-        bears = float(touch.friction[0]) * g * h
-        if v:
-            largest = max(largest, v / bears if bears else np.inf)
-    return largest
+def quasi_dynamic_number(slips: Array, mu_v: Array, gravity: Array, h: float) -> float:
+    """Largest v / (mu_v g h) of contacts, v the speed at which one slides [-].
+
+    Parameters
+    ----------
+    slips : ndarray, shape (n_c,)
+        v [m/s].
+    mu_v : ndarray, shape (n_c,)
+    gravity : ndarray, shape (3,)
+    h : float
+    """
+    slides = (slips > 0) & (mu_v > 0)
+    if not slides.any():
+        return 0.0
+    g = float(np.linalg.norm(gravity))
+    return float((slips[slides] / mu_v[slides]).max()) / (g * h) if g else np.inf

@@ -13,10 +13,10 @@ from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover,
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.findings import Words, overlapping
 from quasistatic_ref.optional.guests.mujoco import Coordinates, step_with
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities
-from quasistatic_ref.optional.guests.still import Still, awake, still
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CREEP
 
@@ -68,7 +68,7 @@ def second_opinion(
     >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # a quarter of 1 kg [N]
     ((), 2.4525)
     """
-    state = still(model, data)
+    state = mujoco_state(model, data)
     state.run()
     active = awake(model)
     now = copy.copy(data)
@@ -100,7 +100,7 @@ def second_opinion(
     words = _words(model)
     deep = [(one, "now, without a contact of MuJoCo's") for one in unlisted(state)]
     if start is not None:
-        first = still(model, start)
+        first = mujoco_state(model, start)
         first.run()
         deep += [(one, "at the start") for one in misplaced(first)]
     overlaps = [
@@ -130,7 +130,7 @@ def _words(model: MjModel) -> Words:
     )
 
 
-def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
+def _touch(state: MujocoState, data: MjData, name: str, touch: MjContact) -> Touch:
     """A contact of MuJoCo's, with the force that it has in the state itself."""
     mu_v, mu_omega, _ = touches.friction(touch, name)
     return Touch(
@@ -147,13 +147,13 @@ def _touch(state: Still, data: MjData, name: str, touch: MjContact) -> Touch:
     )
 
 
-def _body(state: Still, geom: int) -> str:
+def _body(state: MujocoState, geom: int) -> str:
     """The name of the body that a geom moves with."""
     number = state.model.body_weldid[state.model.geom_bodyid[geom]]
     return state.called("body", number) if number else "world"
 
 
-def _mover(state: Still, b: int) -> Mover:
+def _mover(state: MujocoState, b: int) -> Mover:
     """A body by its number, with all that is welded to it."""
     model = state.model
     welded = np.flatnonzero(model.body_weldid == b)

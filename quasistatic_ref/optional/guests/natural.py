@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.optional.guests.still import Still
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.tolerances import FULL_RANK
 
 
-def terms(state: Still, J: Array, T: Array) -> Array:
+def terms(state: MujocoState, J: Array, T: Array) -> Array:
     """The sizes of the terms of which the entries of J T are sums, shape (m, n).
 
     J has the shape (m, nv), and T the shape (nv, n) [-].
@@ -24,7 +24,7 @@ def terms(state: Still, J: Array, T: Array) -> Array:
     return sizes
 
 
-def moved(state: Still, J: Array, T: Array) -> Array:
+def moved(state: MujocoState, J: Array, T: Array) -> Array:
     """J T, with zeros for the entries of which only rounding is left, shape (m, n).
 
     J has the shape (m, nv), and T the shape (nv, n) [-].
@@ -38,14 +38,14 @@ class Natural(NamedTuple):
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
     T : ndarray, shape (nv, n)
         MuJoCo's displacement, per unit of the coordinates of a step [-].
     units : ndarray, shape (n,)
         Diagonal of S of these coordinates [m or rad, per (N m s)^0.5].
     """
 
-    state: Still
+    state: MujocoState
     T: Array
     units: Array
 

@@ -14,8 +14,8 @@ from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
-from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import DEEP, PIERCES
 
@@ -41,7 +41,7 @@ class Overlap(NamedTuple):
     depth: float
 
 
-def unlisted(state: Still) -> Iterator[Overlap]:
+def unlisted(state: MujocoState) -> Iterator[Overlap]:
     """Geoms that are deep in each other, and that MuJoCo lists no contact of."""
     listed = {tuple(sorted(touch.geom.tolist())) for touch in state.data.contact}
     for overlap in overlaps(state):
@@ -49,7 +49,7 @@ def unlisted(state: Still) -> Iterator[Overlap]:
             yield overlap
 
 
-def misplaced(state: Still) -> Iterator[Overlap]:
+def misplaced(state: MujocoState) -> Iterator[Overlap]:
     """Geoms that are so deep in each other that they cannot be meant to be there."""
     radii = state.model.geom_rbound
     for overlap in overlaps(state):
@@ -58,7 +58,7 @@ def misplaced(state: Still) -> Iterator[Overlap]:
             yield overlap
 
 
-def overlaps(state: Still) -> Iterator[Overlap]:
+def overlaps(state: MujocoState) -> Iterator[Overlap]:
     """All pairs of geoms that MuJoCo's filters let touch, and that are in each other."""
     for touch in candidates(state):
         a, b = sorted(touch.geom.tolist())
@@ -68,7 +68,7 @@ def overlaps(state: Still) -> Iterator[Overlap]:
                 yield Overlap(f"{state.called('geom', a)}/{state.called('geom', b)}", (a, b), depth)
 
 
-def depth_of(state: Still, a: int, b: int) -> float:
+def depth_of(state: MujocoState, a: int, b: int) -> float:
     """How deep two geoms are in each other [m]; below zero where they are apart."""
     R = state.data.xmat.reshape(-1, 3, 3)
     t = state.data.xpos

@@ -12,7 +12,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.guests.still import Still
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP, friction
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
@@ -51,7 +51,7 @@ class Places:
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
         Its gaps become those of a run.
     margin : float
         Gap up to which MuJoCo looks for contacts [m].
@@ -70,7 +70,7 @@ class Places:
         If friction differs in two directions, a geom is a field, or the places are too many.
     """
 
-    def __init__(self, state: Still, margin: float) -> None:
+    def __init__(self, state: MujocoState, margin: float) -> None:
         if not 0 < margin < FILLED:
             raise ModelError("must be greater than 0", field="margin", value=margin)
         self.margin = margin
@@ -94,7 +94,7 @@ class Places:
         for gaps, share in _gaps(state.adapted):
             gaps += share * margin
 
-    def _pair(self, state: Still, touch: MjContact, a: int, b: int) -> ContactPair:
+    def _pair(self, state: MujocoState, touch: MjContact, a: int, b: int) -> ContactPair:
         for g in (a, b):
             if g not in self.shapes:
                 self.shapes[g] = placed(state, g)
@@ -104,7 +104,7 @@ class Places:
         k = _places_of(state, a, b)
         return ContactPair(name, sides[0], sides[1], mu_v, mu_omega, rows=rows, k=k)
 
-    def points(self, state: Still) -> ClosestPoints:
+    def points(self, state: MujocoState) -> ClosestPoints:
         """The contacts of all pairs in their places, each pair's in ascending distance.
 
         phi is MuJoCo's distance less its margin; alpha and beta are on the surfaces. Places beyond
@@ -157,7 +157,7 @@ class Places:
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
-def _places_of(state: Still, a: int, b: int) -> int:
+def _places_of(state: MujocoState, a: int, b: int) -> int:
     """Places of a pair of geoms, by their kinds."""
     kinds = {geom_kind(state, g) for g in (a, b)}
     if kinds & {*ONE}:
@@ -167,7 +167,7 @@ def _places_of(state: Still, a: int, b: int) -> int:
     return BOXES if kinds == {"BOX"} else MANY
 
 
-def _check_count(state: Still, touching: list[MjContact]) -> None:
+def _check_count(state: MujocoState, touching: list[MjContact]) -> None:
     """Refuse pairs of more places than a step has memory for, naming the trees that have most."""
     counts: Counter[tuple[str, ...]] = Counter()
     for touch in touching:
@@ -186,7 +186,7 @@ def _check_count(state: Still, touching: list[MjContact]) -> None:
     raise ModelError(problem, field="geoms that may touch")
 
 
-def candidates(state: Still, gap: float = 0.0) -> list[MjContact]:
+def candidates(state: MujocoState, gap: float = 0.0) -> list[MjContact]:
     """One contact of each pair of geoms that may touch within a gap [m], by MuJoCo's filters.
 
     All geoms but planes are their bounding balls there.
@@ -228,14 +228,14 @@ def _gaps(model: MjModel) -> tuple[tuple[Array, float], ...]:
     return (model.geom_gap, 0.5), (model.pair_gap, 1.0), (model.body_margin, 0.5)
 
 
-def _tree(state: Still, g: int) -> str:
+def _tree(state: MujocoState, g: int) -> str:
     """The tree of a geom, or the world."""
     model = state.model
     body = model.geom_bodyid[g]
     return state.called("body", model.body_rootid[body]) if model.body_weldid[body] else "world"
 
 
-def placed(state: Still, g: int) -> PlacedShape:
+def placed(state: MujocoState, g: int) -> PlacedShape:
     """A geom in the frame of its body, or in the world if that never moves."""
     model, data = state.model, state.data
     body = int(model.geom_bodyid[g])
@@ -249,13 +249,13 @@ def placed(state: Still, g: int) -> PlacedShape:
     return PlacedShape(name, body, turn.reshape(3, 3), model.geom_pos[g].copy(), _shape(state, g))
 
 
-def geom_kind(state: Still, g: int) -> str:
+def geom_kind(state: MujocoState, g: int) -> str:
     """The kind of a geom, such as ``"BOX"``."""
     kind = state.mujoco.mjtGeom(int(state.model.geom_type[g]))
     return str(kind.name).removeprefix("mjGEOM_")
 
 
-def _shape(state: Still, g: int) -> Shape:
+def _shape(state: MujocoState, g: int) -> Shape:
     model = state.model
     size: Array = model.geom_size[g]
     kind = geom_kind(state, g)

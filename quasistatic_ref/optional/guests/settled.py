@@ -11,7 +11,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.optional.guests.still import check_finite
+from quasistatic_ref.optional.guests.mujoco_state import check_finite
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
 

@@ -23,7 +23,7 @@ from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mechanism import Mechanism
-from quasistatic_ref.optional.guests import ties
+from quasistatic_ref.optional.guests import constraints
 from quasistatic_ref.optional.guests.fates import check, check_run, kind_of, named
 from quasistatic_ref.optional.guests.loads import (
     Spring,
@@ -34,9 +34,9 @@ from quasistatic_ref.optional.guests.loads import (
     stiffness,
 )
 from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, mujoco_state
 from quasistatic_ref.optional.guests.natural import Natural
 from quasistatic_ref.optional.guests.places import Places
-from quasistatic_ref.optional.guests.still import Still, still
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.data import Extra
@@ -147,7 +147,7 @@ class MujocoSystem(Mechanism):
         self._arguments = self.model, self.start, h, {**stiffnesses}, margin
         self._latest: tuple[bytes, Placed] | None = None
         self._at: bytes | None = None
-        state = self._state = still(self.model, self.start)
+        state = self._state = mujoco_state(self.model, self.start)
         check(state)
         check_run(state)
         self.places = Places(state, margin)
@@ -159,8 +159,8 @@ class MujocoSystem(Mechanism):
         check_stiff(self.springs)
         of_state = loads(state)
         masses = replace(of_state, springs=self.springs).heavy(state.M, h)
-        tied = ties.tied_joints(state, ("JOINT",), masses)
-        self._follow = ties.followers(state, tied)
+        tied = constraints.tied_joints(state, ("JOINT",), masses)
+        self._follow = constraints.followers(state, tied)
         order, n_a, self.K_q = actuated(state, self.springs, tied.T)
         self._tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
         self.T = self._tied.T
@@ -284,7 +284,7 @@ class MujocoSystem(Mechanism):
                 qpos[first] = self.model.qpos0[first] + a + b * along
         return qpos
 
-    def state(self, q: Array) -> Still:
+    def state(self, q: Array) -> MujocoState:
         """MuJoCo's state at q, at rest; the same object at every q."""
         q = with_shape(q, "q", (self.n_q,))
         bits = q.tobytes()
@@ -349,11 +349,11 @@ class MujocoSystem(Mechanism):
         self.actuated_units.check(q_a)
         return self.difference(q, self.with_actuated(q, q_a))[: self.n_a]
 
-    def _rows(self, state: Still) -> Extra:
+    def _rows(self, state: MujocoState) -> Extra:
         """Limits, and equalities that take no coordinate away."""
-        held = ties.equalities(state, self._tied, self.scale, as_is=True, in_place=True)
-        limits, _ = ties.limits(state, self.scale, held.basis, as_is=True, in_place=True)
-        return ties.together(limits, held.rows)
+        held = constraints.equalities(state, self._tied, self.scale, as_is=True, in_place=True)
+        limits, _ = constraints.limits(state, self.scale, held.basis, as_is=True, in_place=True)
+        return constraints.together(limits, held.rows)
 
     def extension(self, q: Array) -> Extension:
         """Limits, equalities and joint friction at q."""

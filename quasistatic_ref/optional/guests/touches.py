@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.natural import Natural
-from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.tolerances import DEEP
@@ -22,7 +22,7 @@ USED_OR_IN_GAP = (0, 1)
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
-def listed(state: Still) -> list[tuple[str, MjContact]]:
+def listed(state: MujocoState) -> list[tuple[str, MjContact]]:
     """MuJoCo's contacts with their names, without those between bodies that do not move.
 
     A name has MuJoCo's number of the contact, and its geoms, or the bodies of geoms without names.
@@ -33,7 +33,7 @@ def listed(state: Still) -> list[tuple[str, MjContact]]:
     return [(f"{i}: {geoms(state, touch)}", touch) for i, touch in kept]
 
 
-def rubs(state: Still) -> bool:
+def rubs(state: MujocoState) -> bool:
     """Whether a contact has friction; without it, all cones are the same."""
     return any(touch.dim > 1 for _, touch in listed(state))
 
@@ -43,7 +43,7 @@ def gap(touch: MjContact) -> float:
     return float(touch.dist - touch.includemargin)
 
 
-def geoms(state: Still, touch: MjContact) -> str:
+def geoms(state: MujocoState, touch: MjContact) -> str:
     """The geoms of a contact, or the bodies of those without names."""
     bodies = state.model.geom_bodyid
     named = (state.name("geom", g) or state.words("body", bodies[g]) for g in touch.geom)
@@ -51,7 +51,7 @@ def geoms(state: Still, touch: MjContact) -> str:
 
 
 def contacts(
-    state: Still, scale: Natural, basis: Array, as_is: bool
+    state: MujocoState, scale: Natural, basis: Array, as_is: bool
 ) -> tuple[Contacts, tuple[str, ...]]:
     """The contacts of a state; gaps below zero count as zero unless `as_is`.
 
@@ -63,11 +63,11 @@ def contacts(
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
     scale : Natural
         Of the coordinates of the step.
     basis : ndarray, shape (r, n)
-        Of the equalities [-], as of ``ties.Held``.
+        Of the equalities [-], as of ``constraints.Held``.
     as_is : bool
 
     Returns
@@ -125,7 +125,7 @@ def friction(touch: MjContact, name: str) -> tuple[float, float, int]:
     return (mu[0], mu[2], 6) if touch.dim > 3 else (mu[0], 0.0, 4)
 
 
-def jacobian(state: Still, touch: MjContact) -> Array:
+def jacobian(state: MujocoState, touch: MjContact) -> Array:
     """J of Eq. :eq:`eq-3` along MuJoCo's velocities, shape (4, nv), world frame.
 
     MuJoCo has one point, midway between the surfaces; the material points are one on either.
@@ -144,7 +144,7 @@ def jacobian(state: Still, touch: MjContact) -> Array:
     return J
 
 
-def words(state: Still) -> Iterator[str]:
+def words(state: MujocoState) -> Iterator[str]:
     """What a step leaves out of contacts."""
     for called, touch in listed(state):
         if touch.dim == 6:
@@ -153,7 +153,7 @@ def words(state: Still) -> Iterator[str]:
             yield f"contact[{called}]: its bodies penetrate by {-1e3 * gap(touch):.3g} mm"
 
 
-def forces(state: Still, data: MjData) -> Array:
+def forces(state: MujocoState, data: MjData) -> Array:
     """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of all its contacts in a state, (ncon, 4) [N, N m].
 
     They include what balances adhesion, which MuJoCo takes off them.

@@ -23,7 +23,7 @@ from quasistatic_ref.optional.guests.mujoco import mujoco_step
 from quasistatic_ref.solve.solve import solve_step
 
 H = 0.01
-SEEDS = range(3)
+SEEDS = range(2)
 SETTLED = 1e-5
 """rho of a state at rest, over the largest load, in the norm of H^-1. This is all that is asked of
 the random models, and no friction or damper is there to reach it: velocities are set to zero
@@ -384,7 +384,7 @@ VIOLATED = (
 SOFT = [each for each in EACH if any(word in each[0] for word in VIOLATED)]
 
 
-@pytest.mark.parametrize("seed", SEEDS[:2])
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("name", "cone"), SOFT)
 def test_violations_vanish_with_time_step_and_softness(name, cone, seed):
     """What one step closes is in proportion to the depth, so that nothing is left at zero."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.fates import kind_of
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.natural import Natural
-from quasistatic_ref.optional.guests.still import Still
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, Mask
 from quasistatic_ref.step.data import Extra
@@ -54,7 +54,7 @@ class Held(NamedTuple):
     left_out: tuple[str, ...]
 
 
-def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
+def tied_joints(state: MujocoState, kinds: Collection[str], heavy: Array) -> Tied:
     """The joints that remain if equalities of some kinds each take one away.
 
     An equality of joints takes its first joint. Others take the lightest coordinate that they move:
@@ -62,7 +62,7 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
     kinds : collection of str
         Such as ``("JOINT",)``.
     heavy : ndarray, shape (nv,)
@@ -104,7 +104,7 @@ def tied_joints(state: Still, kinds: Collection[str], heavy: Array) -> Tied:
 
 
 def limits(
-    state: Still, scale: Natural, basis: Array, as_is: bool, in_place: bool = False
+    state: MujocoState, scale: Natural, basis: Array, as_is: bool, in_place: bool = False
 ) -> tuple[Extra, tuple[str, ...]]:
     """All limits of joints and tendons: T' of the gradient of a gap, times delta_q, >= -gap.
 
@@ -134,13 +134,13 @@ def limits(
 
 
 def equalities(
-    state: Still, tied: Tied, scale: Natural, as_is: bool, in_place: bool = False
+    state: MujocoState, tied: Tied, scale: Natural, as_is: bool, in_place: bool = False
 ) -> Held:
     """The equalities that T does not satisfy, each as two rows.
 
     Parameters
     ----------
-    state : Still
+    state : MujocoState
     tied : Tied
     scale : Natural
         Of the coordinates that remain.
@@ -216,7 +216,7 @@ def _rows(parts: Sequence[tuple[list[str], Array, Array]], n: int) -> Extra:
     return Extra(tuple(names), A.reshape(-1, n), np.concatenate([part[2] for part in parts]))
 
 
-def followers(state: Still, tied: Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
+def followers(state: MujocoState, tied: Tied) -> Sequence[tuple[int, int, tuple[float, float]]]:
     """Joints that follow others: their entries of qpos, the other's (-1: none), and a line.
 
     Raises

@@ -29,7 +29,7 @@ FULL = ("mjWARN_CONTACTFULL", "mjWARN_CNSTRFULL")
 
 
 @dataclass(frozen=True, eq=False)
-class Still:
+class MujocoState:
     """Private copies of a model and a state, at zero velocity, with all limits as rows.
 
     Parameters
@@ -163,7 +163,7 @@ def check_finite(data: MjData) -> None:
             raise ModelError("must contain finite numbers only", field=f"data.{name}")
 
 
-def still(model: MjModel, data: MjData) -> Still:
+def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
     """Copies of a model and of its state at zero velocity, before ``run``.
 
     Raises
@@ -185,4 +185,4 @@ def still(model: MjModel, data: MjData) -> Still:
     )
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
-    return Still(mujoco, model, adapted, at_rest)
+    return MujocoState(mujoco, model, adapted, at_rest)
