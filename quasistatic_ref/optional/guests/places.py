@@ -108,8 +108,8 @@ class Places:
         """The contacts of all pairs in their places, each pair's in ascending distance.
 
         phi is MuJoCo's distance less its margin; alpha and beta are on the surfaces. Places beyond
-        those of a pair's contacts repeat its nearest one at the distance ``FILLED``, or twice its
-        own. A pair that is farther apart than the margin has the centres of its geoms there.
+        those of a pair's contacts have the centres of its geoms, a vertical normal, and the gap
+        ``FILLED``, at which no row binds.
         """
         data = state.data
         listed = data.contact
@@ -128,32 +128,21 @@ class Places:
         half = listed.dist[used, None] / 2 * n
         middle = listed.pos.reshape(-1, 3)[used]
 
-        centres = data.geom_xpos[self.geoms]
-        between = centres[:, 1] - centres[:, 0]
-        length = np.linalg.norm(between, axis=1, keepdims=True)
-        apart = np.where(length > 0, between / np.where(length > 0, length, 1.0), [0.0, 0.0, 1.0])
         of_place = np.repeat(np.arange(len(self.pairs)), self.counts)
+        centres = data.geom_xpos[self.geoms[of_place]]
         every = ClosestPoints(
             phi=np.full(len(of_place), FILLED),
-            alpha=centres[of_place, 0],
-            beta=centres[of_place, 1],
-            n=apart[of_place],
+            alpha=centres[:, 0],
+            beta=centres[:, 1],
+            n=np.tile([0.0, 0.0, 1.0], (len(of_place), 1)),
             point=np.arange(len(of_place)) - self.first[of_place],
             tie=np.full(len(of_place), OWN),
         )
-        nearest = rank == 0
-        if len(pair):  # every place of a pair is its nearest contact, only farther
-            of_pair = np.full(len(self.pairs), -1)
-            of_pair[pair[nearest]] = np.flatnonzero(nearest)
-            like = of_pair[of_place]
-            near = np.flatnonzero(like >= 0)
-            like = like[near]
-            every.phi[near] = np.maximum(FILLED, 2 * phi[like])
-            for field, values in ((every.alpha, middle - half), (every.beta, middle + half),
-                                  (every.n, n)):  # fmt: skip
-                field[near] = values[like]
-                field[self.first[pair] + rank] = values
-            every.phi[self.first[pair] + rank] = phi
+        at = self.first[pair] + rank
+        every.phi[at] = phi
+        every.alpha[at] = middle - half
+        every.beta[at] = middle + half
+        every.n[at] = n
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
