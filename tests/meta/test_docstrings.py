@@ -10,6 +10,7 @@ from tests.meta.docstrings import complaints, units_of_symbols
 PACKAGE = Path(quasistatic_ref.__file__).parent
 NOTATION = [
     PACKAGE.parent / "docs" / "conventions.md",
+    PACKAGE / "shapes" / "__init__.py",
     PACKAGE / "lab" / "claims" / "closed_forms" / "__init__.py",
 ]
 """Tables of symbols with their units."""
