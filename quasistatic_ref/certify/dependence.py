@@ -24,6 +24,23 @@ def implied(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
     return [not any(column[k:rank]) for column in columns[k:]]
 
 
+def null_space(rows: Sequence[Row], size: int) -> fmpz_mat:
+    """A basis of all z with row z = 0 for each row, as columns, shape (size, d).
+
+    Whatever the rows imply holds for it: a row is a combination of them if and only if it vanishes
+    on the basis.
+
+    Parameters
+    ----------
+    rows : sequence of list of fmpz
+    size : int
+        Of a row.
+    """
+    matrix = fmpz_mat(len(rows), size, [v for row in rows for v in row])
+    basis, d = matrix.nullspace()
+    return fmpz_mat(size, d, [v for row in basis.tolist() for v in row[:d]])
+
+
 def independent_rows(form: ExactRows, candidates: Sequence[int]) -> tuple[int, ...]:
     """Those of some rows of A, in order of preference, that are independent of those before."""
     columns, _, rank = _eliminated([row[:-1] for row in form.integers(candidates)])

@@ -135,13 +135,16 @@ class ExactForm(ABC):
         """Those of some rows that W implies wherever its contacts are: their slacks are zero."""
         return []
 
-    def of_different_contacts(self, some: Sequence[int]) -> list[int]:
-        """The first of some rows of each contact; of a program without contacts, all."""
-        return [*some]
-
     def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
         """The a x + c of some rows at z = [x; 1], shape (n + 1, 1), at the present precision."""
-        return (columns(self.exact_rows(some), slice(0, self.n + 1)) * z).entries()
+        return [value for (value,) in self.values(some, z)]
+
+    def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
+        """The [a, c] z of some rows, for each column of z, shape (n + 1, d)."""
+        values: list[list[arb]] = (
+            columns(self.exact_rows(some), slice(0, self.n + 1)) * z
+        ).tolist()
+        return values
 
     def exact_rows(self, some: Iterable[int]) -> list[Row]:
         """Some rows [a, c]."""
@@ -299,20 +302,20 @@ class StepForm(ExactForm):
                 self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
         return self._rows[c][kind]
 
-    def slacks(self, some: Iterable[int], z: arb_mat) -> list[arb]:
+    def values(self, some: Iterable[int], z: arb_mat) -> list[list[arb]]:
         """As of the base, from the motion of each contact."""
-        of_contact: dict[int, list[arb]] = {}
-        slacks = []
+        of_contact: dict[int, list[list[arb]]] = {}
+        values = []
         for i in some:
             c, kind = self._places[i]
             if c >= len(self._phi):
-                slacks += super().slacks([i], z)
+                values += super().values([i], z)
                 continue
             if c not in of_contact:
                 turn, J = self.motion_factors(c)
-                of_contact[c] = (self._exact_cone * (turn * (J * z))).entries()
-            slacks.append(of_contact[c][kind])
-        return slacks
+                of_contact[c] = (self._exact_cone * (turn * (J * z))).tolist()
+            values.append(of_contact[c][kind])
+        return values
 
     def implied_by_cone(self, working: Sequence[int], some: Iterable[int]) -> list[int]:
         """As of the base: the six rows of a contact have rank four."""
@@ -323,10 +326,6 @@ class StepForm(ExactForm):
         kinds = {c: _implied_kinds(self._cone_name, of_c) for c, of_c in held.items() if c < n_c}
         places = ((i, *self._places[i]) for i in some)
         return [i for i, c, kind in places if c in kinds and kinds[c][kind]]
-
-    def of_different_contacts(self, some: Sequence[int]) -> list[int]:
-        """As of the base; a row of the user's own counts as a contact."""
-        return [*{self._places[i][0]: i for i in reversed(some)}.values()]
 
     def float_slacks(self, x: Array, most: Array) -> tuple[Array, Array]:
         """As of the base, from `x` and `most`, shape (n,) [m, rad].
@@ -398,11 +397,21 @@ def _implied_kinds(cone_name: str, held: tuple[int, ...]) -> list[bool]:
 
 
 def inverse(H: arb_mat) -> arb_mat:
-    """The inverse, in balls, of an exact matrix that is positive definite."""
+    """The inverse, in balls, of an exact matrix that is positive definite.
+
+    Between coordinates that H does not couple it is zero without a radius, so that a coordinate
+    without a load and a contact is seen to stay where it is.
+    """
+    n = H.nrows()
+    coupled = np.array([not v.is_zero() for v in H.entries()]).reshape(n, n)
+    for _ in range(n.bit_length()):  # paths of 1, 2, 4, ... couplings
+        coupled = coupled @ coupled
     precision = PRECISION
     while True:  # ends: H is regular, so some precision resolves it
         with working_precision(precision):
             try:
-                return H.inv()
+                dense = H.inv().entries()
             except ZeroDivisionError:
                 precision *= 2
+                continue
+        return arb_mat(n, n, [v if c else 0 for v, c in zip(dense, coupled.flat, strict=True)])

@@ -14,12 +14,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import compress
 from typing import TypeAlias, cast
 
 import numpy as np
 from flint import arb, arb_mat, fmpq, fmpq_mat, fmpz_mat
 
-from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.dependence import implied, null_space
 from quasistatic_ref.certify.form import (
     EXACT,
     PRECISION,
@@ -193,9 +194,25 @@ class Minimiser:
         return [int(i) for i in rows[slack[rows] - error[rows] <= least]]
 
     @cached_property
+    def null_space(self) -> fmpz_mat:
+        """All [x; t] with A_W x + c_W t = 0: a basis, shape (n + 1, d)."""
+        return null_space(self.form.integers(self.working), self.form.n + 1)
+
+    def implied(self, some: Sequence[int]) -> list[int]:
+        """Those of some rows, in increasing order, that are combinations [a, c] of rows of W."""
+        by_cone = self.form.implied_by_cone(self.working, some)
+        others = sorted({*some} - {*by_cone})
+        if not others:
+            return sorted(by_cone)
+        with working_precision(EXACT):
+            values = self.form.values(others, arb_mat(self.null_space))
+        zero = [all(v.is_zero() for v in row) for row in values]
+        return sorted([*by_cone, *compress(others, zero)])
+
+    @cached_property
     def implied_rows(self) -> list[int]:
         """The open rows that W implies, in increasing order: their slacks are zero."""
-        return implied_rows(self.form, self.working, self.open_rows)
+        return self.implied(self.open_rows)
 
     @cached_property
     def slack_signs(self) -> dict[int, int]:
@@ -237,13 +254,30 @@ class Minimiser:
         is_active[[*self.working, *self.implied_rows, *self.tight_rows]] = True
         return np.flatnonzero(~is_active)
 
+    @cached_property
+    def settled(self) -> Solution:
+        """The solution in balls, where each entry of x that W implies to be zero is zero.
+
+        No ball shows that by itself. From it follows what of A_W'y = H x - g is a load alone.
+        """
+        balls = self.balls
+        moves = [any(row) for row in self.null_space.tolist()]
+        if all(moves):
+            return balls
+        n = self.form.n
+        z = arb_mat(n + 1, 1, _chosen(moves, balls.z.entries(), [arb(0)] * (n + 1)))
+        with working_precision(PRECISION):
+            pull = (self.form.H * arb_mat(n, 1, z.entries()[:-1]) - self.form.g).entries()
+        net = arb_mat(n, 1, _chosen(moves[:-1], balls.net.entries(), pull))
+        return Solution(z, balls.y, net, balls.denominator)
+
     def rounded(self, numbers: Numbers, unit: arb | None = None) -> Array:
         """Numbers of the solution over a unit, each rounded correctly, shape (k,).
 
         From their balls; where a ball holds numbers of different rounding, from the fractions.
         """
         with working_precision(PRECISION):
-            balls = numbers(self.balls)
+            balls = numbers(self.settled)
             balls = balls if unit is None else [ball / unit for ball in balls]
             values = [nearest_in(ball) for ball in balls]
         if None not in values:
@@ -275,28 +309,15 @@ class Minimiser:
         return self.rounded(lambda found: self.form.slacks(rows.tolist(), found.z))
 
 
-def implied_rows(form: ExactForm, working: Sequence[int], some: Sequence[int]) -> list[int]:
-    """Those of some rows, in increasing order, that are combinations [a, c] of the rows of W."""
-    rows = []
-    held = [*working]
-    others = [*some]
-    while others:
-        by_cone = form.implied_by_cone(held, others)
-        others = sorted({*others} - {*by_cone})
-        # One row of each contact: if it is implied, the cone mostly implies what is left there.
-        first = form.of_different_contacts(others)
-        are_implied = implied(form.integers(working), form.integers(first))
-        shown = [i for i, is_implied in zip(first, are_implied, strict=True) if is_implied]
-        rows += by_cone + shown
-        held += shown
-        others = sorted({*others} - {*first})
-    return sorted(rows)
-
-
 def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:
     """Exact numbers over one that is positive, each rounded correctly, shape (k,)."""
     pairs = (whole_numbers([p, denominator]) for p in numerators)
     return np.array([nearest(int(p), int(q)) for p, q in pairs], dtype=np.float64)
+
+
+def _chosen(where: Sequence[bool], here: Sequence[arb], elsewhere: Sequence[arb]) -> list[arb]:
+    """Numbers of two lists: the first `where` it is true."""
+    return [a if first else b for first, a, b in zip(where, here, elsewhere, strict=True)]
 
 
 def _sign(number: arb) -> int:

@@ -21,9 +21,9 @@ from quasistatic_ref.certify.curved_cone import curved_cone
 from quasistatic_ref.certify.degeneracy import degeneracy
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm
 from quasistatic_ref.certify.minimiser import (
+    Minimiser,
     Solution,
     fraction_solution,
-    implied_rows,
     rounded_quotients,
 )
 from quasistatic_ref.certify.rows import flat_rows, row_owners
@@ -143,7 +143,7 @@ def _wrong_claim(
     slacks: list[float] = []
     for form, working, exact, slack in solved:
         idle = [i for i, s in enumerate(slack) if s.is_zero() and i not in working]
-        of_W = implied_rows(form, working, idle)
+        of_W = Minimiser(form, tuple(working)).implied(idle)
         others = [i for i in idle if i not in of_W]
         is_unique, is_smooth = degeneracy(form, working, of_W, others)
         unique = unique and is_unique

@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref import StepDataError
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
+from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
@@ -116,3 +117,18 @@ def test_matrix_beyond_the_precision_of_the_balls_is_solved():
     optimum = form_optimum(form)
     assert optimum.delta_q.tolist() == [float(v) for v in x]
     assert optimum.slack.tolist() == [float(x[0])]
+
+
+def test_what_stays_where_it_is_needs_no_fractions(monkeypatch):
+    """A box that slides askew does not turn: three entries are zero, which no ball shows."""
+    scene = boxes(1)
+    target = scene.target(0.0, scene.q)
+    step = scene.simulator("off", False).step(scene.q, target, scene.force).step
+
+    def refused(form, working):
+        pytest.fail("solved in fractions")
+
+    working = step_optimum(step).working_set
+    monkeypatch.setattr("quasistatic_ref.certify.minimiser.fraction_solution", refused)
+    delta_q = step_optimum(step, working).delta_q
+    assert delta_q.astype(bool).tolist() == [True, True, True, False, False, False]

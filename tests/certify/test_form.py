@@ -7,7 +7,7 @@ import pytest
 from flint import arb
 
 from quasistatic_ref import Extra, StepDataError
-from quasistatic_ref.certify.form import StepForm, whole_numbers
+from quasistatic_ref.certify.form import StepForm, exact_matrix, inverse, whole_numbers
 from quasistatic_ref.certify.form import fraction as exact
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.random_steps import any_step
@@ -63,3 +63,15 @@ def test_matrices_that_are_not_symmetric_or_finite_are_refused():
         exact_form_of(np.array([[1.0, 1e-17], [0.0, 1.0]]), one, none, np.zeros(0))
     with pytest.raises(StepDataError, match="finite"):
         exact_form_of(np.eye(2), np.array([np.nan, 0]), none, np.zeros(0))
+
+
+def test_the_inverse_is_zero_between_what_nothing_couples():
+    """0 - 1 - 2 is a chain, whose ends are coupled by its middle; 3 and 4 stand alone."""
+    H = np.diag([3.0, 5.0, 7.0, 11.0, 13.0])
+    H[0, 1] = H[1, 0] = H[1, 2] = H[2, 1] = 1.0
+    H_inverse = inverse(exact_matrix(H))
+    zero = [[v.is_zero() for v in row] for row in H_inverse.tolist()]
+    alone = np.arange(5) > 2
+    assert (np.array(zero) == ((alone[:, None] | alone) & ~np.eye(5, dtype=bool))).all()
+    assert all(v.contains(i == j) for i, row in enumerate((exact_matrix(H) * H_inverse).tolist())
+               for j, v in enumerate(row))  # fmt: skip

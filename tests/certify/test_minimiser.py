@@ -11,7 +11,7 @@ from quasistatic_ref.certify.dependence import implied, independent_rows
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.form import EXACT, StepForm, exact_matrix
-from quasistatic_ref.certify.minimiser import implied_rows
+from quasistatic_ref.certify.minimiser import Minimiser
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -115,15 +115,15 @@ def test_rows_that_a_cone_implies_are_those_that_elimination_finds(cone):
             shown = implied(form.integers(working), form.integers(of_contact))
             right = [i for i, is_implied in zip(of_contact, shown, strict=True) if is_implied]
             assert form.implied_by_cone(working, of_contact) == right
-            assert implied_rows(form, working, of_contact) == right
+            assert Minimiser(form, working).implied(of_contact) == right
 
 
 def test_rows_are_implied_across_contacts_by_elimination_alone():
     """The three contacts are equal: a row of one of them is the same row of another."""
     form = StepForm(pressed())
     assert form.implied_by_cone([0], [6, 12]) == []
-    assert implied_rows(form, [0], [6, 7, 12]) == [6, 12]
-    assert implied_rows(form, [], [6]) == []
+    assert Minimiser(form, (0,)).implied([6, 7, 12]) == [6, 12]
+    assert Minimiser(form, ()).implied([6]) == []
 
 
 def test_row_that_differs_in_the_last_bit_is_not_implied():
@@ -134,4 +134,4 @@ def test_row_that_differs_in_the_last_bit_is_not_implied():
         step.contacts.name, step.contacts.phi, step.contacts.n, step.contacts.d1,
         step.contacts.d2, J, step.contacts.mu_v, step.contacts.mu_omega, step.contacts.rows,
     )))  # fmt: skip
-    assert implied_rows(form, [0], [6, 12]) == [12]
+    assert Minimiser(form, (0,)).implied([6, 12]) == [12]
