@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import takewhile, zip_longest
 from typing import TYPE_CHECKING, Any
 
@@ -120,6 +122,8 @@ class Recorder:
         self.parts: list[StepArrays] = []
         self._latest: list[StepResult] = []
         self._targets: list[Array] = []
+        self._between: list[float] = []
+        self._since = time.perf_counter()
 
     @property
     def t(self) -> float:
@@ -151,6 +155,9 @@ class Recorder:
         most = min(PACKED, 1 + LARGEST // max(1, result.step.contacts.J.size))
         if len(self._latest) >= most or any(each.every_step for each in self.observers):
             self.packed()
+        now = time.perf_counter()
+        self._between.append(now - self._since - sum(result.seconds.values()))
+        self._since = now
 
     def _check(self, result: StepResult) -> None:
         """Check a result that is added; errors as of :meth:`add`."""
@@ -285,7 +292,21 @@ class Recorder:
         trajectory = Trajectory(header, arrays, seconds, self.scene)
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
-        return trajectory
+        return replace(trajectory, seconds={**seconds, **self._seconds_of_run()})
+
+    def _seconds_of_run(self) -> dict[str, Array]:
+        """What a run takes beyond its steps, step by step, shape (steps,) [s]; its end at the last.
+
+        With the parts of steps it adds up to the wall time since this recorder was made.
+        """
+        if not self.steps:
+            return {}
+        between = np.zeros(self.steps)
+        known = self._between[: self.steps]
+        between[: len(known)] = known
+        end = np.zeros(self.steps)
+        end[-1] = time.perf_counter() - self._since
+        return {"record": between, "findings": end}
 
 
 def arrays_of(results: Sequence[StepResult], n_v: int) -> StepArrays:

@@ -72,8 +72,9 @@ class Trajectory(Plain, HasPage):
         ``motion``, (n_c, 4): J delta_q.
         ``mu_v``, ``mu_omega`` and ``rows`` are constant.
     seconds : mapping of str to ndarray
-        Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
-        runs make equal files.
+        Wall time of the parts of each step [s], shape (steps,): those of a step, and of a run also
+        ``record``, between steps, and ``findings``, at its end, which counts as the last step's.
+        They add up to the run's. Kept in memory only, so that equal runs make equal files.
     scene : Scene, optional
         The system and the pairs, where the run was made in this process; kept in memory only, and
         not copied or pickled.

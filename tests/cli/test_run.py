@@ -39,6 +39,8 @@ def test_run_prints_one_json_object(scene, out, cli):
         "solve",
         "proof",
         "integrate",
+        "record",
+        "findings",
     }
 
 

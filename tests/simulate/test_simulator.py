@@ -1,5 +1,7 @@
 """The simulator: its targets and forces at the right times; steps are those of the vectors."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,17 @@ def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
     q = scenario.system.q_start
     run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
     np.testing.assert_array_equal(run["q_bar_a"], table)
+
+
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=pytest.mark.extra("fast"))])
+def test_the_parts_of_a_run_add_up_to_its_wall_time(fast):
+    scenario = load_scenario("sphere_spin", steps=20, fast=fast)
+    simulator = scenario.simulator()
+    scenario.run(progress=False)  # which imports what a run needs
+    begin = time.perf_counter()
+    run = rollout(simulator, scenario.system.q_start, scenario.targets, 20, progress=False)
+    wall = time.perf_counter() - begin
+    assert 0.95 * wall <= sum(float(part.sum()) for part in run.seconds.values()) <= wall
 
 
 def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):

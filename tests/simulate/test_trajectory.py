@@ -106,7 +106,8 @@ def test_the_header_says_what_the_run_was(run):
 
 
 def test_wall_times_are_kept_in_memory_only(tmp_path, run):
-    assert set(run.seconds) == {"distances", "rows", "solve", "proof", "integrate"}
+    of_steps = {"distances", "rows", "solve", "proof", "integrate"}
+    assert set(run.seconds) == {*of_steps, "record", "findings"}
     assert all(s.shape == (5,) and (s >= 0).all() for s in run.seconds.values())
     assert trajectory_read(run.save(tmp_path / "run.npz")).seconds == {}
 
