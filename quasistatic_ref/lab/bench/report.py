@@ -2,6 +2,8 @@
 
 import os
 from collections.abc import Callable, Mapping
+from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -9,17 +11,18 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab import machine as computer
-from quasistatic_ref.lab.bench.six import FIGURES, REPEAT, SCENES, figures
+from quasistatic_ref.lab.bench.six import FIGURES, SCENES, figures
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.fast.library import missing
 
-WORDS = """Microseconds. A step: the median of the least times of each step of a scene, taken in
-turn in one process. A run: all that a run does with `fast` and a light record, its findings
-included, by the wall, divided by its steps. The plain step is proved; that of 200 boxes is not
-measured. Boxes lie apart on a floor,
-have four contacts each, and slide askew. MuJoCo's is `mj_step` of the same boxes, and of a box of
-the bunny's mass between two fingers, with 12 contacts, from rest each time
-(`pip install "quasistatic-ref[engines]"`)."""
+GROWTH = ("10 boxes", "40 boxes", "200 boxes")
+"""Scenes each of which is compared with the one before."""
+WORDS = """Microseconds. A step: the median of the least processor times of up to ten steps at a
+time, which take turns in one process. A run: all that a run does with `fast` and a light record,
+its findings included, by the wall, divided by its steps. The plain step is proved; that of 200
+boxes is not measured. Boxes lie apart on a floor, have four contacts each, and slide askew.
+MuJoCo's is `mj_step` of the same boxes, and of a box of the bunny's mass between two fingers, with
+12 contacts, from rest each time (`pip install "quasistatic-ref[engines]"`)."""
 
 
 def measured(quick: bool, tell: Callable[[str], None]) -> dict[str, Any]:
@@ -29,7 +32,7 @@ def measured(quick: bool, tell: Callable[[str], None]) -> dict[str, Any]:
     ----------
     quick : bool
     tell : callable
-        Called with the name of each scene before it is measured.
+        Called with a scene and what of it is measured next.
 
     Raises
     ------
@@ -40,20 +43,32 @@ def measured(quick: bool, tell: Callable[[str], None]) -> dict[str, Any]:
         raise InputError(f"measures compiled steps, but {reason}", field="bench")
     before = os.getloadavg()[0]
     scenes = {}
-    for name, (make, steps) in [*SCENES.items()][: 2 if quick else None]:
-        tell(name)
-        scenes[name] = figures(make(), 3 if quick else steps, 1 if quick else REPEAT)
+    for name, (make, steps, repeat) in [*SCENES.items()][: 2 if quick else None]:
+        often = (3, 1) if quick else (steps, repeat)
+        scenes[name] = figures(make(), *often, tell=partial(_of_scene, name, tell))
     machine = {"quasistatic_ref": __version__, "numpy": np.__version__, **computer.machine()}
     load = f"load before the run {before:.1f}, after it {os.getloadavg()[0]:.1f}"
     return {"quick": quick, "machine": {**machine, "load": load}, "scenes": scenes}
 
 
+def _of_scene(name: str, tell: Callable[[str], None], what: str) -> None:
+    tell(f"{name}: {what}")
+
+
 def rows(scenes: Mapping[str, Mapping[str, float]]) -> list[tuple[str, ...]]:
-    """The figures of `scenes` [us] side by side, a scene a row, the first row their names."""
+    """The figures of `scenes` [us] side by side, a scene a row, the first row their names.
+
+    Below them stands how each grows with the number of boxes [-].
+    """
     each = [
         (name, *(f"{own[figure]:.0f}" if figure in own else "-" for figure in FIGURES))
         for name, own in scenes.items()
     ]
+    for fewer, more in pairwise(name for name in GROWTH if name in scenes):
+        one, other = scenes[fewer], scenes[more]
+        both = one.keys() & other.keys()
+        growth = (f"x {other[name] / one[name]:.1f}" if name in both else "-" for name in FIGURES)
+        each.append((f"{more} over {fewer.split()[0]}", *growth))
     return [("[us]", *FIGURES), *each]
 
 

@@ -21,18 +21,20 @@ RUN = "run, unproved"
 PROVED_RUN = "run, proved"
 MUJOCO = "MuJoCo's step"
 FIGURES = (PLAIN, STEP, PROVED_STEP, RUN, PROVED_RUN, MUJOCO)
-"""Medians of a step, and of a whole run with `fast` and a light record the least time by the wall,
-divided by its steps [us]. The plain step is proved, as it is by default."""
+"""Medians of a step over turns, in processor time; and of a whole run with `fast` and a light
+record the least time by the wall, over its steps [us]. The plain step is proved, as by default."""
 
-SCENES: Mapping[str, tuple[Callable[[], Scene], int]] = {
-    "the grasp": (grasp, 300),
-    "10 boxes": (partial(boxes, 10), 30),
-    "40 boxes": (partial(boxes, 40), 15),
-    "200 boxes": (partial(boxes, 200), 6),
+SCENES: Mapping[str, tuple[Callable[[], Scene], int, int]] = {
+    "the grasp": (grasp, 300, 3),
+    "10 boxes": (partial(boxes, 10), 20, 3),
+    "40 boxes": (partial(boxes, 40), 8, 2),
+    "200 boxes": (partial(boxes, 200), 3, 1),
 }
-"""Each scene, and how many of its steps are taken."""
-REPEAT = 5
-"""Runs of a scene; of each step the least time is kept."""
+"""Each scene, how many of its steps are taken, and how often: of each step the least time is kept.
+All of it takes a few minutes."""
+TURN = 10
+"""Steps that one job takes before the next one's turn, at most: most of them find the processor's
+caches as in a run of their own."""
 MOST_PLAIN = 7 * 40
 """Entries of q up to which the plain path is measured; CVXPY takes minutes for 200 boxes."""
 
@@ -53,7 +55,9 @@ class Steps:
         self._q = self._simulator.step(self._q, target, self._scene.force).q
 
 
-def figures(scene: Scene, steps: int, repeat: int) -> dict[str, float]:
+def figures(
+    scene: Scene, steps: int, repeat: int, tell: Callable[[str], None] = lambda _: None
+) -> dict[str, float]:
     """The figures of a scene [us], by name; MuJoCo's where that is installed.
 
     Parameters
@@ -63,25 +67,37 @@ def figures(scene: Scene, steps: int, repeat: int) -> dict[str, float]:
         Of each run.
     repeat : int
         Number of runs; the plain path has one.
+    tell : callable
+        Called with what is measured next.
     """
     fast = {STEP: OFF, PROVED_STEP: PROVED}
+    turn = min(TURN, max(1, steps // 3))
     runs: list[dict[str, Job]] = []
-    for turn in range(repeat):
+    for number in range(repeat):
         jobs: dict[str, Job] = {what: Steps(scene, kind, True).step for what, kind in fast.items()}
-        if turn == 0 and len(scene.q) <= MOST_PLAIN:
+        if number == 0 and len(scene.q) <= MOST_PLAIN:
             jobs[PLAIN] = Steps(scene, PROVED, False).step
         if find_spec("mujoco") is not None:
             jobs[MUJOCO] = _mujoco_step(scene)
-        runs.append(jobs)
-    taken = [in_turn([jobs] * steps) for jobs in runs]
+        runs.append({name: partial(_repeated, job, turn) for name, job in jobs.items()})
+    taken = []
+    for number, jobs in enumerate(runs):
+        tell(f"steps, {number + 1} of {repeat}")
+        taken.append(in_turn([jobs] * (steps // turn), clock=time.thread_time))
     medians = {
-        name: microseconds(np.minimum.reduce([times[name] for times in taken if name in times]))
+        name: microseconds(np.minimum.reduce([t[name] for t in taken if name in t])) / turn
         for name in runs[0]
     }
     whole = {RUN: OFF, PROVED_RUN: PROVED}
     for what, kind in whole.items():
+        tell(what)
         medians[what] = 1e6 * min(_wall(scene, kind, steps) for _ in range(repeat)) / steps
     return {name: medians[name] for name in FIGURES if name in medians}
+
+
+def _repeated(job: Job, often: int) -> None:
+    for _ in range(often):
+        job()
 
 
 def _wall(scene: Scene, certify: str, steps: int) -> float:
