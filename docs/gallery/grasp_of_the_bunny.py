@@ -34,7 +34,7 @@ assert round(turns["without torsion"], 1) == 49.9
 
 qr.draw_scenes(panels[:2], moments)
 for axes, case in zip(panels, turns, strict=False):
-    axes.set_title(case, y=1.12)
+    axes.set_title(case)
 panels[2].set(xlabel="time t [s]", ylabel="turn in the hand [deg]")
 panels[2].legend(loc="center left", fontsize="x-small")
 plt.show()

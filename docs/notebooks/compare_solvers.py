@@ -17,8 +17,8 @@ import numpy as np
 
 import quasistatic_ref as qr
 
-run = qr.load_scenario("two_finger_pinch", fast=True).run(progress=False)
-steps = [run.step_data(k) for k in range(0, len(run.t), 4)]
+run = qr.load_scenario("bunny_grasp", fast=True).run(progress=False)
+steps = [run.step_data(k) for k in range(0, len(run.t), 15)]
 SOLVERS = ("clarabel", "daqp", "osqp", "piqp")
 
 # %%
@@ -30,7 +30,7 @@ for name, each in digits.items():
 figure, axes = plt.subplots(figsize=(5.5, 3), layout="constrained")
 for name, mark in zip(SOLVERS, "os^v", strict=True):
     axes.plot(digits[name], mark, markersize=4, markerfacecolor="none", label=name)
-axes.set(xlabel="step", ylabel="correct digits of the answer [-]", ylim=(0, 17))
+axes.set(xlabel="every 15th step", ylabel="correct digits of the answer [-]", ylim=(0, 17))
 axes.legend()
 plt.show()
 
@@ -39,8 +39,7 @@ plt.show()
 
 # %%
 answers = [qr.solve_step(steps[3], name).delta_q for name in SOLVERS]
-assert all(np.array_equal(answers[0], each) for each in answers)
-print(answers[0])
+print("the same bits from all:", all(np.array_equal(answers[0], each) for each in answers))
 
 # %% [markdown]
 # A solver of your own is a function of (P, q, G, h). This one projects dual variables, sweep by sweep (Hildreth's method).
@@ -60,4 +59,4 @@ def hildreth(P, q, G, h, sweeps=2000):
 
 solution = qr.solve_step(steps[3], hildreth)
 print("digits of Hildreth's method:", round(solution.statistics.digits, 1))
-assert np.array_equal(solution.delta_q, answers[0])
+print("the same bits:", np.array_equal(solution.delta_q, answers[0]))

@@ -49,7 +49,7 @@ def cone(mu_v, push):
     plt.show()
 
 
-interact(
+sliders = interact(
     cone,
     mu_v=FloatSlider(0.5, min=0.1, max=1.0, step=0.1),
     push=FloatSlider(3.0, min=0.0, max=9.0, step=0.5),
@@ -88,7 +88,7 @@ def slips(mu_v):
     plt.show()
 
 
-interact(slips, mu_v=FloatSlider(0.5, min=0.1, max=0.9, step=0.1))
+slider = interact(slips, mu_v=FloatSlider(0.5, min=0.1, max=0.9, step=0.1))
 # %% [markdown]
 # The same as a static figure, for mu_v = 0.5:
 
@@ -102,10 +102,10 @@ slips(0.5)
 
 # %%
 held = qr.solve_step(block(3.0))
-print("delta_q", held.delta_q)
-print("lam / h [N]", held.lam / H)
-print("unique:", held.certificate.multipliers_unique)
-print("wrench (f_1, f_2, f_n, tau_n)", held.wrench[0])
+print("delta_q [m, rad]:", held.delta_q)
+print("lam / h [N]:", (held.lam / H).round(3))
+print("multipliers unique:", held.certificate.multipliers_unique)
+print("wrench (f_1, f_2, f_n, tau_n) [N, N m]:", held.wrench[0].round(3))
 assert not held.delta_q.any()
 
 # %% [markdown]

@@ -33,12 +33,12 @@ for axes, title in zip(both, ("with torsional friction", "without"), strict=True
 plt.show()
 
 # %% [markdown]
-# How far the bunny turned in the hand, from the closed grip on:
+# How far the bunny turned as the hand sees it, from the closed grip to the end:
 
 # %%
 for name, scene, each in (("with", scenario, run), ("without", without, turning)):
     turn = np.degrees(qr.relative_turn(scene.system, each, "bunny", "gripper", since=0.7))
-    print(f"{name} torsional friction: {turn.max():.1f} degrees")
+    print(f"{name} torsional friction: {turn[-1]:.2f} degrees")
 
 # %% [markdown]
 # Each step is one quadratic program. Its answer is the exact optimum, correctly rounded; its certificate is checked in rational numbers, without a solver.

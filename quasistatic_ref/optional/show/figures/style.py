@@ -11,7 +11,10 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.legend import Legend
+from matplotlib.transforms import Bbox
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
@@ -213,6 +216,8 @@ def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
 def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None:
     """A legend above axes, in as few lines as fit the cell of the grid that they stand in.
 
+    A title that the axes get later stands above it.
+
     Parameters
     ----------
     axes : Axes
@@ -227,5 +232,19 @@ def legend_above(axes: Axes, handles: Sequence[Artist], title: str = "") -> None
             loc="lower center", bbox_to_anchor=(0.5, 1.0), columnspacing=1.0,
             handlelength=1.8, borderaxespad=0.2,
         )  # fmt: skip
-        if legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
+        if columns == 1 or legend.get_window_extent().width <= ABOVE_AXES * room(axes)[0]:
+            _lift_title(axes, legend)
             return
+
+
+def _lift_title(axes: Axes, legend: Legend) -> None:
+    """Let the title of axes avoid a legend: Matplotlib lets it avoid axes inside of axes alone."""
+    inside = axes.inset_axes((0.0, 1.0, 1.0, 0.0))
+    inside.set_axis_off()
+    page: Any = axes.get_figure(root=False)
+
+    def place(_: object, renderer: RendererBase) -> Bbox:
+        extent = legend.get_window_extent(renderer)
+        return Bbox(extent.transformed(page.transSubfigure.inverted()))
+
+    inside.set_axes_locator(place)
