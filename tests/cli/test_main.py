@@ -28,17 +28,12 @@ def test_any_command_can_be_interrupted(tmp_path, cli, monkeypatch):
     [
         ([], "the following arguments are required: COMMAND"),
         (["rnu"], "invalid choice: 'rnu'; did you mean 'run'? known: account, backends"),
-        (["run"], "the following arguments are required: scenario"),
-        (["run", "x.toml", "--slow"], "unrecognized arguments: --slow"),
         (["run", "x.toml", "--bakend", "osqp"], "did you mean '--backend'?"),
         (["run", "x.toml", "contacts.a.k=3"], "did you mean '--set contacts.a.k=3'?"),
-        (["--set", "h=1", "run", "x.toml"], "invalid choice: 'h=1'; known: account, backends"),
         (["run", "x.toml", "--slow"], "usage: quasistatic-ref run "),
         (["run", "x.toml", "--steps", "5"], "did you mean '--set steps=5'?"),
-        (["study", "run", "x.toml", "--slow"], "usage: quasistatic-ref study run "),
         (["vectors", "check", "x", "--jsn"], "did you mean '--json'?"),
         (["extract", "x.npz", "--step", "first"], "--step: invalid int value: 'first'"),
-        (["extract", "x.npz"], "required: --step"),
     ],
 )
 def test_wrong_usage_is_status_2(capsys, arguments, words):
@@ -129,19 +124,6 @@ def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (130, "quasistatic-ref: interrupted\n")
-
-
-@pytest.mark.parametrize(
-    "words",
-    [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "run"]]
-    + [["vectors", name] for name in ("check", "challenge")],
-    ids=" ".join,
-)
-def test_every_command_takes_quiet(words, capsys):
-    with pytest.raises(SystemExit):
-        main([*words, "--help"])
-    assert "--quiet" in capsys.readouterr().out
 
 
 def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch, cli):

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Capsule, Cone, Cylinder
-from quasistatic_ref.contact.crossings import Edges, crossings, edge_crossings, edges, line
+from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
 from tests.oracles.bodies_by_hand import FLAT, HALF, UP, Scene, wrong_words
@@ -74,15 +74,6 @@ def test_crossings_are_where_they_are_by_hand():
     assert_within(octagon, sorted(corners), ROUNDING)
 
 
-def test_edges_that_are_parallel_or_no_part_of_what_touches_do_not_cross():
-    assert points_of_alpha(TABLE, TABLE, STRAIGHT, (0.0, 0.0, 0.02), (0.1, 0.1)) == sorted(
-        [[x, y] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for _ in range(2)]
-    )
-    assert (
-        points_of_alpha(TABLE, Box(np.full(3, 0.01)), STRAIGHT, (0.0, 0.0, 0.02), (0.0, 0.0)) == []
-    )
-
-
 @pytest.mark.parametrize("swapped", [False, True])
 def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
     """A disc on its rim's lowest point, at the rim of another: both touch there and nowhere else.
@@ -101,39 +92,3 @@ def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
     found = crossings(a, b, touches, touches, n)
     assert (np.sum((found.beta - found.alpha) * n, axis=1) >= -ROUNDING).all()
-
-
-def test_the_line_of_a_cone_leads_from_its_rim_to_its_tip_where_its_side_faces_a_way():
-    # The side of this cone is at 45 degrees.
-    cone = Cone(0.2, 0.1)
-    ends, number = line(cone, 0.0, np.array([0.6, 0.8, 1.0]) / np.sqrt(2))
-    np.testing.assert_allclose(ends, [[[0.12, 0.16, -0.1], [0, 0, 0.1]]], atol=ROUNDING)
-    assert number.tolist() == [0]
-    assert not line(cone, 0.0, UP)[0].size
-
-
-def diagonal(up):
-    """The normal of the edge between the faces x and z of a box, turned up along the edge [rad]."""
-    return np.array([np.cos(up) / np.sqrt(2), np.sin(up), np.cos(up) / np.sqrt(2)])
-
-
-@pytest.mark.parametrize(
-    ("x", "n", "number"),
-    [
-        ([0, 0, 100 - 1e-8], UP, 4),  # a face, but for 1e-10 of the size
-        ([100, 0, 100], diagonal(0.2), 1),
-        ([100, 0, 100], diagonal(0.3), 0),
-        ([100, 100, 100], np.full(3, np.sqrt(1 / 3)), 0),
-    ],
-)
-def test_edges_may_bear_of_faces_that_face_a_way_and_as_level_ones(x, n, number):
-    body = ShapeInWorld(Box(np.full(3, 100.0)), STRAIGHT, ORIGIN)
-    assert len(edges(body, np.array(x), n).ends) == number
-
-
-@pytest.mark.parametrize("length", [1e-3, 1e3])
-@pytest.mark.parametrize(("angle", "number"), [(1e-5, 1), (1e-7, 0)])
-def test_edges_cross_at_an_angle_above_skew_however_long_they_are(angle, number, length):
-    ways = length * np.array([[1.0, 0.0, 0.0], [np.cos(angle), np.sin(angle), 0.0]])
-    a, b = (Edges(np.array([[-way, way]]), np.zeros(1, dtype=int), 1) for way in ways)
-    assert len(edge_crossings(a, b, UP).number) == number

@@ -8,12 +8,9 @@ from quasistatic_ref import Box, Capsule, ContactError, Cylinder, HalfSpace, Poi
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
     closest_points,
-    every_candidate,
     joined_contacts,
-    number_within,
     repeated,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.tolerances import FILLED, REPEATED
 from tests.closeness import assert_within
@@ -105,15 +102,6 @@ def test_zero_is_never_minus_zero():
     assert np.signbit([*found.phi, *found.n[0]]).tolist() == [False, False, False, True]
 
 
-def test_candidates_are_counted_that_are_no_farther_than_the_nearest_by_more_than_a_length():
-    # The lower corners of a cube are 0.5 m above the floor, the upper ones 0.5 m higher.
-    one = pair(placed_shape(FLOOR), placed_shape(CUBE, 1))
-    kinematics = standing_links((np.eye(3), 0.75 * Z))
-    found = [number_within(one, kinematics.R, kinematics.t, within) for within in (0, 0.25, 0.5)]
-    assert found == [4, 4, 8]
-    assert closest_points([one], kinematics).point.tolist() == [0]
-
-
 def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_square():
     # The square leads from (0, 0) to (0.25, 0.25). Corners count from 0 (binary: x lowest), alpha's
     # first: the upper one of alpha is 7, the lower one of beta 8. Of the 12 edges, counted by axis,
@@ -133,30 +121,6 @@ def test_a_capsule_that_lies_above_a_box_has_its_contacts_below_the_centres_of_i
     assert found.phi.tolist() == [0.375, 0.375]  # 1 - 0.125 - 0.5
     assert found.alpha.tolist() == [[-0.25, 0, 0.5], [0.25, 0, 0.5]]
     assert found.beta.tolist() == [[-0.25, 0, 0.875], [0.25, 0, 0.875]]
-
-
-@pytest.mark.parametrize(
-    ("radial", "tilt", "first"), [(0.5, 0.2, 1.0), (0.25, 0.2, 2.5), (0.5, 0.0, 0.0)]
-)
-def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_the_normal(
-    radial, tilt, first
-):
-    # The closest point is 1 rad from the x axis, the other body along a normal that is tilted to
-    # 2.5 rad. Where the rim is level, its first corner is on the x axis.
-    half = 1.0
-    t = np.array([3.0, -2.0, 5.0])
-    beta = t + np.array([radial * np.cos(1.0), radial * np.sin(1.0), -half])
-    level = np.sin(tilt)
-    n = -np.array([level * np.cos(2.5), level * np.sin(2.5), -np.cos(tilt)])
-    nearest = candidates_at(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
-    nearest = nearest._replace(alpha=beta[None], beta=beta[None], n=n[None])
-    rimmed = Cylinder(0.5, half)
-    one = pair(placed_shape(FLOOR), placed_shape(rimmed, 1), 2)
-    a = ShapeInWorld(FLOOR, np.eye(3), np.zeros(3))
-    found = every_candidate(one, a, ShapeInWorld(rimmed, np.eye(3), t), nearest)
-    angle = first + np.arange(4) * np.pi / 2
-    expected = t + np.column_stack([0.5 * np.cos(angle), 0.5 * np.sin(angle), np.full(4, -half)])
-    assert_within(found.beta[:4], expected, SIGNED_DISTANCE)
 
 
 def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():

@@ -80,24 +80,3 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     )
     for name, value in {"phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}.items():
         np.testing.assert_array_equal(getattr(found, name), value)
-
-
-def test_the_world_does_not_move(tmp_path):
-    system = chain_scene(tmp_path)
-    kinematics = system.kinematics(system.q_start)
-    world = np.zeros(1, dtype=int)
-    x = np.ones((1, 3))
-    J = contact_jacobian(kinematics, world, world, x, -x, Z[None])
-    assert J.tobytes() == np.zeros((1, 4, system.n_v)).tobytes()  # never -0.0
-
-
-def test_no_pairs_make_no_contacts(tmp_path):
-    system = chain_scene(tmp_path)
-    kinematics = system.kinematics(system.q_start)
-    layout = contact_layout([])
-    assert layout.rows.shape == layout.mu_v.shape == layout.link_alpha.shape == (0,)
-    found = ContactGeometry(layout, system.column_map).contacts(
-        closest_points([], kinematics), kinematics
-    )
-    assert found.n_c == 0
-    assert found.J.shape == (0, 4, system.n_v)

@@ -4,22 +4,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Capsule, ContactError, PointCloud, Sphere
+from quasistatic_ref import Box, Capsule, ContactError, Sphere
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OWN,
-    TIED_FACES,
-    TOUCHING_FACES,
-    distinct,
-    gaps,
     pair_normal,
-    refuse_unless_touching,
-    rounding,
-    tied_normals,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.tolerances import SAME_NORMAL
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
 from tests.tolerances import CLOSED_FORM
 
@@ -34,18 +25,6 @@ TO_Y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 
 def at(shape, t=ORIGIN, R=STRAIGHT):
     return ShapeInWorld(shape, R, np.array(t))
-
-
-@pytest.mark.parametrize(
-    ("other", "size"),
-    [
-        (at(CUBE, [1.0, -0.5, 0.0]), 2.0),  # the cube's edge
-        (at(CUBE, [1.0, -5.0, 0.0]), 5.0),  # a place
-        (at(PointCloud([10 * X, -10 * X])), 2.0),
-    ],
-)
-def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size):
-    assert rounding(at(CUBE), other) == TIED_FACES * size
 
 
 def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two():
@@ -95,37 +74,6 @@ def test_cores_that_are_apart_have_one_normal_however_near_another_gap_is(shape)
             assert_within(d * found.n, sign * R @ way, CLOSED_FORM)
 
 
-def test_capsules_whose_axes_are_apart_by_rounding_are_tied_where_their_two_gaps_are_equal():
-    """Axes d apart along z: gaps of d - 0.5 along z and -d - 0.5 the other way."""
-    within = rounding(at(CAPSULE), at(CAPSULE))
-    a, b, c = (at(CAPSULE, t, R) for t, R in (
-        (ORIGIN, TO_X), (0.75 * within * Z, TO_Y), (0.25 * within * Z, TO_Y)
-    ))  # fmt: skip
-    assert pair_normal("p", a, b)[1] == OWN
-    with pytest.raises(ContactError, match="as deep in each other"):
-        pair_normal("p", a, c)
-
-
 def test_cores_that_are_apart_by_rounding_are_refused_in_an_edge():
     with pytest.raises(ContactError, match=r"as deep in each other along \[.*\], 0.25 m: "):
         pair_normal("p", at(CUBE), at(CAPSULE, [2 + 1e-13, 1 + 1e-13, 0.0], TO_X))
-
-
-def test_what_is_as_much_as_rounding_is_rounding():
-    within = 0.25
-    found = Witness(within, ORIGIN, within * Z, Z)  # apart by just that much
-    every = np.array([within, 0.0]), np.array([Z, X])  # and two gaps differ by it
-    assert tied_normals(at(CUBE), at(CUBE), found, within, every).tolist() == [[0, 0, 1], [1, 0, 0]]
-    assert len(distinct([Z, Z + SAME_NORMAL * X])) == 1
-    refuse_unless_touching("p", -TOUCHING_FACES / TIED_FACES * within, np.array([X, Z]), within)
-
-
-def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals():
-    for a, b in ((CUBE, CAPSULE), (CAPSULE, CUBE)):
-        one = at(a)
-        other = at(b, [1.0, 0.2, 1.1], TO_Y)
-        witness, listed = pair_and_gaps("p", one, other)
-        assert listed is not None
-        found, normals = listed
-        assert_within(found, gaps(one, other, normals), CLOSED_FORM)
-        assert_within(witness.phi, found.max(), CLOSED_FORM)

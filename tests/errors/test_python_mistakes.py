@@ -68,15 +68,12 @@ MISTAKES = {
     "where a step starts": [
         (lambda: step(Q[:7]), r"q: must have shape \(14,\)"),
         (lambda: step(Q[None]), r"q: must have shape \(14,\)"),
-        (lambda: step(None), "q: must be numbers"),
         (lambda: step(Q * np.nan), "must be finite"),
-        (lambda: step(Q + 0j), "q: must be numbers"),
         (lambda: step(2.0 * Q), r"must have length one, not 2; system.normalised\(q\)"),
         (lambda: step(TURNED.astype(np.float32)), r"system.normalised\(q\) divides it"),
     ],
     "targets": [
         (lambda: step(q_bar_a=Q), r"q_a: must have shape \(7,\)"),
-        (lambda: run(target="a"), "target: must be numbers"),
         (lambda: run(target={"thumb": 0.01}), "is not a body, joint or coordinate; known: block"),
         (lambda: run(target={"block": 0.01}), r"target\[block\]: is not actuated; make it so"),
         (lambda: run(target=lambda: Q_A), r"must be a function of t, of \(t, q\)"),
@@ -85,14 +82,12 @@ MISTAKES = {
     ],
     "forces": [
         (lambda: step(force={"block": [1, 0, 0]}), LOADS),
-        (lambda: step(force="down"), "force: must be numbers"),
         (lambda: step(force=np.full(12, np.nan)), "must contain finite numbers only"),
         (lambda: run(force=[1, 0, 0]), LOADS),
         (lambda: run(force=lambda t, q: [1, 0, 0]), LOADS),
         (lambda: run(force=lambda t: {"block": (1, 0, 0)}), LOADS),
         (lambda: SYSTEM.load(Q, "block", force=1.0), r"force: must have shape \(3,\)"),
         (lambda: SYSTEM.load(Q, "blok", (1, 0, 0)), "did you mean 'block'"),
-        (lambda: SYSTEM.load("block", (1, 0, 0)), "link: is not a link"),
     ],
     "words of others": [
         (lambda: scene(timestep=0.1), "did you mean 'h'"),
@@ -100,7 +95,6 @@ MISTAKES = {
         (lambda: scene(geometry={}), "did you mean 'shapes'"),
     ],
     "settings": [
-        (lambda: simulator(h="10ms"), "h: must be numbers"),
         (lambda: simulator(h=0), "h: must be a positive number of seconds"),
         (lambda: simulator(K_q=[1, 2, 3]), r"K_q: must have shape \(6,\)"),
         (lambda: simulator(K_q=0), "K_q: must be positive definite"),
@@ -110,40 +104,18 @@ MISTAKES = {
         (lambda: simulator(gravity=(0, 0, np.nan)), "gravity: must contain finite numbers"),
         (lambda: simulator(gravity_acts=[True]), r"gravity_acts: must have shape \(6,\)"),
         (lambda: simulator(backend="clarable"), "did you mean 'clarabel'"),
-        (lambda: simulator(accuracy="high"), "accuracy: must be a number greater than 0"),
         (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
-        (lambda: simulator(certify=True), "certify: must be one of full, residual, off"),
         (lambda: simulator(cone="elliptic"), "did you mean 'ellipsoid'"),
-        (lambda: simulator(limits=0.1), "limits: must be a Limits"),
-        (lambda: simulator(extension=qr.Extension()), "extension: must be a function of q that"),
     ],
     "what touches": [
-        (lambda: pair(beta=BLOCK), r"f.beta: must be a PlacedShape, such as system.shapes\[0\]"),
-        (lambda: pair(alpha="floor"), "f.alpha: must be a PlacedShape"),
         (lambda: pair(mu_v=-1.0), "f.mu_v: must be at least 0"),
-        (lambda: pair(mu_v="high"), "f.mu_v: must be numbers"),
         (lambda: pair(rows=5), "f.rows: must be 4 or 6"),
-        (lambda: pair(k=2.0), "f.k: must be a whole number"),
-        (lambda: qr.Simulator(SYSTEM, pair(), h=0.01, K_q=1.0), "pairs: must be a list of objects"),
-        (
-            lambda: qr.Simulator(SYSTEM, ["f"], h=0.01, K_q=1.0),
-            r"pairs\[0\]: must be a ContactPair",
-        ),
         (lambda: qr.PointCloud(np.zeros((3, 2))), r"points: must have shape \(3, 3\)"),
         (lambda: qr.Box(), "half_extents: must be given, or size, twice as long, and not both"),
-        (lambda: qr.Cylinder(0.1, 0.2, length=0.4), "half_length: must be given, or length, twice"),
-        (lambda: qr.Box((0.1, 0.1)), r"half_extents: must have shape \(3,\)"),
     ],
     "bodies": [
-        (lambda: qr.System(BLOCK), "bodies: must be a list of objects of class Body"),
         (lambda: qr.System(["arm.urdf"]), r"bodies\[0\]: must be a Body"),
-        (
-            lambda: qr.Simulator([BLOCK], [], h=0.01, K_q=1.0),
-            r"system: must be a System, qr.System",
-        ),
-        (lambda: ball(actuated=True), 'ball.actuated: must be "all" or a list of joint names'),
         (lambda: qr.System([ball(actuated=["joint1"])]), "has no such joint; known: base"),
-        (lambda: ball(rpy="0 0 90"), "ball.rpy: must be numbers"),
         (lambda: ball(mass=0), "ball.mass: must be greater than 0"),
         (lambda: qr.System([qr.Body("arm", "arm.urdf")]), "arm.urdf: no such file"),
         (lambda: SYSTEM.placed(Q), "values: must name joints and bodies, as in"),
@@ -151,16 +123,10 @@ MISTAKES = {
         (lambda: SYSTEM.pose(Q, "blok"), "did you mean 'block'"),
     ],
     "runs and files": [
-        (lambda: run(steps=2.5), "steps: must be a whole number"),
-        (lambda: run(record="all"), "record: must be one of full, light, forces"),
-        (lambda: run(observers=print), "observers: must be a list of objects of class Observer"),
         (lambda: RUN.save(Path(__file__).parent), "cannot be written: Is a directory"),
         (lambda: RUN["qpos"], "qpos: is not an array of this trajectory"),
         (lambda: RUN.forces_on("blok"), "did you mean 'block'"),
         (lambda: RUN.step_data(10), "step: must be 0 to 1"),
-        (lambda: qr.load_scenario([1]), "name: must be a file, the name of a scenario"),
-        (lambda: scene(bodies=[BLOCK]), "bodies: must be a mapping of names to tables"),
-        (lambda: qr.solve_step(SIMULATOR), "step: must be a StepData"),
     ],
 }
 
@@ -182,14 +148,6 @@ def test_a_function_of_q_cannot_change_where_its_step_starts():
 
     with pytest.raises(ValueError, match="read-only"):
         run(target=changing)
-
-
-def test_an_error_of_the_user_s_own_function_is_not_replaced():
-    def failing(t):
-        return len(None)
-
-    with pytest.raises(TypeError, match="has no len"):
-        run(target=failing)
 
 
 def test_a_target_by_names_holds_all_other_joints():
@@ -219,15 +177,6 @@ def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):
     path = written_scenario(tmp_path, head + rest[rest.index("[shapes.floor]") :])
     with pytest.raises(InputError, match=r'if ball is to move freely, give it base = "floating"$'):
         qr.load_scenario(path)
-
-
-def test_shapes_are_made_of_whole_sizes_as_in_files():
-    size = np.array([0.1, 0.2, 0.3])
-    length = 0.4
-    assert qr.Box(size=size) == qr.Box(size / 2)
-    assert qr.Ellipsoid(size=size) == qr.Ellipsoid(size / 2)
-    assert qr.Cylinder(0.1, length=length) == qr.Cylinder(0.1, length / 2)
-    assert qr.Capsule(0.1, length=length) == qr.Capsule(0.1, length / 2)
 
 
 def test_a_collision_keeps_its_name_and_contacts_may_use_it(tmp_path):

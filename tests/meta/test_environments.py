@@ -144,35 +144,6 @@ def test_after_a_backend_that_leaves_a_mode_nothing_is_claimed(name):
     assert words == Counter(refused=2, unclaimed=1)
 
 
-def test_what_solvers_keep_is_not_changed_by_a_mode():
-    calls = proofs()
-    right = [outcome(call) for call in calls]
-    for name in MODES:
-        with mode(name):
-            for call in calls:
-                outcome(call)
-    assert [outcome(call) for call in calls] == right
-
-
-def test_a_mode_of_another_thread_changes_nothing():
-    calls = proofs()
-    right = [outcome(call) for call in calls]
-    ended = threading.Event()
-
-    def at_work():
-        with mode(next(iter(MODES))):
-            while not ended.is_set():
-                sum(range(1000))
-
-    other = threading.Thread(target=at_work)
-    other.start()
-    try:
-        assert [outcome(call) for call in calls] == right
-    finally:
-        ended.set()
-        other.join()
-
-
 @pytest.mark.parametrize("shared", ["one simulator", "one system", "nothing"])
 def test_a_step_next_to_another_thread_s_is_the_same_or_refused(shared):
     """A simulator that shares nothing is a deep copy: none of its steps is refused."""

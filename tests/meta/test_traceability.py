@@ -84,14 +84,3 @@ def test_every_result_has_a_claim_or_a_test_by_random_instances():
     pages = (path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md"))
     results = {int(n) for page in pages for n in DEFINED.findall(page)}
     assert tested == results
-
-
-def test_each_function_of_the_core_that_c_repeats_exists():
-    """C's comments name it as the file, then the function: contact/jacobian, `tangents`."""
-    named = set()
-    for file in (PACKAGE / "optional" / "fast" / "source").glob("*.[ch]"):
-        for module, name in re.findall(r"\b((?:\w+/)+\w+), `(\w+)`", file.read_text("utf-8")):
-            python = (PACKAGE / module).with_suffix(".py").read_text("utf-8")
-            assert re.search(rf"^ *def {name}\(", python, re.MULTILINE), (file.name, module, name)
-            named.add(name)
-    assert len(named) >= 20

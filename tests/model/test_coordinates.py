@@ -29,17 +29,6 @@ def test_actuated_entries_come_first_whatever_the_number_of_axes():
         assert np.array_equal(order.paper_v(v), of_v + np.zeros((*axes, 9)))
 
 
-def test_orders_are_the_same_where_all_actuated_joints_come_first():
-    swing, spin = PINOCCHIO_S[:2]
-    first = Continuous("spin", True, slice(0, 2), slice(0, 1))
-    then = Revolute("swing", False, slice(2, 3), slice(1, 2))
-    order = paper_order([first, then])
-    v = np.arange(2.0)
-    assert order.same
-    assert order.paper_v(v) is v
-    assert not paper_order([swing, spin]).same
-
-
 @pytest.mark.parametrize(
     ("joint", "positions"),
     [

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.model.joints.continuous import Continuous
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.model.screw import half_turn, linear_part, translation
+from quasistatic_ref.model.screw import linear_part
 from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
@@ -42,22 +42,11 @@ def quaternion_about(axis, angle):
     return [*(axis * np.sin(angle / 2)), np.cos(angle / 2)]
 
 
-@pytest.mark.parametrize("v", [LINEAR, (0.25 * AXIS).tolist()], ids=["across", "along its axis"])
-@pytest.mark.parametrize("angle", ANGLES)
-def test_the_translation_of_a_screw_is_that_of_the_matrix_exponential(angle, v):
-    w = angle * AXIS
-    assert_close(translation(v, w.tolist(), half_turn(w.tolist())), screw(v, w)[1], ROUNDING)
-
-
 @pytest.mark.parametrize("angle", ANGLES)
 def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle):
     w = (angle * AXIS).tolist()
     v = linear_part(LINEAR, w)
     assert_within(screw(v, w)[1], LINEAR, 4 * ROUNDING)
-
-
-def test_a_floating_base_is_written_as_its_place_and_then_its_quaternion():
-    assert FLOATING.at(np.array(LINEAR), np.zeros(3)) == [*LINEAR, 0, 0, 0, 1]
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -119,23 +108,3 @@ def test_half_a_turn_is_about_the_axis_of_the_quaternion_that_names_it(axis):
     # From no turn: (e, 0) stands for a turn by pi about e, and -(e, 0) for the same about -e.
     found = change(FLOATING, [9.0, 0, 0, 0, 0, 0, 0, 1.0], [9.0, 0, 0, 0, *axis, 0.0])
     assert_within(found[3:], np.pi * axis, 4 * ROUNDING)
-
-
-@pytest.mark.parametrize("joint", [FLOATING, PLANAR, CONTINUOUS])
-def test_without_a_turn_a_joint_keeps_its_bits(joint):
-    q = [9.0, 0.1, 0.2, 0.3, *quaternion_about(AXIS, 0.8)]
-    assert next_entries(joint, q, [0.0] * 7) == q[joint.q]
-
-
-def test_only_the_twist_without_a_turn_keeps_the_quaternion_as_it_is():
-    rounded = [0.1, 0.2, 0.3, 1.0]  # of no length one: nothing but a copy keeps its bits
-    q = [9.0, 0.0, 0.0, 0.0, *rounded]
-    still = next_entries(FLOATING, q, [7.0, *LINEAR, 0.0, -0.0, 0.0])
-    assert still[3:] == rounded
-    for w in ((0.1, 0.1, 0.1), (0.1, 0.1, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.1)):
-        turned = next_entries(
-            FLOATING, [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [7.0, *LINEAR, *w]
-        )
-        angle = np.sqrt(np.dot(w, w))
-        expected = quaternion_about(np.array(w) / angle, angle)
-        assert_within(turned[3:], expected, ROUNDING)

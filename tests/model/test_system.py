@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, ModelError, System
 from tests.closeness import assert_close, assert_within
-from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, urdf_of_text
+from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, urdf_of_text
 from tests.tolerances import ROUNDING
 
 
@@ -69,20 +69,6 @@ def test_actuated_coordinates_change_whatever_comes_after_them():
     assert change.tolist() == [0.75 - 0.25]
 
 
-def test_everything_actuated_leaves_an_empty_block(tmp_path):
-    system = System([Body("c", urdf_of_text(tmp_path, CHAIN), "floating", "all")])
-    assert (system.n_a, system.n_u) == (9, 0)
-    assert system.M_u(system.q_start).shape == (0, 0)
-    assert system.n_q_a == system.n_q
-
-
-def test_a_world_without_joints_is_a_system(tmp_path):
-    system = System([Body("stone", urdf_of_text(tmp_path, BOX), xyz=(1, 0, 0))])
-    assert (system.n_v, system.n_q, system.links) == (0, 0, ("world", "stone/box"))
-    assert system.kinematics(system.q_start).t[1] == pytest.approx([1, 0, 0], abs=ROUNDING)
-    assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (0,)
-
-
 def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(tmp_path, scene, q):
     centred = robot(link("a", inertial=inertial()))  # no product of inertia, no lever
     system = System([Body("a", urdf_of_text(tmp_path, centred, "a.urdf"), "floating")])
@@ -94,16 +80,3 @@ def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(tmp_path, 
     assert system.M_u(system.integrate(system.q_start, np.ones(6))) is M_u
     assert not scene.constant_mass_matrix
     assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
-
-
-def test_systems_of_the_same_bodies_are_equal(tmp_path):
-    box, chain = Body("box", BOX, "floating"), Body("c", urdf_of_text(tmp_path, CHAIN))
-    assert System([box, chain]) == System([box, chain])
-    assert System([box, chain]) != System([chain, box])
-    assert System([box]) != "box"
-
-
-def test_kinematics_of_the_last_configuration_are_kept(scene, q):
-    here = scene.kinematics(q)
-    assert scene.kinematics(q.copy()) is here
-    assert scene.kinematics(scene.q_start) is not here

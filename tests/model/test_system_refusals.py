@@ -38,6 +38,15 @@ def test_a_configuration_of_another_length_is_refused(scene):
         scene.integrate(scene.q_start, np.zeros(scene.n_v + 1))
 
 
+@pytest.mark.parametrize("use", ["kinematics", "integrate", "difference"])
+def test_a_quaternion_of_length_two_is_refused_before_anything_is_computed_from_it(scene, use):
+    q = scene.q_start.copy()
+    q[scene.joint("box/base").q][3:] *= 2
+    calls = {"integrate": [q, np.zeros(scene.n_v)], "difference": [scene.q_start, q]}
+    with pytest.raises(ModelError, match=r"must have length one, not 2; system.normalised\(q\)"):
+        getattr(scene, use)(*calls.get(use, [q]))
+
+
 def test_unknown_names_are_answered_with_the_nearest(scene):
     with pytest.raises(ModelError, match="joint: is not a joint; did you mean 'arm/slide'"):
         scene.joint("arm/slid")

@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, Sphere, System
-from quasistatic_ref.model.workspace import PART
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.tolerances import ROUNDING
@@ -19,14 +18,6 @@ def balls(count):
         Body.of_shape(f"ball{k}", Sphere(0.1), 1.0 + k, xyz=(k, 2 * k, -k), rpy=(0.1 * k, 0.2, 0.3))
         for k in range(count)
     ])  # fmt: skip
-
-
-def test_a_part_holds_as_many_bodies_as_have_room():
-    # Six coordinates a ball: 24 of a part are those of 4 balls, and 9 = 4 + 4 + 1.
-    full = PART // 6
-    assert 6 * full == PART
-    parts = balls(2 * full + 1).workspace().parts
-    assert [part.model.nv for part in parts] == [PART, PART, 6]
 
 
 def test_bodies_of_all_parts_move_and_weigh_as_each_alone():
@@ -67,18 +58,3 @@ def test_a_joint_has_the_limits_that_its_file_gives_it(kind, said, limits):
     assert written != hinge
     system = System([Body("one", robot(link("a"), link("b"), written))])
     assert system.joint("one/j").limits == limits
-
-
-def test_a_mechanism_in_a_second_part_moves_as_it_does_alone():
-    pendulum = robot(link("rail"), link("bob"), joint("swing", "rail", "bob", axis="0 1 0"))
-    crane = Body("crane", pendulum)
-    full = [Body.of_shape(f"ball{k}", Sphere(0.1), 1.0) for k in range(PART // 6)]
-    alone, system = System([crane]), System([*full, crane])
-    assert len(system.workspace().parts) == 2
-    number = system.link("crane/bob")
-    v = system.joint("crane/swing").v
-    q = system.q_start.copy()
-    q[system.joint("crane/swing").q] = 0.7
-    own, found = alone.kinematics(np.array([0.7])), system.kinematics(q)
-    assert np.array_equal(found.R[number], own.R[alone.link("crane/bob")])
-    assert np.array_equal(found.J[number, :, v], own.J[alone.link("crane/bob")])

@@ -6,8 +6,7 @@ in, and no farther: up by d more than the one below, which is what is compared w
 contacts or more. With one contact bodies tip; what closes no gap too many, opens none under a
 force, and obeys Newton's law is the one step of least action. Newton's law, which gives the sum of
 the forces on each body and of their torques, is asked of all, and so are the normals written here.
-Two free bodies that are pressed together are to move alike wherever they are. Boxes whose edges
-are in each other have no normal, and are to be refused.
+Boxes whose edges are in each other have no normal, and are to be refused.
 
 Each scene is tried in some place drawn at random: in a quarter turn of the world, moved by half a
 metre or by 1e-16 m, either body of a pair alpha, free bodies in any order. Left out are clouds that
@@ -15,7 +14,6 @@ are as deep as their inset, whose points have faces of their own, round bodies t
 and walls with friction whose cubes push aside those that they slide past.
 """
 
-from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import combinations, product
 from typing import NamedTuple
@@ -36,7 +34,6 @@ from quasistatic_ref import (
     QuasistaticError,
     Simulator,
     Sphere,
-    StepResult,
     System,
     convex_hull,
 )
@@ -53,12 +50,9 @@ LENGTHS = (0.0, 1e-9, 1e-6, 1e-3)
 """Insets and depths [m]."""
 CONTACTS = ((1, 0.0), (4, 0.0), (8, 0.0), (12, 0.0), (4, 0.5))
 """Contacts of a pair, and mu_v."""
-ALL_CORNERS = ((64, 0.0),)
 UP = np.array([0.0, 0.0, 1.0])
 RISE = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
 WEIGHT = -9.81 * MASS * RISE
-PRESS = np.array([2.0, -1.0, -20.0, 0.05, -0.03, 0.02])
-"""On the upper one of two free bodies [N, N m]."""
 STRAIGHT = np.eye(3)
 OVER = np.diag([1.0, -1.0, -1.0])
 QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -68,18 +62,16 @@ INERTIA = MASS * EDGE**2 / 6
 MOTION = 3e-15
 """Of motions [m, rad], for each body: a gap is a difference of two places of a metre, each rounded
 to 1e-16 m, and a turn is a difference of gaps over a tenth of a metre."""
-ALIKE = 1e-9
-"""Relative difference of equal motions of two free bodies."""
 
 
-def hull(half: float) -> Shape:
+def hull(half):
     """A frustum on its wide base."""
     corners = [[x, y, z] for r, z in ((half, -HALF), (half / 2, HALF))
                for x in (-r, r) for y in (-r, r)]  # fmt: skip
     return convex_hull(corners)
 
 
-def cloud(half: float) -> Shape:
+def cloud(half):
     """The corners of a box."""
     sides = (-half, half)
     return PointCloud(np.array([[x, y, z] for x in sides for y in sides for z in (-HALF, HALF)]))
@@ -133,7 +125,7 @@ class Scene(NamedTuple):
     tolerance: float = MOTION
 
 
-def step_of(scene: Scene, k: int, mu_v: float) -> StepResult:
+def step_of(scene, k, mu_v):
     """One step, with k contacts of a pair."""
     count = len(scene.motion)
     places = [t for _, _, t in scene.bodies[:count]]
@@ -153,7 +145,7 @@ def step_of(scene: Scene, k: int, mu_v: float) -> StepResult:
     return simulator.step(system.q_start, np.zeros(0), force)
 
 
-def wrong_words(scene: Scene, k: int, mu_v: float) -> str:
+def wrong_words(scene, k, mu_v):
     """What differs from what is known; nothing if it is empty."""
     count = len(scene.motion)
     places = np.array([t for _, _, t in scene.bodies])
@@ -192,12 +184,12 @@ def wrong_words(scene: Scene, k: int, mu_v: float) -> str:
     return "action" if impossible.any() else ""
 
 
-def turned(twists: Array, W: Array) -> Array:
+def turned(twists, W):
     """Motions or loads of bodies in a world that is turned by W."""
     return (twists.reshape(-1, 2, 3) @ W.T).reshape(twists.shape)
 
 
-def elsewhere(scene: Scene, rng: np.random.Generator) -> Scene:
+def elsewhere(scene, rng):
     """The scene in another place, either body of a pair alpha, free bodies in any order."""
     W = TURNS[rng.integers(24)]
     shift = rng.integers(-2, 3, 3) / 4 + rng.choice([0.0, 1e-16], 3)
@@ -217,12 +209,12 @@ def elsewhere(scene: Scene, rng: np.random.Generator) -> Scene:
     )
 
 
-def solid(kind: str, half: float) -> Shape:
+def solid(kind, half):
     """A shape whose base, if it has one, is so wide."""
     return FLAT[kind](half) if kind in FLAT else ROUND[kind]
 
 
-def on_top(low: str, top: str, inset: float, depth: float, aside: float = 0.0) -> Scene:
+def on_top(low, top, inset, depth, aside=0.0):
     """A body on a fixed one; the corners of a square base are on the rim of a circular one."""
     on_rim = top in SQUARE and low in FLAT and low not in SQUARE
     half = HALF / np.sqrt(2) - 1e-12 if on_rim else HALF
@@ -234,21 +226,12 @@ def on_top(low: str, top: str, inset: float, depth: float, aside: float = 0.0) -
     return Scene(bodies, {(1, 0): UP}, depth * RISE[None], tips=tips)
 
 
-def overhang(low: str, inset: float, depth: float) -> Scene:
+def overhang(low, inset, depth):
     """A box that overhangs another body along one side and is flush along the other."""
     return on_top(low, "box", 0.0, depth, aside=inset or OVERHANG)
 
 
-def pressed_bodies(low: str, top: str, inset: float, depth: float) -> Scene:
-    """Two free bodies, whose motion in one place is that in all."""
-    load = np.stack([PRESS, 0 * PRESS])
-    scene = on_top(low, top, inset, depth)._replace(motion=np.zeros((2, 6)), load=load)
-    ((contacts, _),) = ALL_CORNERS
-    motion = step_of(scene, contacts, 0.0).solution.delta_q.reshape(2, 6)
-    return scene._replace(motion=motion, tolerance=ALIKE * np.abs(motion).max())
-
-
-def on_edge(depth: float) -> Scene:
+def on_edge(depth):
     """Edge on edge of a grid: the bisector where they touch, refused where they are deeper."""
     n = np.array([np.sqrt(0.5), 0.0, np.sqrt(0.5)])
     bodies = [(BOX, STRAIGHT, (EDGE - depth) * np.array([1.0, 0.0, 1.0])),
@@ -257,12 +240,12 @@ def on_edge(depth: float) -> Scene:
     return Scene(bodies, {(1, 0): n}, np.zeros((1, 6)), load, refused=depth > 0.0)
 
 
-def slab() -> tuple[Shape, Array, Array]:
+def slab():
     """What the lowest bodies stand on."""
     return Box((1.0, HALF, HALF)), STRAIGHT, -HALF * UP
 
 
-def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Scene:
+def column(kind, count, tall, inset, depth):
     """Bodies on each other: number i goes up by i + 1 depths."""
     bodies = []
     for i in range(count):
@@ -274,7 +257,7 @@ def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Sc
     return Scene([*bodies, slab()], normals, np.outer(depth * np.arange(1, count + 1), RISE))
 
 
-def wall(rows: Sequence[Sequence[float]], inset: float, depth: float) -> Scene:
+def wall(rows, inset, depth):
     """Cubes in rows, whose middles are at these multiples of their edge: row r goes up by r + 1."""
     at = [(x, r) for r, row in enumerate(rows) for x in row]
     half = HALF - inset
@@ -294,7 +277,7 @@ def wall(rows: Sequence[Sequence[float]], inset: float, depth: float) -> Scene:
     return Scene([*bodies, slab()], normals, motion)
 
 
-def corner(mu_v: float, inset: float, depth: float) -> Scene:
+def corner(mu_v, inset, depth):
     """A box pressed into a floor and two walls, of which it goes out along all three.
 
     With friction it slides on each as it leaves the others: to x = y = z with x - mu_v y = depth.
@@ -325,18 +308,13 @@ FAMILIES = {
         for low, top in product((*SOLIDS, *ROUND), (*FLAT, *ROUND))
         if low in FLAT or top != "cloud"  # the points of a cloud touch what is flat above
     },
-    **{
-        f"free {top} on {low}": partial(pressed_bodies, low, top)
-        for low, top in product(SOLIDS, repeat=2)
-    },
 }
 
 
-def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:
+def attempts(name):
     """The scenes of a family, with contacts of a pair and mu_v."""
     is_round = not ROUND.keys().isdisjoint(name.split())
-    contacts = ALL_CORNERS if name.startswith("free") else CONTACTS
-    for inset, depth, (k, mu_v) in product(LENGTHS, LENGTHS, contacts):
+    for inset, depth, (k, mu_v) in product(LENGTHS, LENGTHS, CONTACTS):
         if name.startswith("cloud") and 0.0 < depth >= inset:
             continue  # its points have faces of their own
         if is_round and (inset or depth == LENGTHS[-1]):

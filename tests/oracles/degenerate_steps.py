@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from quasistatic_ref import StepData
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, Z, contacts_of, point_jacobian
 from quasistatic_ref.lab.scenes.contacts import repeated as some_of
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -13,7 +12,7 @@ UP, RIGHT, LEFT = (X, Y, Z), (Y, Z, X), (Z, Y, -X)
 """Frames (d1, d2, n) of a floor, and of walls to the left and to the right of a box."""
 
 
-def degenerate_step(seed: int) -> StepData:
+def degenerate_step(seed):
     """A stack of one to three boxes, pushed along an axis or not at all; the seed decides.
 
     Gaps are equal everywhere, some contacts occur twice, and some forces are zero.

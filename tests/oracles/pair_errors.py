@@ -12,22 +12,21 @@
 import numpy as np
 
 from quasistatic_ref import ContactError
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
 
 STEP = 1e-3
 
 
-def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness) -> float:
+def points_off(a, b, R, t, found):
     """How far closest points are off the surfaces [m]."""
     on_a = a.signed_distance(found.alpha[None])[0][0]
     on_b = b.signed_distance(((found.beta - t) @ R)[None])[0][0]
     return float(max(abs(on_a), abs(on_b)))
 
 
-def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], int]:
+def pair_errors(names, count):
     """Largest errors over some poses, and how many were refused."""
     solids = closest.solids()
     a, b = (solids[name] for name in names)

@@ -17,7 +17,7 @@ from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.rational_kkt import exact, proved_optimum, solution
 
-PROBLEMS = 320
+PROBLEMS = 200
 
 
 def subsets(rows, most):
@@ -134,7 +134,7 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
             active = [v for v in found.lam.tolist() if v]
             assert found.smallest_active_multiplier == min(active, default=None), seed
             assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
-    assert min(kinds.values()) >= 10
+    assert min(kinds.values()) >= 5
     assert kinds["infeasible"] <= PROBLEMS / 2
 
 

@@ -51,14 +51,6 @@ def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
         assert_close(both, row_forces(run, k), ROUNDING)
 
 
-def test_no_force_is_none(scenario):
-    system = scenario.system
-    start = system.q_start[: system.n_q_a]
-    for simulator in (scenario.simulator(), replace(scenario, fast=False).simulator()):
-        steps = [simulator.step(system.q_start, start, force) for force in (None, 0.0)]
-        assert steps[0].q.tolist() == steps[1].q.tolist()
-
-
 def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
     forces = run.pair_forces()
     assert list(forces) == [pair.name for pair in scenario.pairs]

@@ -157,21 +157,6 @@ def test_a_target_turns_it_the_shorter_way(base, name):
     assert_within(held.targets(0.05), half.as_quat(), 8 * ROUNDING)
 
 
-def test_an_axis_means_nothing_to_a_ball():
-    other = System([Body("arm", HANGING.replace('xyz="1 0 0"', 'xyz="0 0 1"'))])
-    assert "arm: joint[ball].axis" in other.ignored
-    assert other.joints == System([Body("arm", HANGING)]).joints
-
-
-def test_a_hinge_beside_a_ball_keeps_its_limits():
-    both = robot(
-        link("hook"), BOB, link("a"), joint("ball", "hook", "bob", "ball"),
-        joint("swing", "hook", "a"),
-    )  # fmt: skip
-    limits = {joint.name: joint.limits for joint in System([Body("arm", both)]).joints}
-    assert limits == {"arm/ball": None, "arm/swing": (-1.0, 1.0)}
-
-
 def test_what_a_ball_cannot_is_refused():
     with pytest.raises(ModelError, match=r"arm\.positions: has no position that is one number"):
         System([Body("arm", HANGING, positions={"ball": 0.1})])

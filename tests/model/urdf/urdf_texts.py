@@ -70,6 +70,3 @@ BOX = robot(
 
 OBJ = "v 0 0 0\nv {} 0 0\nv 0 0.2 0\nv 0 0 0.3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 """A tetrahedron as a file, as long as is given along x."""
-
-USED, LISTED, REFUSED = "used", "listed as ignored", "refused"
-"""What becomes of what a file says."""

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Cone, ContactError, Ellipsoid, convex_hull
+from quasistatic_ref import Box, Cone, ContactError, Ellipsoid
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved import by_coal
-from quasistatic_ref.optional.curved.by_coal import Judged, coal_witness, judged
+from quasistatic_ref.optional.curved.by_coal import coal_witness
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import COAL, CURVED_PAIR, ROUNDING
@@ -123,32 +123,6 @@ def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap
     assert_within(found.n, X, CURVED_PAIR)
 
 
-def test_what_touches_is_not_searched_for_ways_out(monkeypatch):
-    monkeypatch.setattr(by_coal, "_shallowest", None)
-    assert -by_coal.ENOUGH < coal_witness("p", *tips(-1e-15)).phi < 0
-
-
-def test_the_best_of_coal_s_answers_is_taken(monkeypatch):
-    without_normals(monkeypatch, 1)
-    found = by_coal._by_coal(*tips(0.1))
-    assert_within(found.phi, 0.1, COAL)
-    assert_within(found.n, X, COAL)
-
-
-@pytest.mark.parametrize("spoilt", range(4))
-def test_an_answer_with_a_number_that_is_not_finite_is_infinitely_wrong(spoilt):
-    answer = [0.1, 0.125 * X, 0.225 * X, X]
-    assert judged(*tips(0.1), *answer).defect < ROUNDING
-    answer[spoilt] = np.nan * answer[spoilt]
-    assert judged(*tips(0.1), *answer).defect == np.inf
-
-
-def test_a_mesh_that_is_enlarged_has_a_larger_volume():
-    vertices = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.3, 0], [0, 0, 0.4]])
-    found = by_coal._resized(convex_hull(vertices), 4.0)
-    assert_relative(found.volume, 0.8 * 1.2 * 1.6 / 6, ROUNDING)
-
-
 BOX = Box((0.1, 0.12, 0.14))
 GRAIN = Ellipsoid((0.02, 0.021, 0.022))
 
@@ -164,42 +138,6 @@ def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y
     assert_within(found.phi, phi, CURVED_PAIR)
     assert_within(abs(found.n), np.eye(3)[way], CURVED_PAIR)
     assert np.sign(found.n[way]) in ways
-
-
-def test_ways_out_are_looked_for_from_the_proved_one_as_far_as_the_solids_are_wide(monkeypatch):
-    """A cone reaches h c or r sqrt(1 - c^2) - h c, with c the cosine to its axis; a ball is round.
-
-    The ball is over the base, 0.01 less than its radius of 0.03 away.
-    """
-    asked = []
-    monkeypatch.setattr(by_coal, "rival_directions", lambda *given: asked.append(given[2:]) or [])
-    without_normals(monkeypatch, len(by_coal.ACCURACIES))
-    turn = Rotation.from_euler("yz", [-np.pi / 2 + 0.1, 0.1]).as_matrix()
-    axis = turn[:, 2]
-    ball = ShapeInWorld(Ellipsoid(np.full(3, 0.03)), np.eye(3), -0.12 * axis)
-    coal_witness("p", ShapeInWorld(Cone(0.3, 0.1), turn, np.zeros(3)), ball)
-    ((first, phi, size),) = asked
-    assert_within(first, -axis, CURVED_PAIR)
-    assert_within(phi, -0.01, CURVED_PAIR)
-    reach = [
-        max(0.1 * c, 0.3 * np.sqrt(1 - c * c) - 0.1 * c) for c in (X @ axis, -X @ axis)
-    ]  # along the direction that is tried first, and against it
-    assert_relative(size, sum(reach) + 0.06, ROUNDING)
-
-
-@pytest.mark.parametrize(
-    ("short", "turn", "refused"),
-    [(0.05, 1.0, False), (0.2, 1.0, True), (0.2, 0.0, False)],
-)
-def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(monkeypatch, short, turn, refused):
-    """The shortest is 0.1 long; another, 0.2 less what is missing: it may be 0.15 long, or none."""
-    a, b = (ShapeInWorld(BOX, np.eye(3), t) for t in (np.zeros(3), 0.1 * X))
-    other = np.array([np.cos(turn), np.sin(turn), 0.0])
-    answers = [Judged(-0.1, a.t, b.t, X, 0.0), Judged(-0.2, a.t, b.t, other, short)]
-    monkeypatch.setattr(by_coal, "_refined", lambda *_: answers.pop(0))
-    monkeypatch.setattr(by_coal, "rival_directions", lambda *_: [other])
-    found, _ = by_coal._shallowest(a, b, answers[0])
-    assert (found.defect == np.inf) == refused
 
 
 def test_a_deep_way_out_that_settles_slowly_is_found():

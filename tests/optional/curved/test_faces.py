@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, Cylinder
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
+from quasistatic_ref.optional.curved.faces import curvature, face, kinks
 from tests.closeness import assert_relative, assert_within
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, ROUNDING
@@ -34,13 +34,6 @@ def test_the_curvature_is_the_derivative_of_the_farthest_point(name):
             assert_within(difference, expected, DIFFERENCE)
         # The farthest point is the same for every length of n.
         assert_within(curvature(solid, n) @ n, 0, CURVED_PAIR)
-
-
-def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors():
-    """Four of its twelve edges lie along each axis: the sum of e e' is 4 I for unit vectors e."""
-    of = kinks(Box((0.3, 0.02, 0.1)))
-    assert not of.levels.any()
-    np.testing.assert_array_equal(of.axes.T @ of.axes, 4 * np.eye(3))
 
 
 def flat_normals(name):
@@ -105,11 +98,3 @@ def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding():
     assert_within(side @ axis, [-0.5, 0.5], CURVED_PAIR)
     assert_within(side @ x, [1, 1], CURVED_PAIR)
     assert_within(side @ R[:, 1], [0, 0], CURVED_PAIR)
-
-
-def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it():
-    segment = Face(np.array([[0.0, 0, 0], [1, 0, 0]]), 0.0, np.array([0.0, 0.0, 1.0]))
-    for x in (-0.5, 0.25, 2.0):
-        expected = [np.clip(x, 0, 1), 0, 0]
-        found = segment.nearest(np.array([x, 0.0, 0.5]))
-        np.testing.assert_array_equal(found, expected)

@@ -9,7 +9,6 @@ from quasistatic_ref.contact.crossings import Crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.rims import curve_crossings
-from quasistatic_ref.tolerances import OVER_FACE, SKEW
 from tests.closeness import assert_within
 from tests.tolerances import ROUNDING
 
@@ -101,34 +100,6 @@ def test_rims_cross_where_their_circles_do_in_the_planes_of_both(d, swapped):
     near = np.zeros(3)
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
     holds(moved_crossings(a, b, near, near, n, WORLD, AT), expected)
-
-
-def on_puck(top, d, gap=0.0, between=0.0):
-    """The number of crossings of a puck and a solid over it, a gap above, whose axis is d away."""
-    low = ShapeInWorld(Cylinder(0.07, 0.01), STRAIGHT, np.array([0.0, 0.0, -0.01]))
-    bottom = top.half_extents[2] if isinstance(top, Box) else top.half_length
-    there = ShapeInWorld(top, STRAIGHT, np.array([d, 0.0, gap + bottom]))
-    near = np.array([d, 0.0, 0.0])
-    return len(moved_crossings(low, there, near, near + between * UP).number)
-
-
-def test_curves_cross_if_the_sine_of_their_angle_is_above_a_millionth():
-    for angle, count in ((2 * SKEW, 2), (SKEW / 2, 0)):
-        # An edge across the radius at a distance d is at the angle a to the circle: d = r cos a.
-        for half in (0.02, 0.5):
-            assert on_puck(Box((0.3, half, 0.01)), 0.3 + 0.07 * np.cos(angle)) == count
-        # Radii r and s at the angle a end in one point: d^2 = (r - s)^2 + 4 r s sin(a/2)^2.
-        for s in (0.07, 0.01):
-            d = np.hypot(0.07 - s, 2 * np.sqrt(0.07 * s) * np.sin(angle / 2))
-            assert on_puck(Cylinder(s, 0.01), d) == count
-
-
-def test_crossings_of_rims_have_gaps_no_smaller_than_the_pair_s():
-    over = OVER_FACE * (0.07 + 0.05)
-    puck = Cylinder(0.05, 0.01)
-    assert on_puck(puck, 0.04, 1e-3, 1e-3) == 2
-    assert on_puck(puck, 0.04, 0.0, 0.5 * over) == 2
-    assert on_puck(puck, 0.04, 0.0, 2.0 * over) == 0
 
 
 def test_an_edge_that_ends_on_a_rim_crosses_it_there():

@@ -7,8 +7,7 @@ from quasistatic_ref import Box, ContactError, Cylinder
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.curved import by_coal
-from quasistatic_ref.optional.curved.faces import Face
-from quasistatic_ref.optional.curved.settle import CROSSING, _common, settled
+from quasistatic_ref.optional.curved.settle import settled
 from tests.closeness import assert_within
 from tests.contact.solids.test_curved_pair import HERE, PAIRS, SOLIDS
 from tests.oracles import closest
@@ -66,28 +65,3 @@ def test_axes_that_are_nearly_parallel_have_a_normal_across_both(sine):
     assert best.defect <= CURVED_PAIR
     assert_within(best.n, UP, CURVED_PAIR)
     assert_within(best.alpha, [x, 0, 0.1], 1e-10)
-
-
-def segment(middle, way):
-    return Face(np.array([np.subtract(middle, way), np.add(middle, way)]), 0.0, UP)
-
-
-def test_segments_cross_unless_the_sine_of_their_angle_is_below_a_billionth():
-    """The first is along x; the other crosses it at (0.1, 0), a third of the way from its end."""
-    x = np.array([0.25, 0.0, 0.0])
-    for sine, crosses in ((0.6, True), (2 * CROSSING, True), (CROSSING / 2, False)):
-        for a, b in ((0.5, 0.3), (50.0, 0.3), (0.5, 30.0)):
-            way = b * np.array([np.sqrt(1 - sine**2), sine, 0.0])
-            one = segment([0.0, 0.0, 0.0], [a, 0.0, 0.0])
-            other = segment([0.1, 0.0, 0.2] + way / 3, way)
-            found = _common(one, other, x)
-            assert (abs(found[0] - 0.1) < 1e-6) == crosses
-            np.testing.assert_array_equal(found[1:], 0.0)
-
-
-def test_discs_that_touch_at_their_rims_are_met_from_their_middles():
-    """Projections to and fro between two circles end where they started, but for their middles."""
-    one = Face(np.zeros((1, 3)), 0.1, UP)
-    other = Face(np.array([[0.3, 0.0, 0.2]]), 0.2, UP)
-    found = _common(one, other, np.array([0.1, 0.1, 0.0]))
-    assert_within(found, [0.1, 0, 0], CURVED_PAIR)

@@ -2,19 +2,16 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull, KDTree
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Cone, Cylinder, Ellipsoid, convex_hull
+from quasistatic_ref import Box, Ellipsoid, convex_hull
 from quasistatic_ref.contact.separations import gaps
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.ways_out import (
     APART,
     REACH,
     STARTS,
-    _sphere,
-    known_gaps,
     rival_directions,
 )
 from tests.closeness import assert_within
@@ -62,14 +59,6 @@ def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_
         assert len(found) <= STARTS
 
 
-def test_six_ways_of_eight_are_followed():
-    solid = ShapeInWorld(convex_hull(0.1 * np.concatenate([np.eye(3), -np.eye(3)])), R, AT)
-    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
-    first = R @ np.ones(3) / np.sqrt(3)
-    found = rival_directions(solid, inside, first, 0.0, 10.0)
-    assert len(found) == STARTS == 6
-
-
 def test_a_smooth_way_out_between_all_axes_is_near_a_sample():
     """Discs tilted by 0.35 and -0.35 about x: the sum of their reaches is least along z and -z."""
     tilted = [Rotation.from_rotvec([angle, 0, 0]).as_matrix() for angle in (0.35, -0.35)]
@@ -78,36 +67,3 @@ def test_a_smooth_way_out_between_all_axes_is_near_a_sample():
     z = np.array([0.0, 0.0, 1.0])
     (found,) = rival_directions(a, b, z, float(gaps(a, b, z[None])[0]), 0.05)
     assert found @ -z > np.cos(REACH)
-
-
-def test_samples_are_unit_vectors_everywhere_with_eight_neighbours():
-    sphere, neighbours = _sphere()
-    assert_within(np.linalg.norm(sphere, axis=1), 1.0, ROUNDING)
-    # The plane of a facet of the hull cuts off the largest empty cap about its normal.
-    holes = np.arccos(-ConvexHull(sphere).equations[:, 3])
-    assert 0.99 * REACH < holes.max() < REACH
-    own_and_eight = KDTree(sphere).query(sphere, 9)[0]
-    away = np.linalg.norm(sphere[neighbours] - sphere[:, None], axis=2)
-    assert_within(away, own_and_eight[:, 1:], ROUNDING)
-
-
-def test_known_gaps_are_along_axes_and_the_normals_of_faces_at_the_closest_points():
-    """Of a cone that rises by 2 h over its radius r, above a cylinder."""
-    a = ShapeInWorld(Cylinder(0.1, 0.2), R, AT)
-    b = ShapeInWorld(Cone(0.3, 0.2), S, np.array([0.0, 0.3, 0.4]))
-    around = np.array([0.6, -0.8, 0.0])
-    slant = np.array([0.4 * 0.8, 0.4 * 0.6, 0.3]) / 0.5
-    alpha = R @ (0.1 * around + [0, 0, 0.05]) + a.t
-    beta = S @ [0.15 * 0.8, 0.15 * 0.6, 0.0] + b.t
-    found, ways = known_gaps(a, b, Witness(0.0, alpha, beta, R[:, 2]))
-    z = np.eye(3)[2]
-    axes = np.concatenate([np.eye(3), -np.eye(3)])
-    expected = [axes @ R.T, -axes @ S.T, [around, z, -z] @ R.T, -np.array([slant, -z]) @ S.T]
-    assert_within(ways, np.concatenate(expected), ROUNDING)
-    # A cylinder reaches r |n_xy| + h |n_z| along n, a cone h n_z or r |n_xy| - h n_z.
-    n = ways @ R
-    of_cylinder = 0.1 * np.hypot(n[:, 0], n[:, 1]) + 0.2 * abs(n[:, 2])
-    n = -ways @ S
-    of_cone = np.maximum(0.2 * n[:, 2], 0.3 * np.hypot(n[:, 0], n[:, 1]) - 0.2 * n[:, 2])
-    expected_gaps = ways @ (b.t - a.t) - of_cylinder - of_cone
-    assert_within(found, expected_gaps, ROUNDING)

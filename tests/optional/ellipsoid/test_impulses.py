@@ -10,8 +10,6 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.ellipsoid.impulses import inside, outside_of_cones, raised
 from quasistatic_ref.optional.gap import fractions
 
-ONE = fmpq(1)
-
 
 def step_of(mu_v=(0.5, 0.25), mu_omega=(0.125, 0.0)):
     """A body with two contacts of six rows, and a row of the user's own."""

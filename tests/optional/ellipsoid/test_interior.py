@@ -4,15 +4,12 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
+from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import (
     INWARDS,
     OPEN,
     SLIDES,
     STICKS,
-    _inwards,
-    _opening,
-    _projected,
     contact_states,
     newton_pair,
 )
@@ -84,44 +81,3 @@ def assert_pair(problem, pair, expected, tolerance):
     assert_within(floats(pair.x), x, tolerance)
     assert_within(floats(problem.slacks(*pair)), s, tolerance)
     assert_within(floats(pair.y), y, 4 * tolerance)
-
-
-def test_a_cone_that_gives_way_is_pressed_by_twice_what_moves_out_of_it():
-    """A rigid row x >= 0 is opened by a way d of its own, which closes the cone about -x by d."""
-    A = arb_mat([[1], [-1], [0], [0]])
-    one = arb_mat([[1]])
-    c = 0.25
-    problem = Blocks(
-        one, column([0]), A, column(np.zeros(4)), diagonal([0, c, c, c]), [range(1), range(1, 4)]
-    )
-    y = np.array([1.0, 3.0, 0.0, 0.0])
-    d = float(INWARDS)
-    with working_precision(640):
-        moved = _inwards(problem, Pair(column([0]), column(y)), [STICKS, SLIDES])
-        lifts = floats(moved.y - column(y))
-    assert_relative(floats(moved.x), d, ROUNDING)
-    assert_relative(lifts, [d * y.max(), d * (y.max() + 2 / c), 0, 0], ROUNDING)
-
-
-def test_the_nearest_point_of_a_cone_leaves_a_difference_in_the_cone_across_it():
-    """The cone is its own dual; of a single coordinate it is the half-line."""
-    rng = np.random.default_rng(2)
-    for z in [*rng.normal(size=(40, 4)), *rng.normal(size=(4, 1)), np.zeros(4)]:
-        p = _projected(z)
-        for v in (p, p - z):
-            assert v[0] >= np.linalg.norm(v[1:]) - ROUNDING
-        assert_within(p @ (p - z), 0.0, ROUNDING)
-
-
-def test_one_displacement_opens_contacts_whose_normals_are_far_apart():
-    """Three normals at 40 degrees to one way, of which each cone has 45 degrees, and a row."""
-    angle = np.deg2rad(40.0)
-    A = []
-    for turn in np.arange(3) * 2 * np.pi / 3:
-        n = [np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)]
-        A.append(np.array([n, *np.linalg.svd([n])[2][1:]]))
-    A.append(np.array([[1.0, 0.0, 0.0]]))
-    d = _opening(A, 3)
-    for A_j in A:
-        s = A_j @ d
-        assert s[0] - np.linalg.norm(s[1:]) > 0

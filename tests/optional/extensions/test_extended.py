@@ -6,34 +6,21 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref import BackendError, Extension, Extra, InputError, StepNotSolved, standard_form
-from quasistatic_ref.optional.extensions import extended
+from quasistatic_ref import Extension, InputError, StepNotSolved, standard_form
 from quasistatic_ref.optional.extensions.extended import (
     _symbols,
     extended_solution,
     extended_step,
     extension_data,
-    joined,
     simulated_solution,
 )
-from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.solve.backends import DEFAULT, check_takes_cones
+from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
-from quasistatic_ref.step.extension import Rises
-from tests.closeness import assert_relative, assert_within
+from tests.closeness import assert_within
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import OPTIMUM, ROUNDING
-
-
-def test_further_rows_stand_after_those_that_a_step_has(rng):
-    one, two = rng.normal(size=(2, 2, 7))
-    step = random_step(rng).replace(extra=Extra(("a", "b"), one, [1.0, 2.0]))
-    found = joined(step.extra, Extra(("c", "d"), two, [3.0, 4.0]))
-    assert found.names == ("a", "b", "c", "d")
-    np.testing.assert_array_equal(found.A, [*one, *two])
-    assert found.b.tolist() == [1.0, 2.0, 3.0, 4.0]
 
 
 def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
@@ -45,22 +32,6 @@ def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
     assert own.names == tuple(f"extension {number}" for number in numbers)
     np.testing.assert_array_equal(own.A, [*-C, *C, -np.eye(7)[4]])
     np.testing.assert_array_equal(own.b, [*-d, *d, -2.0])
-
-
-def test_symbols_leave_private_rises_out(rng):
-    rises = Rises(loads=[1.0], masses=[1e-3], coordinates=[0])
-    step = with_rises(random_step(rng), rises)
-    units = natural_units(step)
-    problem = CvxpyProblem(natural_step(step, units))
-    delta_q = rng.normal(size=8)
-    x = delta_q / (units.size * units.coordinate)
-    problem.delta_q_a.value = x[:3]
-    problem.delta_q_u.value = x[3:]
-    own = _symbols(problem, step, units, len(rises))
-    for found, expected in (
-        (own.delta_q, delta_q[:7]), (own.delta_q_a, delta_q[:3]), (own.delta_q_u, delta_q[3:7])
-    ):  # fmt: skip
-        assert_relative(found.value, expected, ROUNDING)
 
 
 def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
@@ -104,14 +75,6 @@ def test_an_extension_that_cannot_be_met_is_not_solved():
         extended_solution(step, never, "clarabel", 1e-10, "residual")
 
 
-def test_a_curved_extension_is_judged_with_h_as_it_is(rng):
-    """Its K_q couples the actuated coordinates: the residuals are of the whole of H."""
-    step = random_step(rng)
-    assert np.abs(np.triu(step.H, 1)).max() > 0
-    answer = extended_solution(step, LOOSE, "clarabel", 1e-10, "residual")
-    assert max(answer.certificate.residuals.values()) < OPTIMUM
-
-
 LOOSE = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
 
 
@@ -129,25 +92,3 @@ def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
         InputError, match=r'extension: holds nonlinear .* which law = "coulomb" does'
     ):
         simulated_solution(own, step, LOOSE)
-
-
-def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatch):
-    step = point_on_floor()
-    cost = Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
-    found = extended_solution(step, cost, "clarabel", 1e-10, "residual")
-    worst = max(found.certificate.residuals.values())
-    assert worst > 0
-    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", worst)
-    again = extended_solution(step, cost, "clarabel", 1e-10, "residual")
-    assert again.certificate == found.certificate
-    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", 0.0)
-    with pytest.raises(StepNotSolved):
-        extended_solution(step, cost, "clarabel", 1e-10, "residual")
-
-
-def test_only_backends_with_cones_take_what_is_no_row():
-    for name in ("clarabel", "scs", "none"):
-        check_takes_cones(name, "the ellipsoid")
-    for name in ("osqp", "daqp", "qpsolvers:clarabel"):
-        with pytest.raises(BackendError, match="accepts only linear rows; the ellipsoid needs one"):
-            check_takes_cones(name, "the ellipsoid")

@@ -18,17 +18,14 @@ from quasistatic_ref import (
     StepDataError,
     solve_step,
 )
-from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.optional.extensions.extended import extension_data, posed
-from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.backends import REQUIRED
-from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.step.files import step_from_record, step_text
-from quasistatic_ref.step.groups import group_steps, groups
+from quasistatic_ref.step.groups import groups
 from tests.closeness import assert_relative
 from tests.helpers import pinch, point_on_floor, random_step, verify_refusal
 from tests.tolerances import OPTIMUM
@@ -112,15 +109,6 @@ def test_a_quadratic_cost_is_data_of_the_step(rng, name):
     np.testing.assert_array_equal(form.g, plain.g + g_cost)
 
 
-def test_a_sign_of_a_bound_variable_is_a_row(rng):
-    step = random_step(rng)
-    terms, H_cost, _ = quadratic_terms(step)["a variable with a sign"]
-    extra = extension_data(step, Extension(terms))
-    assert len(extra.names) == 2  # C delta_q <= d
-    np.testing.assert_array_equal(extra.A.T @ extra.A, H_cost / 2)
-    np.testing.assert_array_equal(extra.b, [-0.25, 0.5])
-
-
 def test_equations_that_bind_no_variable_stay_equations(rng):
     step = random_step(rng)
 
@@ -188,36 +176,6 @@ def test_a_cost_couples_two_bodies():
         assert solution.certificate.kind == "exact"
         assert solution.delta_q.tolist() == [*x, *y]
     assert len(groups(two_points(0.0))) == 6
-
-
-def test_a_coupled_step_is_the_same_by_its_groups_and_whole(rng):
-    step = random_step(rng, n_a=2, n_u=4, rows=())
-    H_cost = np.zeros((6, 6))
-    H_cost[np.ix_([1, 4], [1, 4])] = 3.0
-    step = step.replace(M_u=np.diag(np.diag(step.M_u)), K_q=np.diag(np.diag(step.K_q)))
-    step = step.replace(extra=Extra((), np.zeros((0, 6)), [], H=H_cost, g=rng.normal(size=6)))
-    members = [group.coordinates.tolist() for group in groups(step)]
-    assert members == [[0], [1, 4], [2], [3], [5]]
-    whole = qr.standard_form(step)
-    for group, part in group_steps(step):
-        at = group.coordinates
-        np.testing.assert_array_equal(qr.standard_form(part).H, whole.H[np.ix_(at, at)])
-        np.testing.assert_array_equal(qr.standard_form(part).g, whole.g[at])
-        np.testing.assert_array_equal(solve_step(part).delta_q, solve_step(step).delta_q[at])
-
-
-def test_the_exact_form_is_h_times_the_fractions_of_the_file(rng):
-    step = random_step(rng)
-    cost = rng.normal(size=(7, 7))
-    step = step.replace(
-        extra=Extra((), np.zeros((0, 7)), [], H=cost.T @ cost, g=rng.normal(size=7))
-    )
-    H_file, g_file, *_ = checker.problem(checker.step_read(json.loads(step_text(step))))
-    form = StepForm(step)
-    h = Fraction(step.h)
-    for i in range(7):
-        assert float(h * g_file[i]) == float(form.g[i, 0])
-        assert [float(h * v) for v in H_file[i]] == [float(form.H[i, j]) for j in range(7)]
 
 
 def bounded_pinch():
@@ -315,14 +273,6 @@ def test_without_a_cost_a_step_keeps_its_bits(rng):
     np.testing.assert_array_equal(solve_step(step).delta_q, solve_step(idle).delta_q)
 
 
-def test_private_rises_have_no_cost(rng):
-    cost = Extra((), np.zeros((0, 7)), [], H=np.eye(7), g=np.ones(7))
-    step = random_step(rng).replace(extra=cost)
-    raised = with_rises(step, Rises(loads=[1.0], masses=[1e-3], coordinates=[0]))
-    np.testing.assert_array_equal(raised.extra.H, np.diag([1.0] * 7 + [0.0]))
-    np.testing.assert_array_equal(raised.extra.g, [1.0] * 7 + [0.0])
-
-
 def spring(q):
     """A soft spring of a user's own, as a cost: it pulls the sphere up to 1 mm a step."""
     return Extension(lambda s: [40.0 * cp.square(s.delta_q[2] - 1e-3)])
@@ -353,13 +303,6 @@ def test_fast_steps_with_a_cost_are_those_of_the_plain_path():
     ]
     for name in ("q", "delta_q", "H", "g", "extra_H", "extra_g"):
         np.testing.assert_array_equal(runs[0][name], runs[1][name])
-
-
-def test_one_step_by_the_fast_solver_is_that_of_any_other():
-    step = bounded_pinch()
-    solution = solve_step(step, fast=True)
-    assert solution.certificate.kind == "exact"
-    np.testing.assert_array_equal(solution.delta_q, solve_step(step).delta_q)
 
 
 def test_every_step_of_a_run_has_a_cost_or_none():

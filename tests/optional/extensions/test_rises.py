@@ -59,7 +59,6 @@ steps = 4
 urdf = "drawer.urdf"
 joint_friction = { slide = 3.0 }
 """
-STOPPED = DRAWN.replace("joint_friction = { slide = 3.0 }", 'joint_limits = "urdf"')
 PUSHED = """format = "quasistatic-ref/scenario"
 version = 1
 h = 0.01
@@ -104,13 +103,6 @@ def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
     assert [answer.certificate.kind for answer in answers] == ["exact", "exact"]
     assert answers[0].delta_q.tolist() == answers[1].delta_q.tolist()
     assert_relative(answers[0].delta_q[0], expected, ROUNDING)
-
-
-def test_the_files_own_friction_is_taken_when_asked_for(tmp_path):
-    said = scene(tmp_path, DRAWN)
-    asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'))
-    assert asked.of_bodies.rises.loads.tolist() == said.of_bodies.rises.loads.tolist() == [3.0]
-    assert scene(tmp_path, DRAWN.replace("joint_friction", "positions")).of_bodies is None
 
 
 @pytest.mark.parametrize("force", [3.5, 4.999, -4.999, 6.0])
@@ -218,7 +210,7 @@ def test_an_answer_with_a_support_is_read_by_the_names_of_bodies(tmp_path):
     assert scenario.system.change_of(answer[:3], "l").tolist() == answer[:3].tolist()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_r40_random_loads_slide_what_is_not_held(seed):
     """h^2 (F -+ f) / (m + m_r) beyond f, or with h^2 K_q in place of m; the same on the floor.
 

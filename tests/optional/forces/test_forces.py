@@ -17,7 +17,6 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of, repeated
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.lab.scenes.rigid import free_step, rigid_step
-from quasistatic_ref.optional.forces import of_group
 from quasistatic_ref.optional.forces.of_group import COMPLIANCE, HARDLY_MOVES, group_compliance
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
@@ -59,27 +58,12 @@ def test_a_symmetric_block_bears_equal_forces_without_friction(cone):
     assert_relative(solution.imbalance, M * c / H**2 / 4, 1e-9)
 
 
-def test_forces_converge_in_proportion_to_the_compliance():
-    """Their mean, M G / (4 + M c / h^2), (R43)."""
-    step = block(push=2.0)
-    limit = M * G / 4
-    for c in (1e-6, 1e-9, 1e-12):
-        off = np.abs(contact_forces(step, c).wrench[:, 2].mean() - limit)
-        assert_relative(off, limit * M * c / H**2 / 4, 3e-3)
-
-
 def test_forces_of_a_sliding_block_are_in_balance():
     """But for the compliance, by some M c / h^2 (R43): (1 + mu^2) M x = h^2 (9 N - mu M G)."""
     solution = solve_step(block(push=9.0))
     x = H**2 * (9.0 - MU_V * M * G) / M / (1 + MU_V**2)
     assert solution.delta_q[0] == pytest.approx(x, rel=ROUNDING)
     assert 0 < solution.imbalance < 10 * M * solution.compliant.compliance[0] / H**2
-
-
-@pytest.mark.parametrize("cone", CONES)
-def test_four_and_six_rows_are_alike_without_mu_omega(cone):
-    four, six = (block(rows, push=1.0, mu_omega=0.0, cone=cone) for rows in (4, 6))
-    assert contact_forces(four).wrench.tobytes() == contact_forces(six).wrench.tobytes()
 
 
 @pytest.mark.parametrize("cone", CONES)
@@ -166,21 +150,6 @@ def test_the_compliance_is_next_to_a_share_of_the_least_mobility():
             assert np.log2(c) == round(np.log2(c))
 
 
-@pytest.mark.parametrize("n_a", [2, 0])
-def test_sides_are_what_moves_by_itself(n_a):
-    """The actuated ones, of which nothing touches the second, and two mechanisms coupled by M_u."""
-    J = np.zeros((2, 4, 6))
-    J[0][:3, [0, 2, 3]] = 1.0
-    J[1][:3, 2:] = 1.0
-    step = StepData(
-        h=H, K_q=np.eye(n_a), M_u=np.kron(np.eye(2), [[2.0, 1.0], [1.0, 2.0]]),
-        tau_a=np.zeros(n_a), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(n_a),
-        contacts=contacts_of([0.0, 0.0], [np.eye(3)] * 2, J[..., 2 - n_a :], MU_V),
-    )  # fmt: skip
-    expected = [[0, 1], [2, 3], [4, 5]] if n_a else [[0, 1], [2, 3]]
-    assert [side.tolist() for side in of_group.sides(step)] == expected
-
-
 def slider(directions, mu_v=0.5, K=1.0):
     """One on a rail, which contacts with n = z, d1 = x and d2 = y see move along `directions`."""
     J = np.zeros((len(directions), 4, 1))
@@ -249,7 +218,7 @@ def test_r42_noise_and_the_norm_of_forces_at_random():
     Steps of all polyhedral cones, with doubled contacts, penetration and coefficients of 0.
     """
     rng = np.random.default_rng(42)
-    for _, step in checks.random_steps(40):
+    for _, step in checks.random_steps(25):
         k = step.contacts
         rigid = step_optimum(step)
         wrench = contact_wrenches(k, rigid.lam[: step.offsets[-1]], step.h, step.cone)
@@ -286,7 +255,7 @@ def test_r43_the_loss_at_random():
     The imbalance is ||x_c - x||_H over the H^-1 norm of the impulses that the forces exert.
     """
     rng = np.random.default_rng(43)
-    for _, step in checks.random_steps(40):
+    for _, step in checks.random_steps(25):
         rigid = step_optimum(step)
         own = rigid.lam[: step.offsets[-1]]
         wrench = contact_wrenches(step.contacts, own, step.h, step.cone)
@@ -329,15 +298,6 @@ def test_a_group_has_one_compliance_and_groups_their_own():
     assert found.wrench.tobytes() == contact_forces(step, 1e-9).wrench.tobytes()
 
 
-def test_piles_at_random_bear_their_load_and_a_planted_loss_is_found(monkeypatch):
-    """Piles of boxes at random, by the formula of the scene."""
-    for seed in (3, 6):
-        found = checks.loads(seed)
-        assert not any(found[check] for check in checks.LOADS)
-    monkeypatch.setattr(of_group, "COMPLIANCE", 1e-4)
-    assert checks.loads(6)["load"] == checks.loads(6)["imbalance"] == 1
-
-
 def test_a_generic_slope_keeps_its_shares_for_40_steps():
     """The rough block of block_incline, which holds; gravity pulls across the slope, too."""
     scenario = load_scenario("block_incline", ["gravity=[0.3, 0.5, -9.79]"], fast=True)
@@ -364,7 +324,7 @@ def test_a_doubled_contact_shares_its_load():
     assert_relative(f_n, expected, 1e-5)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(4))
 def test_r44_parallel_contacts_share_as_a_bed_of_springs(seed):
     """f_j = max(0, a + b'r_j), of one gap for all, with or without friction that is not needed.
 
@@ -385,7 +345,7 @@ def test_r44_parallel_contacts_share_as_a_bed_of_springs(seed):
         assert_within(f, np.maximum(0.0, bed @ fit), 1e-9 * M * G)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_r44_contacts_that_a_symmetry_exchanges_bear_equal_forces(seed):
     """By whole parts of a turn about the vertical; a mirror x -> -x reverses f_d2 of d1 = y."""
     rng = np.random.default_rng(seed)

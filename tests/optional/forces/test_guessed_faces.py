@@ -8,14 +8,13 @@ from quasistatic_ref import contact_forces, solve_step
 from quasistatic_ref.certify.form import exact_matrix
 from quasistatic_ref.lab.scenes.loads import loaded_pile
 from quasistatic_ref.optional.forces import eliminated, face_guess, forces
-from quasistatic_ref.optional.forces.face_guess import guessed_faces, nearest_rows
+from quasistatic_ref.optional.forces.face_guess import guessed_faces
 from quasistatic_ref.optional.forces.faces import face, nearest_face, rows_of
 from quasistatic_ref.optional.forces.of_group import group_compliance
 from quasistatic_ref.step.cones import cone_matrix
 from tests.closeness import assert_within
 from tests.optional.forces.test_forces import POLYHEDRAL, block, walled_block
 from tests.oracles import force_checks as checks
-from tests.oracles.random_steps import mixed_step
 from tests.tolerances import ROUNDING
 
 
@@ -70,41 +69,6 @@ def test_faces_are_guessed_in_floats(monkeypatch):
         contact_forces(step, 1e-3)
         left += wrong_guess(step, np.zeros((step.contacts.n_c, 4)))
     assert len(left) <= 2
-
-
-STARTS = {
-    "sticks": (block(push=1.0), 2),
-    "slides": (block(push=9.0), 2),
-    "at a wall": (walled_block(), 2),
-    "in a wall": (walled_block(-1e-4), 3),
-    "at random": (mixed_step(0), 3),
-}
-
-
-@pytest.mark.parametrize(("step", "solves"), STARTS.values(), ids=STARTS)
-def test_the_forces_without_compliance_show_on_which_faces_to_start(step, solves, monkeypatch):
-    """They are solved for once, and once more at the end; from other faces it takes more."""
-    wrench = solve_step(step).wrench
-    zero = face_guess._Energy.zero
-    solved = []
-    monkeypatch.setattr(
-        face_guess._Energy, "zero", lambda self, at: solved.append(at) or zero(self, at)
-    )
-    assert wrong_guess(step, wrench) == []
-    assert len(solved) == solves
-
-
-@pytest.mark.parametrize("cone", [*POLYHEDRAL, "facets-12"])
-@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
-def test_nearest_points_in_floats_are_those_of_scipy(cone, scale):
-    rng = np.random.default_rng(2)
-    C = rows_of(cone, len(cone_matrix(cone)))
-    for z in scale * rng.standard_normal((100, 4)) * 10.0 ** rng.uniform(-3, 0, 4):
-        rows = list(nearest_rows(C, z))
-        lam = np.linalg.lstsq(C[rows].T, -z)[0]
-        assert lam.min(initial=0.0) >= 0
-        near = C.T @ nnls(C.T, -z)[0]
-        assert_within(C[rows].T @ lam, near, 1e-12 * np.abs(z).max())
 
 
 def test_faces_of_a_pile_are_guessed_that_is_heavy_above():

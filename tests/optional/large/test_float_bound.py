@@ -16,13 +16,10 @@ from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
-from quasistatic_ref.optional.large.outward import above, below, down, up
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
-from tests.closeness import assert_relative
 from tests.helpers import point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
 from tests.oracles.random_steps import any_step
-from tests.tolerances import ROUNDING
 
 FUZZED = 60
 """Random steps with answers made to look good."""
@@ -70,20 +67,6 @@ def test_rows_of_the_user_s_own_are_bounded():
     assert within(step, exact, beyond, bound, exact.lam)
 
 
-def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(monkeypatch):
-    """Each entry of a point's A, whose J is I, has a single term: its size is the entry's own."""
-    wall = Extra(("wall",), -np.eye(3)[:1], [-1e-3])
-    step = point_on_floor(force=(400.0, 0.0, -3.0)).replace(extra=wall)
-    sizes = []
-    sizes_of = float_bound.step_sizes
-    monkeypatch.setattr(
-        float_bound, "step_sizes", lambda of, A, units: sizes.append(A) or sizes_of(of, A, units)
-    )
-    exact = step_optimum(step)
-    assert bound_of(step, exact.delta_q, exact.lam) < 1e-6
-    assert_relative(sizes[0], np.abs(DenseStepInBothUnits(step).natural_form.A), ROUNDING)
-
-
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
     step = grasp_step(np.random.default_rng(4))
     quick = solve_step(step, "daqp", certify="residual", fast=True)
@@ -122,12 +105,6 @@ def test_what_is_wedged_broken_or_too_large_has_no_bound():
     for bad in (np.nan, np.inf, 2.0**120):
         assert bound_of(step, exact.delta_q + bad, exact.lam) == np.inf
         assert bound_of(step, exact.delta_q, exact.lam + bad) == np.inf
-
-
-def test_bounds_are_the_next_numbers():
-    """Of 1 they are 1 + 2^-52 and 1 - 2^-53."""
-    assert above(1.0) == up(1.0) == 1 + 2.0**-52
-    assert below(1.0) == down(1.0) == 1 - 2.0**-53
 
 
 def test_the_way_is_long_enough_for_its_own_rounding():
