@@ -11,7 +11,7 @@ PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
 FILES = [Path(__file__).with_name(f"{kind}_scenes.py") for kind in ("finding", "healthy")]
 CELLS = "\n".join(file.read_text("utf-8") for file in FILES)
 WORDS, *SCENES = re.split(r"^# %% ", CELLS, flags=re.M)
-LISTED = dict(re.findall(r"^- \*\*(.*?)\*\*( \(not grave\))?: ", PAGE, re.M))
+LISTED = dict(re.findall(r"^- \*\*(.*?)\*\*(\\\*)?: ", PAGE, re.M))
 OF_TASK = re.findall(r"^\| ([\w ]+) \| (?!given if)", PAGE, re.M)
 GRAVE = {name: not words for name, words in LISTED.items()} | dict.fromkeys(OF_TASK, True)
 """By the page, of each finding."""

@@ -5,7 +5,9 @@ is tight, phi + dz = mu_v ||xi||_D = s. On it act N = m g + m dz / h^2 and, alon
 the limit surface, -N mu_v D xi / ||xi||_D. The balance M xi / h^2 + N mu_v^2 D xi / s = (F, r x
 F) has F along v and gives the law. A sticking pusher moves the touched point by u = v + omega
 r_perp with omega = r_perp . v / c'^2, that is u = (1 + r_perp r_perp' / c'^2) v, which is
-inverted by v = (c'^2 + r r') u / (c'^2 + |r|^2), since r r' + r_perp r_perp' = |r|^2.
+inverted by v = (c'^2 + r r') u / (c'^2 + |r|^2), since r r' + r_perp r_perp' = |r|^2. A pusher
+without friction, of normal n and arm t = r x n, that advances by u gives v = u n / (1 + t^2 /
+c'^2) and omega = t v / c'^2.
 """
 
 import numpy as np
