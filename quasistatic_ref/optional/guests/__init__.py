@@ -1,6 +1,8 @@
-"""States of other simulators as steps.
+"""States and scenes of other simulators.
 
-``compiler`` has MuJoCo compile a file, after ``fence`` has looked at what it reads; ``mujoco``
-makes a step of a state, ``scene`` a scenario of a whole scene, and ``opinion`` compares answers;
-``drake`` does the same for Drake's states.
+``compiler`` has MuJoCo compile a file, after ``fence`` has looked at what it reads.
+``mujoco_state`` reads a state, ``mujoco`` makes a step of it, ``scene`` a scenario of a whole scene
+with ``system`` and ``drive``, and ``mujoco_opinion`` an opinion. ``drake`` and ``drake_opinion`` do
+the same for Drake's states. What is compared is one for both: ``compared``, ``findings``,
+``opinion``.
 """

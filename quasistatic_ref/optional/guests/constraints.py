@@ -9,8 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.mujoco_state import MujocoState
-from quasistatic_ref.optional.guests.natural import Natural
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, Mask
 from quasistatic_ref.step.data import Extra

@@ -16,8 +16,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, loads
-from quasistatic_ref.optional.guests.mujoco_state import MujocoState, mujoco_state
-from quasistatic_ref.optional.guests.natural import Natural, moved
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies

@@ -1,4 +1,8 @@
-"""A MuJoCo state at rest: what MuJoCo itself says of it once its velocity is zero."""
+"""A MuJoCo state at rest: what MuJoCo itself says of it once its velocity is zero, and its rows.
+
+Where a contact is at the axis of the joint that moves its body, its normal row is zero but for
+rounding, 1e-15 m/rad. As a row of a step it would bear any load, by a force of 1e15 times the load.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +10,14 @@ import copy
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.parts import needed_package
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, Mask
+from quasistatic_ref.tolerances import FULL_RANK
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
@@ -186,3 +191,59 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
     return MujocoState(mujoco, model, adapted, at_rest)
+
+
+def terms(state: MujocoState, J: Array, T: Array) -> Array:
+    """The sizes of the terms of which the entries of J T are sums, shape (m, n).
+
+    J has the shape (m, nv), and T the shape (nv, n) [-].
+    """
+    sizes: Array = np.maximum(np.abs(J), state.reach * (J != 0)) @ np.abs(T)
+    return sizes
+
+
+def moved(state: MujocoState, J: Array, T: Array) -> Array:
+    """J T, with zeros for the entries of which only rounding is left, shape (m, n).
+
+    J has the shape (m, nv), and T the shape (nv, n) [-].
+    """
+    entries = J @ T
+    return np.where(np.abs(entries) > FULL_RANK * terms(state, J, T), entries, 0.0)
+
+
+class Natural(NamedTuple):
+    """What natural units of rows are made of.
+
+    Parameters
+    ----------
+    state : MujocoState
+    T : ndarray, shape (nv, n)
+        MuJoCo's displacement, per unit of the coordinates of a step [-].
+    units : ndarray, shape (n,)
+        Diagonal of S of these coordinates [m or rad, per (N m s)^0.5].
+    """
+
+    state: MujocoState
+    T: Array
+    units: Array
+
+    def rows(self, J: Array) -> Array:
+        """Rows along MuJoCo's velocities, (m, nv), in natural units, (m, n)."""
+        rows: Array = J @ self.T * self.units
+        return rows
+
+    def sizes(self, J: Array) -> Array:
+        """The largest term of each row, shape (m,)."""
+        sizes: Array = (terms(self.state, J, self.T) * self.units).max(axis=1, initial=0.0)
+        return sizes
+
+    def empty(self, J: Array, held: Array | None = None) -> Mask:
+        """Which rows, (m, nv), are zero but for rounding, shape (m,): at most FULL_RANK of a term.
+
+        `held`, shape (r, n) [-], are orthonormal rows, in natural units, along which nothing moves.
+        """
+        rows = self.rows(J)
+        if held is not None:
+            rows -= rows @ held.T @ held
+        empty: Mask = np.abs(rows).max(axis=1, initial=0.0) <= FULL_RANK * self.sizes(J)
+        return empty

@@ -204,8 +204,8 @@ def candidates(state: MujocoState, gap: float = 0.0) -> list[MjContact]:
         count = int(((balls.geom_contype | balls.geom_conaffinity) != 0).sum())
         problem = (
             f"are {count}, and make more pairs than size.memory holds, {balls.narena} bytes, or a "
-            f"run, {MOST_PLACES}; exclude some (contact/exclude, contype, conaffinity), or take "
-            "fewer geoms"
+            f"run, {MOST_PLACES}; raise size.memory, or exclude some (contact/exclude, contype, "
+            "conaffinity)"
         )
         raise ModelError(problem, field="geoms that may touch")
     each = {tuple(sorted(touch.geom.tolist())): touch for touch in data.contact}

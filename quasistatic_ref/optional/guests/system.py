@@ -34,8 +34,7 @@ from quasistatic_ref.optional.guests.loads import (
     stiffness,
 )
 from quasistatic_ref.optional.guests.mujoco import actuated, joint_friction
-from quasistatic_ref.optional.guests.mujoco_state import MujocoState, mujoco_state
-from quasistatic_ref.optional.guests.natural import Natural
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, mujoco_state
 from quasistatic_ref.optional.guests.places import Places
 from quasistatic_ref.solve.units import coordinate_units
 from quasistatic_ref.step.arrays import Array, Indices

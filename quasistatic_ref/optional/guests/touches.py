@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.guests.mujoco_state import MujocoState
-from quasistatic_ref.optional.guests.natural import Natural
+from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.tolerances import DEEP

@@ -50,9 +50,9 @@ def test_a_contact_at_the_pivot_bears_nothing(seed, joint):
     answer = solve_step(step)
     assert np.linalg.norm(answer.delta_q) == pytest.approx(FALL, rel=1e-9)
     assert answer.wrench.sum() == 0.0
-    said = " ".join(coordinates.left_out)
-    assert "contact[0: post/arm]: left out: joints or equalities hold its bodies" in said
-    assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in said
+    note = " ".join(coordinates.left_out)
+    assert "contact[0: post/arm]: left out: joints or equalities hold its bodies" in note
+    assert "contact[0: post/arm]: its bodies penetrate by 40 mm" in note
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -65,7 +65,7 @@ def test_a_limit_that_no_joint_moves_bears_nothing(seed):
     scene = PENDULUM.replace('mass="0"/>', 'mass="0" contype="0"/>').format('axis="0 1 0"')
     step, coordinates = mujoco_step(*turned(seed, scene, more), H)
     assert solve_step(step).delta_q[0] == pytest.approx(FALL, rel=1e-9)
-    assert any("limit of tendon[cord]: left out" in said for said in coordinates.left_out)
+    assert any("limit of tendon[cord]: left out" in note for note in coordinates.left_out)
 
 
 LINK = """<body name="{0}" pos="{1} 0 0"><joint name="{0}" axis="0 1 0"/><inertial pos=".12 0 -.16"
@@ -89,11 +89,11 @@ def test_a_planar_four_bar_falls_in_a_turned_base(seed, cone):
     turn = H**2 * 5 * GRAVITY * 0.12 / (5 * 0.2**2 + 2e-3)
     moved = coordinates.T @ solve_step(step).delta_q
     assert moved == pytest.approx([turn, -turn, turn], rel=1e-9)
-    assert any(said.startswith("equality[0]: left out, in part") for said in coordinates.left_out)
+    assert any(note.startswith("equality[0]: left out, in part") for note in coordinates.left_out)
     twice = more.replace("</equality>", more.removeprefix("<equality>"))
     again, coordinates = mujoco_step(*turned(seed, FOUR_BAR, twice, f'cone="{cone}"'), H)
     assert coordinates.T @ solve_step(again).delta_q == pytest.approx(moved, rel=1e-12)
-    assert any(said.startswith("equality[1]: left out") for said in coordinates.left_out)
+    assert any(note.startswith("equality[1]: left out") for note in coordinates.left_out)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -117,7 +117,7 @@ def test_a_contact_at_the_anchor_of_an_equality_bears_nothing(seed):
     about = data.xmat[1].reshape(3, 3) @ turn[3:]
     assert about == pytest.approx(H**2 * torque / (7 / 5 * 2 * 0.1**2), rel=1e-9)
     assert any(
-        "contact[0: body[world]/body[ball]]: left out" in said for said in coordinates.left_out
+        "contact[0: body[world]/body[ball]]: left out" in note for note in coordinates.left_out
     )
 
 
@@ -136,7 +136,7 @@ def test_a_lever_counts_from_1e_9_of_its_terms(share, bears):
     model = mujoco.MjModel.from_xml_string(text)
     step, coordinates = mujoco_step(model, mujoco.MjData(model), H)
     forces = solve_step(step).wrench[:, 2]
-    assert any("left out" in said for said in coordinates.left_out) is not bears
+    assert any("left out" in note for note in coordinates.left_out) is not bears
     assert forces.tolist() == (pytest.approx([m * GRAVITY * c / e], rel=1e-6) if bears else [])
 
 
@@ -163,7 +163,7 @@ def test_a_difference_counts_from_1e_9_of_its_terms(held, share, holds):
     step, coordinates = mujoco_step(model, data, H)
     y = (coordinates.T @ solve_step(step).delta_q)[0]
     assert y == pytest.approx(0.0 if holds else H**2 * push / (m * (1 + e) ** 2 + m), rel=1e-12)
-    assert any("left out" in said for said in coordinates.left_out) is not holds
+    assert any("left out" in note for note in coordinates.left_out) is not holds
 
 
 @pytest.mark.parametrize("apart", [0.0, 1e-7, 0.2])

@@ -42,7 +42,7 @@ GUIDE = {
 
 @pytest.fixture(scope="module")
 def opinions():
-    return {name: opinion_on_settled(*given) for name, given in GUIDE.items()}
+    return {name: opinion_on_settled(*arguments) for name, arguments in GUIDE.items()}
 
 
 def test_the_guide_shows_what_is_found(opinions):

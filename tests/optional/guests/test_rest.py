@@ -45,7 +45,7 @@ class Case(NamedTuple):
 
     world: str
     without: Callable[[Any, Any], Any]
-    given: dict[str, Any] = {}  # noqa: RUF012 a field's default, which nothing writes into
+    values: dict[str, Any] = {}  # noqa: RUF012 a field's default, which nothing writes into
     more: str = ""
     gravity: str = "0 0 -9.81"
     default: str = ""
@@ -271,7 +271,7 @@ def random_model(case, cone, soft, seed):
     text = text.format(a=a, b=b, k=k, u=9.8 * u, v=9.8 * v, w=20 * a)  # w: twice the weight
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
-    for name, value in case.given.items():
+    for name, value in case.values.items():
         getattr(data, name)[:] = value
     return model, data
 

@@ -82,19 +82,19 @@ def test_the_step_is_that_of_the_state():
     text = SCENE.replace('<equality><joint joint1="r" joint2="l"/></equality>', "").replace(
         "</actuator>", '<position joint="r" kp="300"/></actuator>'
     )
-    own = model(text)
-    data = mujoco.MjData(own)
+    of_both = model(text)
+    data = mujoco.MjData(of_both)
     data.ctrl[:] = [0.01, 0.013, 0.02]
     data.qpos[1:3] = 0.0175
-    scene = mujoco_scenario(own, data)
+    scene = mujoco_scenario(of_both, data)
     step = scene.simulator().step(scene.system.q_start, scene.targets(0.01, scene.system.q_start))
-    expected, _ = mujoco_step(own, data, scene.h, depth="as is")
+    expected, _ = mujoco_step(of_both, data, scene.h, depth="as is")
     for name in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
         np.testing.assert_allclose(getattr(step.step, name), getattr(expected, name), atol=1e-14)
-    found = {
+    numbers = {
         c.partition("(")[2].partition(",")[0]: i for i, c in enumerate(step.step.contacts.name)
     }
-    assert found.keys() >= {"post"}
+    assert numbers.keys() >= {"post"}
     near = [i for i, phi in enumerate(step.step.contacts.phi) if phi < 0]
     assert len(near) == len(expected.contacts.phi) == 2
     for mine, theirs in zip(

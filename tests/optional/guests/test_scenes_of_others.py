@@ -77,24 +77,24 @@ def test_what_a_mocap_body_carries_is_borne():
 
 def test_what_nothing_may_touch_is_told_in_words_of_mjcf():
     apart = BOX.format("", ' contype="0" conaffinity="0"')
-    (found,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run(progress=False).findings
-    assert "let geoms of box and what should bear it touch (contype" in found.remedy
-    assert "no pair of geoms joins box" in found.cause
-    assert "contacts." not in found.sentence
+    (finding,) = scene(FLOOR + FREE.format("0 0 0.05", apart), steps=2).run(progress=False).findings
+    assert "let geoms of box and what should bear it touch (contype" in finding.remedy
+    assert "no pair of geoms joins box" in finding.cause
+    assert "contacts." not in finding.sentence
 
 
 def test_other_findings_name_the_pair_and_no_table_of_a_scenario():
     made = scene(ON_FLOOR.replace('name="floor"', 'name="floor" friction="30"'), steps=2)
-    (found,) = made.run(progress=False).findings
-    assert "check mu_v of contact[world-box(floor, geom1)]" in found.remedy
+    (finding,) = made.run(progress=False).findings
+    assert "check mu_v of contact[world-box(floor, geom1)]" in finding.remedy
 
 
 def test_a_high_body_falls_without_a_distance_that_is_none():
     ball = FREE.format("0 0 0.5", '<geom size="0.05"/>')
-    found = scene(FLOOR + ball, steps=20).run(progress=False).findings
-    assert [one.name for one in found] == ["starts in the air", "free fall"]
-    assert "lower box by 450 mm" in found[0].remedy
-    assert "e+09" not in found[1].sentence
+    findings = scene(FLOOR + ball, steps=20).run(progress=False).findings
+    assert [one.name for one in findings] == ["starts in the air", "free fall"]
+    assert "lower box by 450 mm" in findings[0].remedy
+    assert "e+09" not in findings[1].sentence
 
 
 @pytest.mark.parametrize("mesh", ['"wedge" params="37 37 45 45 0"', '"plate" params="20 30"'])
@@ -122,9 +122,11 @@ def test_places_are_counted_before_they_are_made_and_the_refusal_says_what_to_ex
     assert scene(*many(20), steps=1).of_mujoco.places.counts.sum() == 20 * 20 * 8
     with pytest.raises(ModelError) as refused:
         scene(*many(60))
-    said = str(refused.value)
-    assert said.startswith("geoms that may touch: are 3600 pairs with 28800 places for contacts")
-    assert "28800 of them are of bowl and lid: exclude them (contact/exclude" in said
+    sentence = str(refused.value)
+    assert sentence.startswith(
+        "geoms that may touch: are 3600 pairs with 28800 places for contacts"
+    )
+    assert "28800 of them are of bowl and lid: exclude them (contact/exclude" in sentence
 
 
 def test_pairs_that_mujoco_has_no_memory_for_are_not_left_out_in_silence():
