@@ -41,7 +41,8 @@ def time_step_record(scenario: Scenario) -> dict[str, float | None]:
     speed = way / scenario.h
     smallest = min((pair.mu_v for pair in scenario.pairs if pair.mu_v > 0), default=0.0)
     bears = SLOW * smallest * float(np.linalg.norm(scenario.gravity))
-    h = speed / bears if speed > 0 and bears > 0 else math.inf
+    moved = scenario.system.n_v > scenario.system.n_a  # what is actuated feels no drag
+    h = speed / bears if moved and speed > 0 and bears > 0 else math.inf
     tracks = [track.times for track in scenario.targets.tracks if len(track.times) > 1]
     return {
         "target_speed": speed,
