@@ -12,13 +12,15 @@ def main() -> int:
 
     An exception would not do: some packages turn any exception into an ImportError of their own.
     """
-    asked = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not in the background
-    if asked:
+    foreground = (
+        signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )  # not in the background
+    if foreground:
         signal.signal(signal.SIGINT, _ended)
     from quasistatic_ref.cli.main import parsed, status
 
     options = parsed(sys.argv[1:])
-    if asked:
+    if foreground:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     return status(options)
 

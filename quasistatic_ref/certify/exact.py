@@ -119,12 +119,12 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     working = minimiser.working
     unique, smooth = degeneracy(form, working, minimiser.implied_rows, minimiser.tight_rows)
     lam = np.zeros(form.m)
-    lam_w = minimiser.rounded(lambda found: found.y, form.h)
+    lam_w = minimiser.rounded(lambda m: m.y, form.h)
     lam[list(working)] = lam_w
     return ExactOptimum(
-        delta_q=minimiser.rounded(lambda found: found.x),
+        delta_q=minimiser.rounded(lambda m: m.x),
         lam=lam,
-        net=minimiser.rounded(lambda found: found.net.entries(), form.h),
+        net=minimiser.rounded(lambda m: m.net.entries(), form.h),
         slacks=minimiser.rounded_slacks,
         working_set=tuple(sorted(working)),
         multipliers_unique=unique,
@@ -214,29 +214,32 @@ def optimum_by_groups(
     )
 
 
-def check_length(step: StepData, delta_q: Array, found: Sequence[Group]) -> None:
+def check_length(step: StepData, delta_q: Array, parts: Sequence[Group]) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    found : sequence of Group
+    parts : sequence of Group
         Those of the step.
 
     Raises
     ------
     StepIllPosed
     """
-    if surely_short(step, delta_q, found):
+    if surely_short(step, delta_q, parts):
         return
-    lengths = [relative_length(own, delta_q[group.coordinates]) for group, own in group_steps(step)]
+    lengths = [
+        relative_length(group_step, delta_q[group.coordinates])
+        for group, group_step in group_steps(step)
+    ]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
 
 
-def surely_short(step: StepData, delta_q: Array, found: Sequence[Group]) -> bool:
+def surely_short(step: StepData, delta_q: Array, parts: Sequence[Group]) -> bool:
     """Whether :func:`relative_length` is seen to be far below ``ILL_POSED`` in each group.
 
     With s_i = H_ii^1/2 the triangle inequality says ||v||_H <= sum_i |v_i| s_i, and Cauchy's, of
@@ -247,7 +250,7 @@ def surely_short(step: StepData, delta_q: Array, found: Sequence[Group]) -> bool
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    found : sequence of Group
+    parts : sequence of Group
     """
     s = np.sqrt(np.diag(step.H))
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
@@ -255,7 +258,7 @@ def surely_short(step: StepData, delta_q: Array, found: Sequence[Group]) -> bool
         length = np.abs(delta_q) * s
         if not MIDDLE[0] < s.min(initial=1.0) <= s.max(initial=1.0) < MIDDLE[1]:
             return False
-        lengths = [(length[own].sum(), least[own].max(initial=0.0)) for own, *_ in found]
+        lengths = [(length[rows].sum(), least[rows].max(initial=0.0)) for rows, *_ in parts]
     return all(MIDDLE[0] < b and a <= 0.1 * ILL_POSED * b < MIDDLE[1] for a, b in lengths)
 
 

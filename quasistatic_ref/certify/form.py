@@ -224,7 +224,7 @@ class StepForm(ExactForm):
     def __init__(self, step: StepData, group: Group | None = None) -> None:
         check_arithmetic()
         contacts = step.contacts
-        own = np.column_stack([step.extra.A, -step.extra.b])
+        extra = np.column_stack([step.extra.A, -step.extra.b])
         at: slice | Indices = slice(None)
         a: slice | Indices = slice(None)
         u: slice | Indices = slice(None)
@@ -233,7 +233,7 @@ class StepForm(ExactForm):
             at = group.contacts
             a, u = split(step, group)
             self._J = contacts.columns(group.contacts, group.coordinates)
-            own = own[np.ix_(group.extra_rows, np.append(group.coordinates, step.n_v))]
+            extra = extra[np.ix_(group.extra_rows, np.append(group.coordinates, step.n_v))]
         friction_cone = cone(step.cone)
         self._phi = contacts.phi[at]
         self._mu = friction_cone.row_coefficients(contacts.mu)[at]
@@ -245,10 +245,10 @@ class StepForm(ExactForm):
         for k, axis in enumerate((contacts.n, contacts.d1, contacts.d2)):
             self._frame[:, k, :3] = axis[at]
         self._frame[:, 3, 3] = 1.0
-        self._own = own
+        self._extra = extra
         contact, kind = np.nonzero(self._mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(len(self._phi) + k, 0) for k in range(len(own))]
+        self._places += [(len(self._phi) + k, 0) for k in range(len(extra))]
         self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
         self.m = len(self._places)
@@ -296,7 +296,7 @@ class StepForm(ExactForm):
         """One row [a, c]: Eq. :eq:`eq-4` combines the four rows of a contact's motion."""
         c, kind = self._places[i]
         if c >= len(self._phi):
-            return [arb(v) for v in self._own[c - len(self._phi)].tolist()]
+            return [arb(v) for v in self._extra[c - len(self._phi)].tolist()]
         if c not in self._rows:
             with working_precision(EXACT):
                 self._rows[c] = (self._exact_cone * self.motion(c)).tolist()
@@ -354,10 +354,10 @@ class StepForm(ExactForm):
         size = np.abs(self._phi) + F * R
         slack = (motion @ self._cone_matrix.T)[self._mask]
         error = (2 * self.n + 64) * UNIT * np.repeat(size, self._mask.sum(axis=1)) + TINY
-        if not len(self._own):
+        if not len(self._extra):
             return slack, error
-        own_slack, own_error = row_slacks(self._own, x, most)
-        return np.concatenate([slack, own_slack]), np.concatenate([error, own_error])
+        extra_slack, extra_error = row_slacks(self._extra, x, most)
+        return np.concatenate([slack, extra_slack]), np.concatenate([error, extra_error])
 
 
 def row_slacks(rows: Array, x: Array, most: Array) -> tuple[Array, Array]:

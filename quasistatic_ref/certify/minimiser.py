@@ -306,7 +306,7 @@ class Minimiser:
         return float(self._slacks_of(near).min())
 
     def _slacks_of(self, rows: Indices) -> Array:
-        return self.rounded(lambda found: self.form.slacks(rows.tolist(), found.z))
+        return self.rounded(lambda m: self.form.slacks(rows.tolist(), m.z))
 
 
 def rounded_quotients(numerators: Iterable[arb], denominator: arb) -> Array:

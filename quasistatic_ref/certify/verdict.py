@@ -27,23 +27,23 @@ class Verdict:
         return self.ok
 
 
-def wrong_bits(name: str, given: Array, right: Array) -> str:
+def wrong_bits(name: str, numbers: Array, right: Array) -> str:
     """What is wrong with numbers that must be right to the last bit; empty if nothing.
 
     Parameters
     ----------
     name : str
-    given, right : ndarray, of the same shape (k,)
+    numbers, right : ndarray, of the same shape (k,)
         What is judged, and what it must be [of one unit].
     """
-    given = np.array(given, dtype=np.float64)
-    if given.shape != right.shape:
-        return f"{name} has shape {given.shape}; the step wants {right.shape}"
-    wrong = np.flatnonzero(given.view(np.int64) != right.view(np.int64))
+    numbers = np.array(numbers, dtype=np.float64)
+    if numbers.shape != right.shape:
+        return f"{name} has shape {numbers.shape}; the step wants {right.shape}"
+    wrong = np.flatnonzero(numbers.view(np.int64) != right.view(np.int64))
     if not wrong.size:
         return ""
     at = int(wrong[0])
-    return f"{name}[{at}] is {float(given[at])!r}; the exact one rounds to {float(right[at])!r}"
+    return f"{name}[{at}] is {float(numbers[at])!r}; the exact one rounds to {float(right[at])!r}"
 
 
 def wrong_claim(name: str, claimed: object, right: object) -> str:

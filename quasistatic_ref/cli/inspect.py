@@ -15,7 +15,7 @@ from quasistatic_ref.cli.named_fields import field_lines, named_fields
 from quasistatic_ref.cli.time_step import time_step_record, time_step_words
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.contact.separations import OWN, SAYS
+from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import if_there
@@ -143,7 +143,7 @@ def tied_at_start(scenario: Scenario) -> list[str]:
     return [
         f"{name}: {SAYS[tie]}"
         for name, tie in zip(names, points.tie.tolist(), strict=True)
-        if tie != OWN
+        if tie != UNIQUE_NORMAL
     ]
 
 

@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     return int(bool(opinion.findings))
 
 
-def controls(given: Sequence[str]) -> dict[str, float]:
+def controls(settings: Sequence[str]) -> dict[str, float]:
     """Controls by the names of their actuators, from ACTUATOR=VALUE.
 
     Raises
@@ -74,13 +74,13 @@ def controls(given: Sequence[str]) -> dict[str, float]:
     InputError
         If one is not of this form, or its value is not finite.
     """
-    found = {}
-    for words in given:
-        name, _, value = words.partition("=")
+    values = {}
+    for setting in settings:
+        name, _, value = setting.partition("=")
         try:
-            found[name] = float(value)
+            values[name] = float(value)
         except ValueError:
-            raise InputError("must be ACTUATOR=VALUE", field="--control", value=words) from None
-        if not isfinite(found[name]):
+            raise InputError("must be ACTUATOR=VALUE", field="--control", value=setting) from None
+        if not isfinite(values[name]):
             raise InputError("must be a finite number", field=f"--control {name}", value=value)
-    return found
+    return values

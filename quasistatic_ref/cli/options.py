@@ -95,7 +95,7 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
     return settings
 
 
-def step_given(options: argparse.Namespace) -> StepData:
+def step_of(options: argparse.Namespace) -> StepData:
     """The step file of a command, in the cone of ``--cone`` where that is given."""
     step = step_read(options.step)
     return step if options.cone is None else step.replace(cone=options.cone)

@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
 
     With ``--strict`` a run with a grave finding ends with status 1.
     """
-    scenario = scenario_given(options)
+    scenario = scenario_of(options)
     path = options.out / f"{scenario.path.stem}.npz"
     check_replaceable(path, scenario.steps)
     writable_folder(options.out)  # known before the work, not after it
@@ -94,8 +94,8 @@ def run(options: argparse.Namespace) -> int:
         with needing("--view"):
             from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_package
         viewer_package()  # so that a missing extra is known before the work, too
-    given = {"--table": options.table, "--contacts-table": options.contacts_table}
-    tables = {option: path for option, path in given.items() if path is not None}
+    paths = {"--table": options.table, "--contacts-table": options.contacts_table}
+    tables = {option: path for option, path in paths.items() if path is not None}
     for option, file in tables.items():
         with needing(option):
             from quasistatic_ref.optional.show.table import check_table_path, table_written
@@ -202,7 +202,7 @@ def check_replaceable(path: Path, steps: int) -> None:
         raise InputError(problem, file=path)
 
 
-def scenario_given(options: argparse.Namespace) -> Scenario:
+def scenario_of(options: argparse.Namespace) -> Scenario:
     """The scenario of a file or a name, or a MuJoCo scene.
 
     Raises
@@ -226,9 +226,9 @@ def scenario_given(options: argparse.Namespace) -> Scenario:
         needed_package("mujoco", "engines", "run").set_mju_user_warning(lambda text: None)
         start = settled(model, 0.0, options.keyframe)
         data = None if options.keyframe is None else start
-        given = options.targets
-        table = given is None or given.endswith(".csv")
-        targets = given if table else given.split(",")
+        source = options.targets
+        table = source is None or source.endswith(".csv")
+        targets = source if table else source.split(",")
         scene = mujoco_scenario(model, data, targets, settings, path)
     shared.progress_line(options, words(scene))
     return scene

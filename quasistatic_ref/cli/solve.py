@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
         If files or options do not go together.
     """
     certify = CERTIFY[0] if options.certify is None else options.certify
-    step = shared.step_given(options)
+    step = shared.step_of(options)
     if options.digits is not None:
         _check_digits(options.digits, certify, step)
     try:
@@ -61,8 +61,8 @@ def run(options: argparse.Namespace) -> int:
     if options.digits is None or options.output is not None:
         _write(options.output, solution_text(solution))
     digits = solution.statistics.digits
-    own_digits = "" if digits is None else f" ({solver.name} had {digits:.1f} correct digits)"
-    print(f"{in_words(solution.certificate)}{own_digits}", file=sys.stderr)
+    solver_digits = "" if digits is None else f" ({solver.name} had {digits:.1f} correct digits)"
+    print(f"{in_words(solution.certificate)}{solver_digits}", file=sys.stderr)
     return 0
 
 

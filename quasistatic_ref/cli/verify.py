@@ -21,7 +21,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 0 if all that is claimed holds, 1 if it does not."""
-    step = shared.step_given(options)
+    step = shared.step_of(options)
     solution = solution_read(options.solution, step)
     reason = refutation(step, solution)
     if options.json:
@@ -51,8 +51,8 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     if certificate.kind == "none":
         return "a certificate of kind 'none' proves nothing; solve with full"
     right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
-    for j, (given, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
-        if wrong := wrong_bits(f"wrench[{j}]", given, wrench):
+    for j, (wrench_row, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
+        if wrong := wrong_bits(f"wrench[{j}]", wrench_row, wrench):
             return wrong
     verdict = verify(step, delta_q, certificate.active, lam, certificate)
     return None if verdict else verdict.reason

@@ -30,7 +30,7 @@ import numpy as np
 
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
+from quasistatic_ref.contact.separations import BISECTOR, UNIQUE_NORMAL, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
@@ -125,13 +125,13 @@ def check_finite(R: Array, t: Array) -> None:
         raise ContactError("must be finite", field="poses")
 
 
-def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
+def joined_contacts(lists: Sequence[ClosestPoints]) -> ClosestPoints:
     """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
-    if not found:
+    if not lists:
         empty = np.zeros((0, 3))
         none = np.zeros(0, dtype=np.int64)
         return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
-    every = ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
+    every = ClosestPoints(*map(np.concatenate, zip(*lists, strict=True)))
     return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
@@ -145,11 +145,11 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
-    found = search(pair, a, b, nearest)
-    order = closest(rounded_gaps(found.rank, pair.resolution), pair.k)
-    kept = found.candidates.chosen(order)
+    candidates = search(pair, a, b, nearest)
+    order = closest(rounded_gaps(candidates.rank, pair.resolution), pair.k)
+    kept = candidates.candidates.chosen(order)
     beyond = np.maximum(FILLED, 2 * nearest.phi)
-    far = nearest._replace(phi=beyond, tie=np.array([OWN]))
+    far = nearest._replace(phi=beyond, tie=np.array([UNIQUE_NORMAL]))
     missing = np.arange(pair.n_c - len(order))
     filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
     return joined_contacts([kept, filling])
@@ -235,12 +235,12 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
-    found, tie = pair_normal(pair.name, a, b)
+    nearest, tie = pair_normal(pair.name, a, b)
     return ClosestPoints(
-        phi=np.array([found.phi]),
-        alpha=found.alpha[None],
-        beta=found.beta[None],
-        n=found.n[None],
+        phi=np.array([nearest.phi]),
+        alpha=nearest.alpha[None],
+        beta=nearest.beta[None],
+        n=nearest.n[None],
         point=np.array([pair.corners if pair.n_c > 1 else 0]),
         tie=np.array([tie]),
     )
@@ -330,7 +330,7 @@ def _crossings(
         beta=crossed.beta,
         n=np.tile(n, (count, 1)),
         point=pair.corners + pair.n_c + crossed.number,
-        tie=np.full(count, OWN),
+        tie=np.full(count, UNIQUE_NORMAL),
     )
 
 
@@ -402,17 +402,17 @@ def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
 
 
 def _contacts(
-    solid: ShapeInWorld, other: ShapeInWorld, points: Array, radius: float, found: Surface
+    solid: ShapeInWorld, other: ShapeInWorld, points: Array, radius: float, surface: Surface
 ) -> ClosestPoints:
-    n = rotated(solid.R, found.normal)
+    n = rotated(solid.R, surface.normal)
     centre = rotated(other.R, points) + other.t
     return ClosestPoints(
-        phi=found.phi - radius,
-        alpha=centre - found.phi[:, None] * n,
+        phi=surface.phi - radius,
+        alpha=centre - surface.phi[:, None] * n,
         beta=centre - radius * n,
         n=n,
         point=np.arange(len(points)),
-        tie=found.tie,
+        tie=surface.tie,
     )
 
 

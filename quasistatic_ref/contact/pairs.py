@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.given import check_kind
+from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud

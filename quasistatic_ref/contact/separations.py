@@ -27,7 +27,7 @@ TOUCHING_FACES: Final = 1e-9
 """Depth relative to the same at which bodies that are as deep along two normals touch [-]: with one
 between them. Deeper, the push-out along it would part them along neither."""
 
-OWN, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
+UNIQUE_NORMAL, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
 """How a normal was chosen: no tie; as the pair's; between equal gaps of zero; as a cloud's."""
 
 SAYS = {
@@ -59,21 +59,21 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
     ContactError
         If the solids are as deep in each other along two normals, or have no trustworthy one.
     """
-    found, every = pair_and_gaps(name, a, b)
+    nearest, every = pair_and_gaps(name, a, b)
     within = rounding(a, b)
-    normals = tied_normals(a, b, found, within, every)
+    normals = tied_normals(a, b, nearest, within, every)
     if len(normals) == 1:
-        return found, OWN
-    refuse_unless_touching(name, found.phi, normals, within)
+        return nearest, UNIQUE_NORMAL
+    refuse_unless_touching(name, nearest.phi, normals, within)
     n = mean_direction(normals)
     phi = float(gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), n[None])[0])
-    return Witness(phi, found.alpha, found.alpha + phi * n, n), BISECTOR
+    return Witness(phi, nearest.alpha, nearest.alpha + phi * n, n), BISECTOR
 
 
 def tied_normals(
     a: ShapeInWorld,
     b: ShapeInWorld,
-    found: Witness,
+    nearest: Witness,
     within: float,
     every: tuple[Array, Array] | None,
 ) -> Array:
@@ -82,7 +82,7 @@ def tied_normals(
     Parameters
     ----------
     a, b : ShapeInWorld
-    found : Witness
+    nearest : Witness
         Their closest points.
     within : float
         Largest difference of gaps that are equal [m].
@@ -90,30 +90,30 @@ def tied_normals(
         Of two polytopes, all gaps (N,) [m] and normals (N, 3) [-].
     """
     shapes = (a.shape, b.shape)
-    normal = found.n[None]
-    cores_apart = found.phi + sum(s.core[1] for s in shapes if isinstance(s, Rounded))
+    normal = nearest.n[None]
+    cores_apart = nearest.phi + sum(s.core[1] for s in shapes if isinstance(s, Rounded))
     if cores_apart > within or any(isinstance(shape, HalfSpace) for shape in shapes):
         return normal
     if any(isinstance(shape, Sphere) for shape in shapes):
-        gaps_along, normals = _of_centre(a, b, found)
+        gaps_along, normals = _of_centre(a, b, nearest)
     elif all(isinstance(shape, Capsule) for shape in shapes):
         radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        gaps_along = np.array([-found.phi - 2 * radii])
+        gaps_along = np.array([-nearest.phi - 2 * radii])
         normals = -normal
     else:
         if every is None:
             # Gaps along what may be normals, and these.
             with needing("a curved solid"):
                 from quasistatic_ref.optional.curved.ways_out import known_gaps
-            every = known_gaps(a, b, found)
+            every = known_gaps(a, b, nearest)
         gaps_along, normals = every
-    tied = distinct([*normals[gaps_along >= found.phi - within]])
+    tied = distinct([*normals[gaps_along >= nearest.phi - within]])
     if len(tied) > 1:
         return tied
-    return distinct([found.n, *tied])
+    return distinct([nearest.n, *tied])
 
 
-def _of_centre(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
+def _of_centre(a: ShapeInWorld, b: ShapeInWorld, nearest: Witness) -> tuple[Array, Array]:
     """Of a sphere and a solid: heights of its centre over the faces, less the radius."""
     solid, ball, sign = (a, b, 1.0) if isinstance(b.shape, Sphere) else (b, a, -1.0)
     assert isinstance(ball.shape, Sphere)

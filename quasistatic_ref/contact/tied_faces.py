@@ -15,7 +15,7 @@ from quasistatic_ref.contact.separations import (
     BISECTOR,
     OF_CLOUD,
     OF_PAIR,
-    OWN,
+    UNIQUE_NORMAL,
     distinct,
     mean_direction,
     refuse_unless_touching,
@@ -90,7 +90,7 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
     """
     shape = solid.shape
     phi, normal = shape.signed_distance(x)
-    tie = np.full(len(x), OWN)
+    tie = np.full(len(x), UNIQUE_NORMAL)
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
@@ -167,7 +167,7 @@ def cloud_surface(
     ContactError
         If the cloud is as deep along two of the normals that a point has.
     """
-    tie = np.full(len(x), OWN)
+    tie = np.full(len(x), UNIQUE_NORMAL)
     surface = Surface(phi, normal, tie)
     within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)

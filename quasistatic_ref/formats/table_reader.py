@@ -40,7 +40,7 @@ class TableReader:
         self.error = error
         if not isinstance(table, dict):
             raise error("must be a table of named fields", field=where or None, value=table)
-        self.given: dict[str, Any] = table
+        self.fields: dict[str, Any] = table
         self._left: dict[str, Any] = dict(table)
         self._known: set[str] = set()
 

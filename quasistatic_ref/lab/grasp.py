@@ -35,7 +35,7 @@ def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
         If a setting is refused, or a run would end before the lift does.
     """
     scenarios = {
-        case: load_scenario("bunny_grasp", [*settings, *own]) for case, own in CASES.items()
+        case: load_scenario("bunny_grasp", [*settings, *changes]) for case, changes in CASES.items()
     }
     for scenario in scenarios.values():
         end = scenario.steps * scenario.h
@@ -70,11 +70,11 @@ def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, A
     dict
         times [s], angles [deg] by case, and h [s].
     """
-    found = {case: lift_motion(scenario, run) for case, run in runs.items()}
-    first, steps = next(iter(found.values()))
+    motions = {case: lift_motion(scenario, run) for case, run in runs.items()}
+    first, steps = next(iter(motions.values()))
     return {
         "times": first.times[steps],
-        "angles": {c: np.degrees(m.rotation_since(CLOSED)[steps]) for c, (m, _) in found.items()},
+        "angles": {c: np.degrees(m.rotation_since(CLOSED)[steps]) for c, (m, _) in motions.items()},
         "h": scenario.h,
     }
 

@@ -43,15 +43,15 @@ class Log:
             problem = "holds records that were made with other settings; choose another folder "
             raise InputError(f"{problem}with --out, or remove it", file=path)
         try:
-            self.found = {key(one): one for one in there[len(first) :]}
+            self.by_key = {key(one): one for one in there[len(first) :]}
         except (KeyError, TypeError):
             raise InputError(STRANGE, file=path) from None
         if path is not None:
-            text_written(path, lines([*first, *self.found.values()]))
+            text_written(path, lines([*first, *self.by_key.values()]))
 
     def add(self, *records: Record) -> None:
         """Keep records; they are in the file when this returns."""
-        self.found |= {self._key(one): one for one in records}
+        self.by_key |= {self._key(one): one for one in records}
         if self._path is not None:
             with self._path.open("a", encoding="utf-8") as file:
                 file.write(lines(records))
@@ -59,9 +59,9 @@ class Log:
     def records(self, keys: Iterable[Any], record: Callable[[Any], Record]) -> Iterator[Record]:
         """The record of each key; one that is not there is made and added."""
         for key in keys:
-            if key not in self.found:
+            if key not in self.by_key:
                 self.add(record(key))
-            yield self.found[key]
+            yield self.by_key[key]
 
 
 STRANGE = "holds something else than such records; remove it, or choose another with --out"

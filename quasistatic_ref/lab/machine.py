@@ -32,11 +32,11 @@ def _text(path: Path) -> str:
 
 def _caches() -> str:
     """Sizes by level and kind, such as ``L1 data 32K``."""
-    found = []
+    caches = []
     for folder in sorted((CPU / "cache").glob("index*")):
         kind = _text(folder / "type").lower().replace("unified", "")
-        found.append(f"L{_text(folder / 'level')} {kind}".strip() + f" {_text(folder / 'size')}")
-    return ", ".join(found) or UNKNOWN
+        caches.append(f"L{_text(folder / 'level')} {kind}".strip() + f" {_text(folder / 'size')}")
+    return ", ".join(caches) or UNKNOWN
 
 
 def _processor() -> str:

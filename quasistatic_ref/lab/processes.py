@@ -11,10 +11,10 @@ PAGE = os.sysconf("SC_PAGE_SIZE")
 
 def descendants(pid: int) -> list[int]:
     """The children of a process, theirs, and so on."""
-    found: list[int] = []
+    pids: list[int] = []
     for child in _children(pid):
-        found += [child, *descendants(child)]
-    return found
+        pids += [child, *descendants(child)]
+    return pids
 
 
 def resident(pid: int) -> int:

@@ -40,8 +40,8 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
         "extension": "none" if simulator.extension is None else "one",
     }
     for body, text in zip(system.bodies, system.texts, strict=True):
-        given = (text, body.base, body.actuated, body.xyz, body.rpy)
-        settings[f"bodies.{body.name}"] = fingerprint(given)
+        body_settings = (text, body.base, body.actuated, body.xyz, body.rpy)
+        settings[f"bodies.{body.name}"] = fingerprint(body_settings)
     settings["the order of the bodies"] = ", ".join(body.name for body in system.bodies)
     for pair in simulator.pairs:
         for field in ("mu_v", "mu_omega", "rows", "k"):

@@ -112,27 +112,27 @@ def simulate_many(
             # Workers of a scheduler may not see the folder.
             reader = executor if scheduler is None else InThisProcess()
             kept = [(file, folder) for file in files if (folder / file).exists()]
-            found: dict[str, Row] = {}
+            done: dict[str, Row] = {}
             with progress_bar(total=count, unit="run", shown=progress) as bar:
                 for file, row in results(reader, slots, row_of_kept, kept):
                     if row is not None:
-                        found[file] = row
+                        done[file] = row
                         bar.update()
                 todo = [
-                    (file, source, own)
-                    for file, own in zip(files, changes, strict=True)
-                    if file not in found
+                    (file, source, changed)
+                    for file, changed in zip(files, changes, strict=True)
+                    if file not in done
                 ]
                 try:
                     for file, trajectory, row in results(executor, slots, run_of, todo):
                         trajectory.save(folder / file)
-                        found[file] = row
+                        done[file] = row
                         bar.update()
                 finally:  # what is done so far, if it is interrupted
                     rows = [
-                        {"run": file, "values": point, **found[file]}
+                        {"run": file, "values": point, **done[file]}
                         for file, point in zip(files, points, strict=True)
-                        if file in found
+                        if file in done
                     ]
                     if rows:
                         text_written(folder / TABLE, _table(rows))
@@ -155,36 +155,36 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
     >>> swept_values("cone=pyramid,product")
     ('cone', ['pyramid', 'product'])
     """
-    field, _, given = text.partition("=")
-    first, *rest = given.split(":")
+    field, _, range_text = text.partition("=")
+    first, *rest = range_text.split(":")
     try:
         if len(rest) == 2 and 1 <= int(rest[1]) <= MOST_RUNS:
             ends = float(first), float(rest[0])
             return field, [float(f"{v:.15g}") for v in np.linspace(*ends, int(rest[1])).tolist()]
     except ValueError:
         pass
-    if not field or not given or rest:
+    if not field or not range_text or rest:
         problem = "must read FIELD=FIRST:LAST:COUNT or FIELD=VALUE,VALUE,..."
         raise InputError(problem, field="--sweep", value=text)
-    return field, [parsed(word) for word in given.split(",")]
+    return field, [parsed(word) for word in range_text.split(",")]
 
 
 def _value_list(name: str, values: Iterable[float | str]) -> list[Any]:
     """Values without repetitions, each a word or a finite number."""
-    own = [v.item() if isinstance(v, np.generic) else v for v in values]
-    own = [str(v) if isinstance(v, str) else v for v in own]  # no word of a file of ours
-    if not own or not all(
-        isinstance(v, str) or (isinstance(v, int | float) and abs(v) < LARGE) for v in own
+    plain = [v.item() if isinstance(v, np.generic) else v for v in values]
+    plain = [str(v) if isinstance(v, str) else v for v in plain]  # no word of a file of ours
+    if not plain or not all(
+        isinstance(v, str) or (isinstance(v, int | float) and abs(v) < LARGE) for v in plain
     ):
-        raise InputError("must be a list of finite numbers or words", field=name, value=own)
-    return list(dict.fromkeys(own))
+        raise InputError("must be a list of finite numbers or words", field=name, value=plain)
+    return list(dict.fromkeys(plain))
 
 
 def _changes(point: Mapping[str, Any], settings: Sequence[str]) -> list[str]:
     """One combination of values as changes of the scenario."""
-    own = [f"{field}={json_text(value)}" for name, value in point.items()
+    fields = [f"{field}={json_text(value)}" for name, value in point.items()
            for field in name.split(",")]  # fmt: skip
-    return [*settings, *own, 'record="light"', "fast=true"]
+    return [*settings, *fields, 'record="light"', "fast=true"]
 
 
 @contextmanager
@@ -258,9 +258,9 @@ def _check_folder(folder: Path, files: Set[str]) -> None:
 
 def _row(trajectory: Trajectory) -> Row:
     outcome = DONE if trajectory.failed is None else ENDED_EARLY
-    own = {"outcome": outcome, "reason": trajectory.failed}
+    outcome_fields = {"outcome": outcome, "reason": trajectory.failed}
     findings = [finding.name for finding in trajectory.findings]
-    return own | {
+    return outcome_fields | {
         "findings": findings,
         "not_looked_at": trajectory.header.get("not_looked_at", ""),
         "measures": outcomes(trajectory),

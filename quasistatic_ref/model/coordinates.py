@@ -102,9 +102,9 @@ def paper_order(joints: Sequence[Joint]) -> Order:
     for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v.start)):
         q = range(joint.q.start, joint.q.stop)
         v = range(joint.v.start, joint.v.stop)
-        own_q = slice(len(entries_q), len(entries_q) + len(q))
-        own_v = slice(len(entries_v), len(entries_v) + len(v))
-        ordered.append(replace(joint, q=own_q, v=own_v))
+        slice_q = slice(len(entries_q), len(entries_q) + len(q))
+        slice_v = slice(len(entries_v), len(entries_v) + len(v))
+        ordered.append(replace(joint, q=slice_q, v=slice_v))
         entries_q += q
         entries_v += v
     return Order(tuple(ordered), np.array(entries_q, np.int64), np.array(entries_v, np.int64))

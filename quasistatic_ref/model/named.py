@@ -70,19 +70,19 @@ class Named:
             If there is no such name, or a value is not of its kind.
         """
         placed = q.copy()
-        for name, given in values.items():
+        for name, value in values.items():
             joint = self._joints.get(name, self._joints.get(f"{name}/base"))
             places = self.q(name if joint is None else joint.name)
             unit = None if joint is None else joint.unit
-            if joint is not None and unit == QUATERNION and isinstance(given, Mapping):
-                placed[places] = _pose(joint, name, given, placed[places])
+            if joint is not None and unit == QUATERNION and isinstance(value, Mapping):
+                placed[places] = _pose(joint, name, value, placed[places])
                 continue
-            entries = np.atleast_1d(checked_numbers(given, name, ModelError))
+            entries = np.atleast_1d(checked_numbers(value, name, ModelError))
             if unit == COSINE_SINE and len(entries) == len(places) - 1:
                 entries = np.array([*entries[:-1], *cos_sin(float(entries[-1]))])
             if entries.shape != places.shape:
                 wanted = "a number" if len(places) == 1 else f"{len(places)} numbers"
-                raise ModelError(f"must be {wanted}", field=name, value=given)
+                raise ModelError(f"must be {wanted}", field=name, value=value)
             placed[places] = entries
         return placed
 
@@ -94,11 +94,11 @@ def _indices(known: Mapping[str, list[int]], name: str) -> Indices:
     return np.array(known[name], dtype=np.int64)
 
 
-def _pose(joint: Joint, name: str, given: Mapping[str, ArrayLike], before: Array) -> Array:
+def _pose(joint: Joint, name: str, pose: Mapping[str, ArrayLike], before: Array) -> Array:
     """Entries of q of a joint with a quaternion; what the table leaves out stays."""
     after = before.copy()
     known = ("xyz", "rpy") if joint.lengths else ("rpy",)
-    for key, value in given.items():
+    for key, value in pose.items():
         if key not in known:
             raise ModelError(f"is unknown{suggestion(key, known)}", field=f"{name}.{key}")
         numbers = checked_array(value, f"{name}.{key}", (3,), ModelError)

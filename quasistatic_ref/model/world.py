@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.given import checked_items
+from quasistatic_ref.formats.kinds import checked_items
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.together import together

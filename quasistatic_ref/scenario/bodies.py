@@ -104,8 +104,8 @@ def body_entry(
     xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names_left()}
-    own = value(table, BODY, "package_dirs")
-    folders = [*folders_in(folder, table, "package_dirs", own), *roots]
+    package_dirs = value(table, BODY, "package_dirs")
+    folders = [*folders_in(folder, table, "package_dirs", package_dirs), *roots]
     if "gravity_compensated" in table and not actuated:
         raise table.error_about(
             "gravity_compensated", "needs an actuated joint, and this body has none"

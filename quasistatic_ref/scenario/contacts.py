@@ -90,9 +90,9 @@ def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
         )
     kind = SOLIDS[kinds[0]]
     sizes = table.table(kinds[0])
-    given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
+    arguments = {name: field.read(sizes, name) for name, field in kind.fields.items()}
     try:
-        shape = kind.made(folder, sizes.where, **given)
+        shape = kind.made(folder, sizes.where, **arguments)
     except InputError as error:
         error.field = error.field if error.field and "." in error.field else sizes.where
         raise
@@ -123,11 +123,11 @@ def contact_pairs(
         if rows == 4 and mu_omega > 0:
             problem = "has no effect with rows = 4; set rows = 6, or remove it"
             raise table.error_about("mu_omega", problem, mu_omega)
-        k_given = value(table, CONTACT, "k")
-        within = _within(k_given, table.name("k"))
+        k = value(table, CONTACT, "k")
+        within = _within(k, table.name("k"))
         k = 1
         if within is None:
-            k = TableReader({"k": k_given}, table.where, ScenarioError).integer("k", least=1)
+            k = TableReader({"k": k}, table.where, ScenarioError).integer("k", least=1)
         hull = value(table, CONTACT, "hull")
         count = len(pairs) + len(sides[0]) * len(sides[1])
         if count > MOST_PAIRS:
@@ -146,11 +146,11 @@ def contact_pairs(
     return tuple(pairs)
 
 
-def _within(k_given: Any, where: str) -> float | None:
+def _within(k: Any, where: str) -> float | None:
     """The distance [m] of a k such as ``{ within = "5 mm" }``; None of anything but a table."""
-    if not isinstance(k_given, dict):
+    if not isinstance(k, dict):
         return None
-    table = TableReader(k_given, where, ScenarioError)
+    table = TableReader(k, where, ScenarioError)
     check_names(table, WITHIN)
     text = table.take("within")
     length = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")

@@ -42,7 +42,7 @@ def apply_settings(
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):
         for key, value in settings.items():
-            _put(tables, str(key), own_value(key, value), "settings", key)
+            _put(tables, str(key), python_value(key, value), "settings", key)
     else:
         for setting in settings:
             key, equals, text = str(setting).partition("=")
@@ -52,7 +52,7 @@ def apply_settings(
             _put(tables, key, parsed(text), "--set", setting)
     made = _second_level(tables) - before
     for key, value in named.items():
-        tables[key] = own_value(key, value)
+        tables[key] = python_value(key, value)
     return made & _second_level(tables)
 
 
@@ -61,16 +61,16 @@ def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
     return {(key, name) for key, inner in pairs for name in inner if isinstance(inner[name], dict)}
 
 
-def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object) -> None:
+def _put(tables: dict[str, Any], key: str, value: Any, field: str, source: object) -> None:
     parts = [part.strip() for part in key.split(".")]
     if not all(parts):
         problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
-        raise ScenarioError(problem, field=field, value=given)
+        raise ScenarioError(problem, field=field, value=source)
     table: Any = tables
     for part in parts[:-1]:
         table = table.setdefault(part, {}) if isinstance(table, dict) else None
     if not isinstance(table, dict):
-        raise ScenarioError("is not a table", field=field, value=given)
+        raise ScenarioError("is not a table", field=field, value=source)
     table[parts[-1]] = value
 
 
@@ -85,7 +85,7 @@ def parsed(text: str) -> Any:
     return _as_parsed(value)
 
 
-def own_value(field: object, value: Any) -> Any:
+def python_value(field: object, value: Any) -> Any:
     """A value of Python's as a parser would have returned it, its paths being the user's own.
 
     Raises

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.scenario.overrides import own_value
+from quasistatic_ref.scenario.overrides import python_value
 from quasistatic_ref.scenario.scenario_table import FORMAT, VERSION
 from quasistatic_ref.scenario.world_solids import solid_table
 from quasistatic_ref.shapes.placed_shape import Shape
@@ -35,7 +35,7 @@ def scene_tables(scene: Mapping[str, Any]) -> dict[str, Any]:
     tables = {"format": FORMAT, "version": VERSION, **scene}
     tables["bodies"] = {name: _body(one) for name, one in _named(tables, "bodies")}
     tables["shapes"] = {name: _shape(name, one) for name, one in _named(tables, "shapes")}
-    return {str(name): own_value(name, value) for name, value in tables.items()}
+    return {str(name): python_value(name, value) for name, value in tables.items()}
 
 
 def _named(tables: Mapping[str, Any], kind: str) -> list[tuple[str, Any]]:
@@ -45,8 +45,8 @@ def _named(tables: Mapping[str, Any], kind: str) -> list[tuple[str, Any]]:
     return list(named.items())
 
 
-def _body(given: Any) -> Any:
-    table = {"urdf": given} if isinstance(given, Body) else given
+def _body(entry: Any) -> Any:
+    table = {"urdf": entry} if isinstance(entry, Body) else entry
     if not isinstance(table, Mapping) or not isinstance(table.get("urdf"), Body):
         return table
     body = table["urdf"]
@@ -61,8 +61,8 @@ def _body(given: Any) -> Any:
     return words | {name: value for name, value in table.items() if name != "urdf"}
 
 
-def _shape(name: str, given: Any) -> Any:
-    table = {"shape": given} if isinstance(given, Shape) else given
+def _shape(name: str, entry: Any) -> Any:
+    table = {"shape": entry} if isinstance(entry, Shape) else entry
     if not isinstance(table, Mapping) or not isinstance(table.get("shape"), Shape):
         return table
     kind, sizes = solid_table(table["shape"], name)

@@ -35,8 +35,8 @@ class Limits:
     def __post_init__(self) -> None:
         for name in ("penetration", "reach"):
             if not getattr(self, name) > 0:
-                given = getattr(self, name)
-                raise InputError("must be greater than 0", field=f"limits.{name}", value=given)
+                limit = getattr(self, name)
+                raise InputError("must be greater than 0", field=f"limits.{name}", value=limit)
 
     def out_of_reach(self, links: Sequence[str], t: Array) -> str | None:
         """Which link is out of the scene, in words; None if none is.

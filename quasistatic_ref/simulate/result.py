@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import contact_layout
-from quasistatic_ref.contact.separations import OWN, SAYS
+from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
@@ -126,4 +126,4 @@ class StepResult(Plain, Shown):
     def tied(self) -> dict[str, str]:
         """The contacts whose normal was one of several, and how it was chosen, by their names."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
-        return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
+        return {name: SAYS[tie] for name, tie in chosen if tie != UNIQUE_NORMAL}

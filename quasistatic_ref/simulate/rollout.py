@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.formats.given import checked_items
+from quasistatic_ref.formats.kinds import checked_items
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors

@@ -17,7 +17,7 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
-from quasistatic_ref.formats.given import check_kind, checked_items
+from quasistatic_ref.formats.kinds import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import Kinematics, System
@@ -193,7 +193,7 @@ class Simulator(Settings, Shown):
         if not isinstance(system, StepSystem):
             problem = "must be a System, qr.System([body, ...])"
             raise InputError(problem, field="system", value=system)
-        own = checked_items(pairs, ContactPair, "pairs")
+        checked = checked_items(pairs, ContactPair, "pairs")
         check_accuracy(accuracy)
         check_certify(backend, certify)
         check_law(law, certify)
@@ -205,7 +205,7 @@ class Simulator(Settings, Shown):
         acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
         super().__init__(
             system=system,
-            pairs=own,
+            pairs=checked,
             h=seconds(h),
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
@@ -219,8 +219,8 @@ class Simulator(Settings, Shown):
         )
         self.extension = extension
         self.named_backend = backend
-        self.scene = Scene(system, own)
-        self.layout = contact_layout(own)
+        self.scene = Scene(system, checked)
+        self.layout = contact_layout(checked)
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}
@@ -240,8 +240,8 @@ class Simulator(Settings, Shown):
         return ContactGeometry(self.layout, self.system.column_map)
 
     def __reduce__(self) -> tuple[object, ...]:
-        given = {"backend": self.named_backend, "extension": self.extension}
-        return _remade, (type(self), self.settings() | given)
+        chosen = {"backend": self.named_backend, "extension": self.extension}
+        return _remade, (type(self), self.settings() | chosen)
 
     @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float | None = 0.0) -> StepResult:

@@ -41,9 +41,9 @@ def stiffness_matrix(system: System, K_q: ArrayLike | Mapping[str, ArrayLike]) -
     return positive_definite("K_q", matrix)
 
 
-def _block(given: ArrayLike, name: str, n: int) -> Array:
+def _block(numbers: ArrayLike, name: str, n: int) -> Array:
     """A matrix of shape (n, n) from a number, a diagonal or itself."""
-    values = checked_numbers(given, name)
+    values = checked_numbers(numbers, name)
     if values.ndim == 0:
         return values * np.eye(n)
     if values.ndim == 1 and n != 0:

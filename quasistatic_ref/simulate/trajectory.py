@@ -201,7 +201,7 @@ class Trajectory(Plain, HasPage):
         """
         if "forces" in self.arrays:
             return self.arrays["forces"]
-        return np.array([found.wrench for found in self._compliant]).reshape(self.steps, -1, 4)
+        return np.array([forces.wrench for forces in self._compliant]).reshape(self.steps, -1, 4)
 
     @cached_property
     def imbalance(self) -> Array:
@@ -216,7 +216,7 @@ class Trajectory(Plain, HasPage):
         """
         if "imbalance" in self.arrays:
             return self.arrays["imbalance"]
-        return np.array([found.imbalance for found in self._compliant])
+        return np.array([forces.imbalance for forces in self._compliant])
 
     @cached_property
     def _compliant(self) -> list[ContactForces]:
@@ -330,8 +330,9 @@ class Trajectory(Plain, HasPage):
             from quasistatic_ref.optional.doctor.account import account_of
         return account_of(self, forces)
 
-    def _scene(self, given: HasScene | None) -> HasScene:
-        scene = self.scene if given is None else given
+    def _scene(self, scene: HasScene | None) -> HasScene:
+        if scene is None:
+            scene = self.scene
         if scene is None:
             problem = "is not known: this trajectory is from a file; give its scenario or simulator"
             raise InputError(problem, field="scene")

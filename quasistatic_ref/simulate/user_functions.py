@@ -63,8 +63,12 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     def checked(q_a: Array) -> Array:
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
-    def unnamed(given: Value) -> object:
-        return named_target(system, given) if isinstance(given, Mapping) else given
+    def unnamed(target_value: Value) -> object:
+        return (
+            named_target(system, target_value)
+            if isinstance(target_value, Mapping)
+            else target_value
+        )
 
     if type(target) is Targets:  # a subclass may ask for q
         return _by_blocks(system, h, target, checked)

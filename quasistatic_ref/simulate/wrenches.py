@@ -87,16 +87,16 @@ def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
     system = scene.system
     layout = contact_layout(scene.pairs)
     link = system.link(name)
-    own_links = [link]
+    body_links = [link]
     if any(body.name == name for body in system.bodies):
-        own_links = [i for i, other in enumerate(system.links) if other.startswith(f"{name}/")]
+        body_links = [i for i, other in enumerate(system.links) if other.startswith(f"{name}/")]
     tau_n = contacts.wrench[:, :, 3, None] * contacts.frame[:, :, 2]
     origins = [system.kinematics(q).t[link] for q in contacts.q]
     origin = np.reshape(origins, (-1, 1, 3))
     total = np.zeros((len(contacts.q), 6))
     sides = (1, layout.link_beta, contacts.beta), (-1, layout.link_alpha, contacts.alpha)
     for sign, links, point in sides:
-        on = np.isin(links, own_links)
+        on = np.isin(links, body_links)
         f = contacts.force[:, on]
         arm = point[:, on] - origin
         torque = np.cross(arm, f) + tau_n[:, on]

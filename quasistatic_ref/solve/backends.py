@@ -128,11 +128,15 @@ def _piqp(accuracy: float) -> OptionSets:
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
     # With so little regularisation it stalls at single steps of a heap; its defaults solve them.
-    own = {"reg_lower_limit": 1e-10, "reg_finetune_lower_limit": 1e-13, "preconditioner_iter": 10}
+    regularised = {
+        "reg_lower_limit": 1e-10,
+        "reg_finetune_lower_limit": 1e-13,
+        "preconditioner_iter": 10,
+    }
     # The gap is a difference of sums over all rows: with thousands of rows rounding alone leaves
     # 1e-14 to 4e-13 of it, at an answer that is right to 1e-14.
     rounded = dict.fromkeys(gap, accuracy)
-    return (common | gap, common | rounded, common | rounded | own)
+    return (common | gap, common | rounded, common | rounded | regularised)
 
 
 def at_accuracy(*names: str, **others: Any) -> Callable[[float], Options]:

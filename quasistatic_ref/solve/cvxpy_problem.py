@@ -12,7 +12,7 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
 
-Own = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
+Additions = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
 """Constraints, or scalar costs, of a user's own."""
 
 
@@ -33,7 +33,9 @@ class CvxpyProblem(StepProblem):
         The rows of the step's own ``extra``: one constraint, or none.
     """
 
-    def __init__(self, template: StepData, constraints: Own = none, costs: Own = none) -> None:
+    def __init__(
+        self, template: StepData, constraints: Additions = none, costs: Additions = none
+    ) -> None:
         super().__init__(template)
         if template.cone != PYRAMID:
             self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)

@@ -24,7 +24,7 @@ class Reply:
         Inside the solver [s], where it says so.
     call_seconds : float
         Of the whole call [s], in a study.
-    own, setup : float or None
+    solve_time, setup : float or None
         Of solving and of setting up [s], by the solver's own account, in a study.
     """
 
@@ -35,5 +35,5 @@ class Reply:
     iterations: int | None = None
     seconds: float | None = None
     call_seconds: float = 0.0
-    own: float | None = None
+    solve_time: float | None = None
     setup: float | None = None

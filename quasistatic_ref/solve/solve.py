@@ -17,7 +17,7 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.given import check_kind
+from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver, solver_for
@@ -192,10 +192,10 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     lam = optimum.lam
     to_measure = answer or unclaimed
     if to_measure is not None:
-        own, _ = in_si(to_measure.natural_delta_q, to_measure.natural_lam, units)
+        measured, _ = in_si(to_measure.natural_delta_q, to_measure.natural_lam, units)
         form = both.si_form
         length = error_length(form.H, form.g, delta_q, single_loads(step))
-        digits = digits_of_error(energy_norm(form.H).of_displacement(own - delta_q) / length)
+        digits = digits_of_error(energy_norm(form.H).of_displacement(measured - delta_q) / length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

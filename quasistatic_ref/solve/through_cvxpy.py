@@ -111,9 +111,9 @@ def cvxpy_reply(
     problem = compiled.problem
     begin = perf_counter()
     data = problem_data(problem, name, options) if data is None else data
-    own_options = {key: value for key, value in options.items() if key != "verbose"}
+    solver_options = {key: value for key, value in options.items() if key != "verbose"}
     verbose = options.get("verbose", False)
-    raw = data.chain.solve_via_data(problem, data.numbers, warm, verbose, own_options)
+    raw = data.chain.solve_via_data(problem, data.numbers, warm, verbose, solver_options)
     solution = data.chain.invert(raw, data.inverse)
     seconds = perf_counter() - begin
     status = str(solution.status)
@@ -126,18 +126,18 @@ def cvxpy_reply(
         for row in problem.constraints:
             if row.id in solution.dual_vars:
                 row.save_dual_value(solution.dual_vars[row.id])
-    own = solution.attr.get(words.SOLVE_TIME)
+    solve_time = solution.attr.get(words.SOLVE_TIME)
     setup = solution.attr.get(words.SETUP_TIME)
     iterations = solution.attr.get(words.NUM_ITERS)
-    own = None if own is None else float(own)
+    solve_time = None if solve_time is None else float(solve_time)
     return Reply(
         x=compiled.primal() if known else None,
         lam=compiled.dual() if known else None,
         solved=status == cp.OPTIMAL,
         status=status,
         iterations=None if iterations is None else int(iterations),
-        seconds=own,
+        seconds=solve_time,
         call_seconds=seconds,
-        own=own,
+        solve_time=solve_time,
         setup=None if setup is None else float(setup),
     )

@@ -350,14 +350,14 @@ KIND: dict[str, Callable[[StepData], ArrayLike]] = {
 def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """In what of those `names` of ``KIND`` a step is not like another."""
     every = ((name, KIND[name](template), KIND[name](step)) for name in names)
-    return [name for name, own, other in every if not _equal(own, other)]
+    return [name for name, one, other in every if not _equal(one, other)]
 
 
-def _equal(own: ArrayLike, other: ArrayLike) -> bool:
+def _equal(one: ArrayLike, other: ArrayLike) -> bool:
     """Whether two words, numbers or vectors are equal."""
-    if isinstance(own, np.ndarray) and isinstance(other, np.ndarray):
-        return own.shape == other.shape and bool((own == other).all())
-    return own == other
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return one.shape == other.shape and bool((one == other).all())
+    return one == other
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

@@ -136,5 +136,5 @@ class OfBodies(Protocol):
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""
 
-    def beside(self, own: ExtensionOfQ | None) -> ExtensionOfQ:
+    def beside(self, users: ExtensionOfQ | None) -> ExtensionOfQ:
         """The same together with an extension of a user's own."""

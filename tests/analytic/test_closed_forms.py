@@ -47,6 +47,6 @@ def test_r38_coulombs_law_leaves_a_rigid_guide_open(rng, both):
         answer = coulomb_step(free_step([[m]], [F], rail, h), fast=True, start=[start])
         slid = min(start / mu, h**2 * F / m)
         both(slid > 0)
-        assert answer.found
+        assert answer.converged
         near(answer.delta_q, [slid], h**2 * F / m)
         near(answer.wrench[0, 0], -(F - m * slid / h**2), F)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Box, ContactError
-from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, OWN, SAYS
+from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, SAYS, UNIQUE_NORMAL
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.oracles.bodies_by_hand import (
     BOX,
@@ -47,7 +47,7 @@ def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none():
         side_by_side([EDGE - 1e-3, 0.0, EDGE - 1e-3])
 
 
-@pytest.mark.parametrize(("half", "tie"), [(0.5, OF_PAIR), (0.4, OWN)])
+@pytest.mark.parametrize(("half", "tie"), [(0.5, OF_PAIR), (0.4, UNIQUE_NORMAL)])
 def test_corners_over_an_edge_have_the_normal_of_the_pair_over_a_face_its_own(half, tie):
     points = side_by_side([0.0, 0.0, EDGE], Box(np.array([half, half, 0.5]) * EDGE)).points
     near = np.abs(points.phi) < CLOSED_FORM

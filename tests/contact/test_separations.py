@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref import Box, Capsule, ContactError, Sphere
 from quasistatic_ref.contact.separations import (
     BISECTOR,
-    OWN,
+    UNIQUE_NORMAL,
     pair_normal,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
@@ -69,7 +69,7 @@ def test_cores_that_are_apart_have_one_normal_however_near_another_gap_is(shape)
         placed = (at(CUBE, R=R), at(shape, R @ (X + Y + way + along), R @ TO_X))
         for (one, other), sign in ((placed, 1), (placed[::-1], -1)):
             found, tie = pair_normal("p", one, other)
-            assert tie == OWN
+            assert tie == UNIQUE_NORMAL
             assert_within(found.phi, d - 0.25, CLOSED_FORM)
             assert_within(d * found.n, sign * R @ way, CLOSED_FORM)
 

@@ -46,8 +46,8 @@ MODULES = {
 
 def _claims(modules: tuple[str, ...]) -> dict[str, Claim]:
     loaded = [import_module(f"{__package__}.{name}") for name in modules]
-    found = [x for module in loaded for x in vars(module).values() if isinstance(x, Claim)]
-    return {claim.name: claim for claim in found}
+    claims = [x for module in loaded for x in vars(module).values() if isinstance(x, Claim)]
+    return {claim.name: claim for claim in claims}
 
 
 CLAIMS = {section: _claims(modules) for section, modules in MODULES.items()}

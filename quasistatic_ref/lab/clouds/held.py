@@ -73,8 +73,8 @@ def grasp_record(cloud: Array, settings: Mapping[str, Any]) -> Record:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cloud.npz"
         np.savez(path, points=cloud)
-        own = {"bodies.bunny.cloud": str(path), "steps": STEPS}
-        scenario = load_scenario("bunny_grasp", {**settings, **own}, fast=True)
+        changes = {"bodies.bunny.cloud": str(path), "steps": STEPS}
+        scenario = load_scenario("bunny_grasp", {**settings, **changes}, fast=True)
     failed = False
     try:
         run = scenario.run(progress=False)
@@ -105,8 +105,8 @@ def _grip(scenario: Scenario, run: Trajectory, step: int) -> Grip | None:
     spreads = []
     loaded = 0
     for finger in FINGERS:
-        own = np.array([f"{finger}_finger" in name for name in names])
-        bearing = own & (loads > LOADED)
+        on_finger = np.array([f"{finger}_finger" in name for name in names])
+        bearing = on_finger & (loads > LOADED)
         if not bearing.any():
             return None
         share = loads[bearing] / loads[bearing].sum()
@@ -115,7 +115,7 @@ def _grip(scenario: Scenario, run: Trajectory, step: int) -> Grip | None:
         squeezes.append(float(loads[bearing].sum()))
         spreads.append(float(share @ np.linalg.norm(points[bearing] - middle, axis=1)))
         loaded += int(bearing.sum())
-    mu_v = float(run["mu_v"][own].max())
+    mu_v = float(run["mu_v"][on_finger].max())
     squeeze = float(np.mean(squeezes))
     lever = _lever(scenario, run["q"][step], np.array(middles))
     spare = 2 * squeeze / _load(scenario) - 1 / mu_v

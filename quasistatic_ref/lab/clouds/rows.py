@@ -49,9 +49,9 @@ def margin(row: Record) -> float:
     return float((row["mu_omega"] + row["spread"]) / row["needed"])
 
 
-def rotations(found: Sequence[Record]) -> Array:
+def rotations(records: Sequence[Record]) -> Array:
     """Largest rotation of each during the lift [deg], shape (N,)."""
-    return np.array([row["rotation"] for row in found])
+    return np.array([row["rotation"] for row in records])
 
 
 def rotations_by_case() -> dict[str, Array]:
@@ -61,8 +61,8 @@ def rotations_by_case() -> dict[str, Array]:
     -------
     dict of str to ndarray, shape (120,)
     """
-    own = rows_with(count=992, change=NONE)
+    records = rows_with(count=992, change=NONE)
     return {
-        case: rotations([row for row in own if with_torsion(row) == bool(mu_omega)])
+        case: rotations([row for row in records if with_torsion(row) == bool(mu_omega)])
         for case, mu_omega in (("with torsion", TORSION), ("without torsion", 0.0))
     }

@@ -109,15 +109,15 @@ def scan(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
     views = rng.normal(size=(VIEWS, 3))
     views /= np.linalg.norm(views, axis=1, keepdims=True)
     middles = random_points(mesh, HOLES, rng)
-    found = np.zeros((0, 3))
-    while len(found) < count:
+    points_seen = np.zeros((0, 3))
+    while len(points_seen) < count:
         points, normals = mesh.points_at(rng, count)
         seen = (normals @ views.T > GRAZING).any(axis=1)
         distances = np.linalg.norm(points[:, None] - middles, axis=2)
         kept = seen & (distances > HOLE).all(axis=1)
         noise = NOISE * rng.normal(size=(count, 1)) * normals
-        found = np.concatenate([found, (points + noise)[kept]])
-    return found[:count]
+        points_seen = np.concatenate([points_seen, (points + noise)[kept]])
+    return points_seen[:count]
 
 
 SAMPLINGS: dict[str, Callable[[Mesh, int, np.random.Generator], Array]] = {

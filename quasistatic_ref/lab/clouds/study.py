@@ -132,10 +132,10 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
     cloud : ndarray, shape (count, 3), optional
         Its cloud, where it is there already [m].
     """
-    found = grasp_record(cell.cloud() if cloud is None else cloud, cell.settings())
+    record = grasp_record(cell.cloud() if cloud is None else cloud, cell.settings())
     written: Record = {
         name: value if isinstance(value, bool) else float(f"{value:.6g}")
-        for name, value in found.items()
+        for name, value in record.items()
     }
     if written.get("needed") == np.inf:
         written["needed"] = None  # JSON has no infinity

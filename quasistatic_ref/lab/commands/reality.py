@@ -89,12 +89,12 @@ def _exit_status(options: argparse.Namespace, name: str, step: int) -> int:
     data = options.data or reality_folder()
     pairs = pairs_read(data, options.sets.split(",") if options.sets else ())
     loads = loads_read(data, pairs)
-    found = {p.name: identified_ratio(loads[p.name], p.outline.gyration, name) for p in pairs}
-    known = [p for p in pairs if found[p.name] is not None]
-    ratios = {key: own.ratio for key, own in found.items() if own is not None}
+    by_pair = {p.name: identified_ratio(loads[p.name], p.outline.gyration, name) for p in pairs}
+    known = [p for p in pairs if by_pair[p.name] is not None]
+    ratios = {key: value.ratio for key, value in by_pair.items() if value is not None}
     if not known:
         raise InputError("has no loads of these pairs", file=data / "loads.csv")
-    pushes = {key: own.every(step) for key, own in pushes_read(data, known).items()}
+    pushes = {key: value.every(step) for key, value in pushes_read(data, known).items()}
     folder = writable_folder(options.out)
     settings = Settings(cone=name)
     file = folder / f"reality_{name}{'' if step == 1 else f'_every_{step}'}.jsonl"
@@ -102,7 +102,7 @@ def _exit_status(options: argparse.Namespace, name: str, step: int) -> int:
                             progress=not options.quiet)  # fmt: skip
     record = reality_record(settings, ratios, pushes, rows)
     record["every"] = step
-    record["identified"] = {key: identified_record(own) for key, own in found.items()}
+    record["identified"] = {key: identified_record(value) for key, value in by_pair.items()}
     summary = text_written(folder / "reality.json", json_text(record) + "\n")
     text_written(folder / "reality.csv", predictions_text(rows))
     good = set(record["steps"]) <= {"exact", "enclosure"}
@@ -110,7 +110,7 @@ def _exit_status(options: argparse.Namespace, name: str, step: int) -> int:
         shared.print_json(record)
         return 0 if good else 1
     print("Identified from measured loads:")
-    shared.print_rows(identified_rows(pairs, found))
+    shared.print_rows(identified_rows(pairs, by_pair))
     print("\nMeasured pushes, predicted:")
     shared.print_rows(error_rows(record))
     print(certified_words(record))

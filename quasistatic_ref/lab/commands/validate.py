@@ -57,13 +57,13 @@ def run(options: argparse.Namespace) -> int:
         for title, claims in CLAIMS.items()
     }
     page = text_written(options.out / "claims.md", claims_page(sections, drawn))
-    failed = [name for name, found in findings.items() if found.verdict == FAILS]
+    failed = [name for name, result in findings.items() if result.verdict == FAILS]
     if options.json:
-        records = [finding_record(found) for found in findings.values()]
+        records = [finding_record(result) for result in findings.values()]
         shared.print_json({"claims": records, "failed": failed, "page": str(page)})
         return 1 if failed else 0
     rows: list[tuple[str, ...]] = [("claim", "verdict", "points", "worst error", "tolerance")]
-    rows += [(name, *summary(found)) for name, found in findings.items()]
+    rows += [(name, *summary(result)) for name, result in findings.items()]
     shared.print_rows(rows)
     count = {v: sum(f.verdict == v for f in findings.values()) for v in (HOLDS, FAILS, NOT_RUN)}
     print(", ".join(f"{n} {verdict}" for verdict, n in count.items() if n))
@@ -77,14 +77,14 @@ def run(options: argparse.Namespace) -> int:
     return 1 if failed else 0
 
 
-def _why(found: ClaimResult) -> str:
+def _why(result: ClaimResult) -> str:
     """One sentence on a claim that fails."""
-    name = found.claim.name
-    if found.trouble:
-        return f"{name} could not be measured: {found.trouble}"
-    bad = [c for c in finding_record(found)["comparisons"] if not c["holds"]]
-    said = "; ".join(f"{c['what']} is {c['measured']}, not {c['expected']}" for c in bad)
-    return f"{name} fails: {said}"
+    name = result.claim.name
+    if result.trouble:
+        return f"{name} could not be measured: {result.trouble}"
+    bad = [c for c in finding_record(result)["comparisons"] if not c["holds"]]
+    differences = "; ".join(f"{c['what']} is {c['measured']}, not {c['expected']}" for c in bad)
+    return f"{name} fails: {differences}"
 
 
 def _figures(findings: dict[str, ClaimResult], folder: Path) -> list[str]:
@@ -92,10 +92,10 @@ def _figures(findings: dict[str, ClaimResult], folder: Path) -> list[str]:
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     drawn = []
-    for name, found in findings.items():
-        if found.evidence is not None and name in PICTURES:
+    for name, result in findings.items():
+        if result.evidence is not None and name in PICTURES:
             with figure_style():
-                figure = PICTURES[name](found.evidence.picture)
+                figure = PICTURES[name](result.evidence.picture)
             figure_written(figure, folder / "figures", name)
             drawn.append(name)
     return drawn

@@ -109,8 +109,8 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
     for case in inputs_read(source, layer):
         if case.id == options.case and case.id in answers.outputs:
             record = expected_read(source, layer)[case.id]
-            given = answers.outputs[case.id]
-            verdict, output = answer_judged(layer, case, record, given, answers, options.digits)
+            answer = answers.outputs[case.id]
+            verdict, output = answer_judged(layer, case, record, answer, answers, options.digits)
             print(f"{case.id}: {case.provenance}: {verdict.verdict} {verdict.reason}")
             shared.print_rows(side_by_side(record["output"], output))
 

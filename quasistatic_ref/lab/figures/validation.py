@@ -119,8 +119,8 @@ def sliding_threshold(picture: Picture) -> Figure:
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
     axes.plot(degrees, exact, label="(R7)", **THIN)
-    for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
-        axes.plot(degrees, found, **_hollow_marks(mark), label=rf"$\mu_v$ = {mu:g}")
+    for mu, measured, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
+        axes.plot(degrees, measured, **_hollow_marks(mark), label=rf"$\mu_v$ = {mu:g}")
     axes.set_xlabel("direction of the force from $d_1$ [deg]")
     axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
     axes.set_title(caption(picture["h"]), loc="right")
@@ -165,8 +165,8 @@ def planar_push(picture: Picture) -> Figure:
 def patch_torsion(picture: Picture) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
     figure, (axes,) = panels(4.6, 2.8)
-    for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
-        axes.plot(picture["rings"], found, marker=mark, label=name)
+    for (name, measured), mark in zip(picture["found"].items(), MARKS, strict=False):
+        axes.plot(picture["rings"], measured, marker=mark, label=name)
         axes.axhline(picture["limits"][name], **DOTTED)
     axes.set_xscale("log", base=2)
     axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])

@@ -66,7 +66,7 @@ ANSWERS: Mapping[str, Callable[[StepResult], Any]] = {
     "solution": lambda result: json.loads(solution_text(result.solution)),
 }
 """What may be asked of a step; ``forces`` take longer than the step."""
-ASKED = ("q", "forces", "certificate")
+DEFAULT_WORDS = ("q", "forces", "certificate")
 
 
 class Scenes:
@@ -127,22 +127,22 @@ class Scenes:
         one = self.scene_named(request.text("scene", None))
         system = one.scenario.system
         request.only(("q", "target", "force", "ask"))
-        asked = request.words("ask", list(ASKED))
-        for what in asked:
+        items = request.words("ask", list(DEFAULT_WORDS))
+        for what in items:
             if what not in ANSWERS:
                 raise request.error_about("ask", f"is unknown{suggestion(what, ANSWERS)}", what)
         q = _numbers(request, "q", system.n_q)
         target = _numbers(request, "target", system.n_q_a, REQUIRED if system.n_q_a else [])
         force = _numbers(request, "force", system.n_v, [0.0] * system.n_v)
         result = one.simulator.step(q, target, force)
-        return {what: ANSWERS[what](result) for what in asked}
+        return {what: ANSWERS[what](result) for what in items}
 
 
 def _numbers(request: TableReader, field: str, size: int, default: Any = REQUIRED) -> Array:
     """Numbers of a request, shape (size,); what is no plain list of them is refused in words."""
-    given = request.peek(field)
-    plain = isinstance(given, list) and len(given) == size and {*map(type, given)} <= {float}
-    if plain and np.isfinite(numbers := np.array(given, dtype=np.float64)).all():
+    value = request.peek(field)
+    plain = isinstance(value, list) and len(value) == size and {*map(type, value)} <= {float}
+    if plain and np.isfinite(numbers := np.array(value, dtype=np.float64)).all():
         request.take(field)
         return numbers
     return request.array(field, (size,), default)

@@ -74,7 +74,7 @@ def is_spanned(phi, alpha, n, smaller_size):
 
 def selection(case):
     """Layer 2: a stable sort is a tie broken by index; of two solids those about one normal."""
-    found = []
+    selections = []
     for g, phi in enumerate(case["phi"]):
         order = np.argsort(phi, kind="stable")
         if "normals" in case:
@@ -82,8 +82,8 @@ def selection(case):
             order = order[n[order] @ n[-1] >= FACING]
         filling = range(len(phi), 2 * len(phi) - len(order))
         indices = [*order.tolist(), *filling][: case["k"]]
-        found.append(indices)
-    return {"indices": found}
+        selections.append(indices)
+    return {"indices": selections}
 
 
 def edges(shape):
@@ -91,15 +91,15 @@ def edges(shape):
     if shape["kind"] != "box":
         return np.zeros((0, 2, 3)), np.zeros((0, 2, 3))
     ends = np.array(corners(shape))
-    found = []
+    ends_of_edges = []
     sides = []
     for axis in range(3):
         for i in range(8):
             if not i >> axis & 1:
-                found.append((ends[i], ends[i | 1 << axis]))
+                ends_of_edges.append((ends[i], ends[i | 1 << axis]))
                 across = [other for other in range(3) if other != axis]
                 sides.append([np.sign(ends[i][other]) * AXES[other] for other in across])
-    return np.array(found), np.array(sides)
+    return np.array(ends_of_edges), np.array(sides)
 
 
 def touching_edges(shape, pose, x, n):
@@ -125,7 +125,7 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest, over=0.0):
     _, a, b, n = nearest
     ends_a, _ = edges(alpha)
     ends_b, _ = edges(beta)
-    found = []
+    edge_pairs = []
     for i in touching_edges(alpha, pose_alpha, a, n):
         for j in touching_edges(beta, pose_beta, b, -n):
             tail, head = transformed(pose_alpha, ends_a[i])
@@ -141,8 +141,8 @@ def crossings(alpha, pose_alpha, beta, pose_beta, nearest, over=0.0):
             if -over <= min(s, t) and max(s, t) <= 1 + over:
                 one = tail + s * u
                 other = start + t * v
-                found.append((i, j, (other - one) @ n, one, other, n))
-    return found
+                edge_pairs.append((i, j, (other - one) @ n, one, other, n))
+    return edge_pairs
 
 
 def ways(solid, n):
@@ -163,9 +163,9 @@ def bearing(box, x, way):
     return gap, (gap <= near) & (foot <= near)
 
 
-def as_they_bear(solid, pose, n, found):
+def as_they_bear(solid, pose, n, points):
     """phi, alpha, beta and n of another solid's corners on this one, alpha; n is the pair's."""
-    phi, alpha, x, normal = found
+    phi, alpha, x, normal = points
     at = (x - pose[1]) @ pose[0]
     for way in ways(solid, n @ pose[0]):
         gap, bears = bearing(solid, at, way)
@@ -179,20 +179,20 @@ def as_they_bear(solid, pose, n, found):
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
     """phi, alpha, beta, n and index of all candidates, and which come after all others."""
     nearest = closest_points(alpha, pose_alpha, beta, pose_beta)
-    found = [nearest]
+    parts = [nearest]
     _, _, _, way = nearest
     clouds = "cloud" in (alpha["kind"], beta["kind"])
     if k > 1 and not clouds:
         if len(corners(beta)):
             points = {"kind": "cloud", "points": corners(beta)}
-            own = closest_points(alpha, pose_alpha, points, pose_beta)
-            found.insert(0, as_they_bear(alpha, pose_alpha, way, own))
+            corner_points = closest_points(alpha, pose_alpha, points, pose_beta)
+            parts.insert(0, as_they_bear(alpha, pose_alpha, way, corner_points))
         if len(corners(alpha)):
             points = {"kind": "cloud", "points": corners(alpha)}
-            own = swapped(closest_points(points, pose_alpha, beta, pose_beta))
-            found.insert(0, swapped(as_they_bear(beta, pose_beta, -way, own)))
-    phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
-    a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
+            corner_points = swapped(closest_points(points, pose_alpha, beta, pose_beta))
+            parts.insert(0, swapped(as_they_bear(beta, pose_beta, -way, corner_points)))
+    phi = np.concatenate([np.atleast_1d(one[0]) for one in parts])
+    a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in parts]) for i in (1, 2, 3))
     late = np.zeros(len(phi), dtype=bool)
     index = np.arange(len(phi))
     if clouds or k == 1:
@@ -201,9 +201,9 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     number = most_candidates(alpha, beta, last)
     crossed = crossings(alpha, pose_alpha, beta, pose_beta, nearest)
     if crossed:
-        *edge, own, on_a, on_b, normal = zip(*crossed, strict=True)
+        *edge, corner_points, on_a, on_b, normal = zip(*crossed, strict=True)
         index = np.insert(index, last, crossing_index(last, k, *map(np.array, edge)))
-        phi = np.insert(phi, last, own)
+        phi = np.insert(phi, last, corner_points)
         a = np.insert(a, last, on_a, axis=0)
         b = np.insert(b, last, on_b, axis=0)
         n = np.insert(n, last, normal, axis=0)

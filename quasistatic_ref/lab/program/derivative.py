@@ -35,8 +35,8 @@ def derivative(case):
         q = integrate({**case, "delta_q": shift})["q"]
         at = kinematics(mechanism, q)
         case_nearby = {**case, "q": q}
-        found = contacts_of(case_nearby, at)
-        after = step_at(case_nearby, at, found)
+        contacts_there = contacts_of(case_nearby, at)
+        after = step_at(case_nearby, at, contacts_there)
         return way(mechanism, start["q_next"], after["q_next"])
 
     steps = EPS * np.eye(slices(mechanism)[2])

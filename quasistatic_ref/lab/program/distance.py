@@ -147,19 +147,19 @@ def on_halfspace(half, pose_h, shape, pose):
     length = np.linalg.norm(normal)
     n = pose_h[0] @ normal / length
     offset = half["offset"] / length
-    found = core(shape, pose)
-    if found is None:
+    polytope = core(shape, pose)
+    if polytope is None:
         beta = transformed(pose, farthest(shape, -pose[0].T @ n))[0]
     else:
-        points, radius = found
+        points, radius = polytope
         beta = points[int(np.argmin(points @ n))] - radius * n
     phi = n @ (beta - pose_h[1]) - offset
     return phi, beta - phi * n, beta, n
 
 
-def swapped(found):
+def swapped(points):
     """The same with alpha and beta exchanged."""
-    phi, a, b, n = found
+    phi, a, b, n = points
     return phi, b, a, -n
 
 
@@ -238,9 +238,9 @@ def closest(alpha, pose_alpha, beta, pose_beta):
 
 def projected(shape, pose, x):
     """The point of a solid shape nearest to x, radius left aside."""
-    found = core(shape, pose)
-    if found is not None:
-        return shortest(found[0] - x) @ found[0]
+    polytope = core(shape, pose)
+    if polytope is not None:
+        return shortest(polytope[0] - x) @ polytope[0]
     phi, n = point_on(shape, pose[0].T @ (x - pose[1]))
     return x - phi * (pose[0] @ n) if phi > 0 else x
 
@@ -278,14 +278,14 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
     """The same of shapes that nearly touch: moved apart along n, they keep points and normal."""
 
     def normal(n):
-        _, x, y, found = by_projections(
+        _, x, y, n_afar = by_projections(
             alpha, pose_alpha, beta, (pose_beta[0], pose_beta[1] + n / 8)
         )
-        return found, x, y
+        return n_afar, x, y
 
     for _ in range(6):
-        found, x, y = normal(n)
-        rest = found - n
+        n_afar, x, y = normal(n)
+        rest = n_afar - n
         if np.abs(rest).max() < 4e-16:
             break
         slope = np.array([(normal(n + 1e-6 * e)[0] - normal(n - 1e-6 * e)[0]) / 2e-6 for e in AXES])

@@ -28,7 +28,7 @@ def compliant_program(H, g, A, b, tables, h, c):
         C[row : row + len(T), 4 * j : 4 * j + 4] = np.column_stack([np.ones(len(T)), T])
         row += len(T)
     aside = np.zeros((n, lengths))
-    stiffness = np.diag(np.repeat([h / own for own in c], 4))
+    stiffness = np.diag(np.repeat([h / c_j for c_j in c], 4))
     return (
         np.block([[H, aside], [aside.T, stiffness]]),
         np.append(g, np.zeros(lengths)),
@@ -40,8 +40,8 @@ def compliant_program(H, g, A, b, tables, h, c):
 def forces_of(s, c, contacts):
     """f_d1, f_d2, f_n, tau_n of each contact, of the lengths s and the compliances c."""
     wrenches = []
-    for contact, own, s_j in zip(contacts, c, s.reshape(-1, 4), strict=True):
-        f_n, f_1, f_2, f_3 = s_j / own
+    for contact, c_j, s_j in zip(contacts, c, s.reshape(-1, 4), strict=True):
+        f_n, f_1, f_2, f_3 = s_j / c_j
         mu_v = contact["mu_v"]
         wrenches.append([mu_v * f_1, mu_v * f_2, f_n, contact["mu_omega"] * f_3])
     return wrenches

@@ -83,5 +83,5 @@ def joint_parts(mechanism, part, n_q=None):
     """What each joint's part is, by its entries of q (the first n_q) and of delta_q."""
     bodies = {body["name"]: body for body in mechanism["bodies"]}
     places = slices(mechanism)[0].items()
-    found = [part(bodies[name], i, k) for name, (i, k) in places if n_q is None or i.stop <= n_q]
-    return np.concatenate(found) if found else np.zeros(0)
+    parts = [part(bodies[name], i, k) for name, (i, k) in places if n_q is None or i.stop <= n_q]
+    return np.concatenate(parts) if parts else np.zeros(0)

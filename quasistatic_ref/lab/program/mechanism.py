@@ -34,7 +34,7 @@ def joint_pose(body, q):
 
 def slices(mechanism):
     """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first; none of a mimic."""
-    found = {}
+    places = {}
     i = 0
     k = 0
     n_a = 0
@@ -42,19 +42,19 @@ def slices(mechanism):
         for body in mechanism["bodies"]:
             if bool(body.get("actuated")) == actuated and "mimic" not in body:
                 size_q, size_v = ENTRIES[body["joint"]]
-                found[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
+                places[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
                 i = i + size_q
                 k = k + size_v
         n_a = k if actuated else n_a
-    return found, n_a, k
+    return places, n_a, k
 
 
 def kinematics(mechanism, q):
     """{body: (R, t, J)}: J (6 x n_v) of the velocity of its origin and its angular velocity."""
     at, _, n_v = slices(mechanism)
-    found = {None: (AXES, NONE, np.zeros((6, n_v), dtype=int))}
+    poses = {None: (AXES, NONE, np.zeros((6, n_v), dtype=int))}
     for body in mechanism["bodies"]:
-        R0, t0, J0 = found[body["parent"]]
+        R0, t0, J0 = poses[body["parent"]]
         R_placed, t_placed = frame(body["placement"])
         Rp = R0 @ R_placed
         tp = R0 @ t_placed + t0
@@ -66,20 +66,20 @@ def kinematics(mechanism, q):
         R = Rp @ R_q
         t = Rp @ t_q + tp
         J = np.vstack([J0[:3] - skew(t - t0) @ J0[3:], J0[3:]])
-        own = np.zeros((6, columns.stop - columns.start), dtype=R.dtype)
+        joint_columns = np.zeros((6, columns.stop - columns.start), dtype=R.dtype)
         if body["joint"] == "floating":
-            own[:3, :3] = R
-            own[3:, 3:] = R
+            joint_columns[:3, :3] = R
+            joint_columns[3:, 3:] = R
         elif body["joint"] == "planar":
-            own[:3, :2] = R[:, :2]
-            own[3:, 2] = R[:, 2]
+            joint_columns[:3, :2] = R[:, :2]
+            joint_columns[3:, 2] = R[:, 2]
         elif body["joint"] != "fixed":
             along = Rp @ unit(body["axis"])
             moving = slice(0, 3) if body["joint"] == "prismatic" else slice(3, 6)
-            own[moving, 0] = pace * along
-        J = np.hstack([J[:, : columns.start], J[:, columns] + own, J[:, columns.stop :]])
-        found[body["name"]] = R, t, J
-    return found
+            joint_columns[moving, 0] = pace * along
+        J = np.hstack([J[:, : columns.start], J[:, columns] + joint_columns, J[:, columns.stop :]])
+        poses[body["name"]] = R, t, J
+    return poses
 
 
 def point_jacobian(at, point):
@@ -102,8 +102,8 @@ def contact_jacobian(at, contact):
 def jacobian(case):
     """Layer 3."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
-    found = []
+    jacobians = []
     for contact in case["contacts"]:
         J = contact_jacobian(at, contact)
-        found.append(J)
-    return {"J": found}
+        jacobians.append(J)
+    return {"J": jacobians}

@@ -42,7 +42,7 @@ def rows(case):
     A = []
     b = []
     for c in case["contacts"]:
-        found = contact_rows(c, case["cone"])
-        A.extend(found)
-        b.extend([-c["phi"]] * len(found))
+        block = contact_rows(c, case["cone"])
+        A.extend(block)
+        b.extend([-c["phi"]] * len(block))
     return {"A": A, "b": b}

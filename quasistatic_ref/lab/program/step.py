@@ -24,7 +24,7 @@ def pose_in_world(shape, at):
 
 def contacts_of(case, at):
     """The contacts, pair by pair, without J."""
-    found = []
+    contacts = []
     for pair in case["pairs"]:
         alpha = case["shapes"][pair["alpha"]]
         beta = case["shapes"][pair["beta"]]
@@ -39,8 +39,8 @@ def contacts_of(case, at):
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
             contact |= {"alpha_body": alpha["body"], "beta_body": beta["body"]}
             contact |= {k: pair[k] for k in ("mu_v", "mu_omega", "rows", "compliance") if k in pair}
-            found.append(contact)
-    return found
+            contacts.append(contact)
+    return contacts
 
 
 def loads(case, at):
@@ -58,10 +58,10 @@ def loads(case, at):
         M = M + mass * v.T @ v + w.T @ inertia @ w
         weight = weight + mass * v.T @ np.array(case["gravity"])
     tau = np.append(np.zeros(n_a, dtype=int), weight[n_a:])
-    for given in case.get("wrenches", []):
-        point = centre[given["body"]]
-        v, w = point_jacobian(at[given["body"]], point)
-        tau = tau + v.T @ np.array(given["force"]) + w.T @ np.array(given["torque"])
+    for load in case.get("wrenches", []):
+        point = centre[load["body"]]
+        v, w = point_jacobian(at[load["body"]], point)
+        tau = tau + v.T @ np.array(load["force"]) + w.T @ np.array(load["torque"])
     return M, tau
 
 
@@ -102,12 +102,12 @@ def step_at(case, at, contacts):
     b = np.array(A_b["b"])
     shown = [{key: contact[key] for key in SHOWN} for contact in contacts]
     output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
-    found = qp_answer(H, g, A, b)
-    if "farkas" in found:
-        return {**output, **found}
-    delta_q = found["delta_q"]
-    lam = found["lam"]
-    A_lam = found["A_lam"]
+    answer = qp_answer(H, g, A, b)
+    if "farkas" in answer:
+        return {**output, **answer}
+    delta_q = answer["delta_q"]
+    lam = answer["lam"]
+    A_lam = answer["A_lam"]
     counts = [len(cone_table(cone, c["rows"], c["mu_v"])) for c in contacts]
     shares = np.split(lam, np.cumsum(counts)[:-1]) if counts else []
     loaded = [{**contact, "lam": part} for contact, part in zip(contacts, shares, strict=True)]

@@ -12,15 +12,15 @@ DRAWS = 2000
 """Of a bootstrap."""
 
 
-def pose_errors(found: Array, measured: Array) -> Array:
+def pose_errors(poses: Array, measured: Array) -> Array:
     """Distance of the frames' origins [m] and angle between them [rad], shape (n, 2).
 
     Parameters
     ----------
-    found, measured : ndarray, shape (n, 3)
+    poses, measured : ndarray, shape (n, 3)
         x, y [m], angle [rad].
     """
-    gap = found - measured
+    gap = poses - measured
     turn = np.remainder(gap[:, 2] + np.pi, 2 * np.pi) - np.pi
     return np.column_stack([np.linalg.norm(gap[:, :2], axis=1), np.abs(turn)])
 
@@ -95,15 +95,15 @@ def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
     (error less that of the published simulator, push by push): each three pairs (mm, degrees) of
     mean, low and high.
     """
-    groups = {name: [own] for name, own in errors.items()} | {"all": list(errors.values())}
+    groups = {name: [group] for name, group in errors.items()} | {"all": list(errors.values())}
     table = {}
-    for name, own in groups.items():
-        entry: dict[str, object] = {"pushes": sum(len(e.model) for e in own)}
-        parts = {"error": [e.model for e in own], "moved": [e.moved for e in own]}
-        others = [e.published for e in own if e.published is not None]
-        if len(others) == len(own):
+    for name, group in groups.items():
+        entry: dict[str, object] = {"pushes": sum(len(e.model) for e in group)}
+        parts = {"error": [e.model for e in group], "moved": [e.moved for e in group]}
+        others = [e.published for e in group if e.published is not None]
+        if len(others) == len(group):
             parts["published"] = others
-            parts["more"] = [e.model - o for e, o in zip(own, others, strict=True)]
+            parts["more"] = [e.model - o for e, o in zip(group, others, strict=True)]
         for key, values in parts.items():
             entry[key] = {of: x.tolist() for of, x in vars(bootstrap_estimate(values)).items()}
         table[name] = entry

@@ -101,11 +101,11 @@ def identified_ratio(loads: Loads, rho: float, cone: str = ELLIPSOID) -> Identif
         return None
     gauge, support = limit_surface(cone)
 
-    def lost_shares(own: Loads, c: float) -> Array:
-        return lost_share(own, c, gauge, support)
+    def lost_shares(subset: Loads, c: float) -> Array:
+        return lost_share(subset, c, gauge, support)
 
-    def misses(own: Loads, c: float) -> Array:
-        return 1 - cosines(own, c, rho)
+    def misses(subset: Loads, c: float) -> Array:
+        return 1 - cosines(subset, c, rho)
 
     losses = misses if cone == ELLIPSOID else lost_shares
     ratio = best_ratio(lambda c: float(losses(loads, c).mean()))
@@ -133,16 +133,16 @@ def cosines(loads: Loads, c: float, rho: float) -> Array:
     """
     predicted = loads.wrench * [1, 1, rho / c**2]
     measured = loads.twist * [1, 1, rho]
-    found: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
-    return found
+    cosine: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
+    return cosine
 
 
 def reverse_cosines(loads: Loads, c: float, rho: float) -> Array:
     """The same of loads (f, tau / rho) with `rho` [m], predicted from twists, shape (n,)."""
     predicted = loads.twist * [1, 1, c**2 / rho]
     measured = loads.wrench * [1, 1, 1 / rho]
-    found: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
-    return found
+    cosine: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
+    return cosine
 
 
 def fisher_information(loads: Loads, c: float, rho: float) -> float:
@@ -222,9 +222,9 @@ def best_ratio(loss: Callable[[float], float]) -> float:
     """The ratio [m] of the smallest loss: the best of the grid, then between its neighbours."""
     k = int(np.argmin([loss(c) for c in GRID]))
     ends = np.log([GRID[max(k - 1, 0)], GRID[min(k + 1, len(GRID) - 1)]])
-    found = minimize_scalar(lambda x: loss(float(np.exp(x))), bounds=tuple(ends), method="bounded",
+    least = minimize_scalar(lambda x: loss(float(np.exp(x))), bounds=tuple(ends), method="bounded",
                             options={"xatol": 1e-9})  # fmt: skip
-    return float(np.exp(found.x))
+    return float(np.exp(least.x))
 
 
 def drawn_ratios(loads: Loads, losses: Callable[[Loads, float], Array], ratio: float) -> Array:

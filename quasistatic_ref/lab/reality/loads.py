@@ -64,11 +64,11 @@ def loads_read(folder: Path, pairs: list[Pair]) -> dict[str, Loads]:
         If the file is missing or not as it must be.
     """
     table = table_read(folder / "loads.csv", COLUMNS, {}, tuple(PAIR))
-    found = {}
+    loads = {}
     for pair in pairs:
         rows = table.rows(pair.name)
         wrench = table.array(rows, "f_x", "f_y", "tau")
         twist = table.array(rows, "v_x", "v_y", "omega")
         moving = np.linalg.norm(twist, axis=1) * np.linalg.norm(wrench, axis=1) > 0
-        found[pair.name] = Loads(wrench[moving], twist[moving]).about(pair.outline.centre)
-    return found
+        loads[pair.name] = Loads(wrench[moving], twist[moving]).about(pair.outline.centre)
+    return loads

@@ -69,7 +69,7 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
             problem = f"is not a pair of {path}{suggestion(name, table.pairs)}"
             raise InputError(problem, field="--sets", value=name)
     shapes = outlines_read(folder / "shapes.json")
-    found = []
+    pairs = []
     for k, name in enumerate(table.pairs):
         if only and name not in only:
             continue
@@ -85,9 +85,9 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
                 raise InputError("must be >= 0", file=path, field=f"{name}, {key}", value=value)
         fitted = row.get("mu_pusher_fitted")
         published = published_ratio(row)
-        own = shapes[shape], row["mu_pusher_used"], fitted, radius, published
-        found.append(Pair(name, *own))
-    return found
+        fields = shapes[shape], row["mu_pusher_used"], fitted, radius, published
+        pairs.append(Pair(name, *fields))
+    return pairs
 
 
 def outlines_read(path: Path) -> dict[str, Outline]:

@@ -72,15 +72,15 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: str = "full") -> P
         step = of.step(finger, body, target)
         solver = solver_for_step(step, solver)
         if of.by.law == COULOMB:
-            found: StepSolution = simulated_solution(step, solver, ACCURACY)
+            solution: StepSolution = simulated_solution(step, solver, ACCURACY)
         else:
-            found = solve_step(step, solver, certify=certify)
-        finger = finger + found.delta_q[:2]
-        body = body + found.delta_q[2:]
-        kinds[found.certificate.kind] += 1
-        bound = found.certificate.error_bound
+            solution = solve_step(step, solver, certify=certify)
+        finger = finger + solution.delta_q[:2]
+        body = body + solution.delta_q[2:]
+        kinds[solution.certificate.kind] += 1
+        bound = solution.certificate.error_bound
         error = max(error, np.inf if bound is None else bound)
-        loaded, slips = grip(step, found)
+        loaded, slips = grip(step, solution)
         sticks = sticks + (loaded and not slips)
         slides = slides + (loaded and slips)
     R = rotation(body[3])
@@ -99,12 +99,12 @@ SLIPS = 1e-3
 """Share of its advance by which a finger that slides slips at least [-]."""
 
 
-def grip(step: StepData, found: StepSolution) -> tuple[bool, bool]:
+def grip(step: StepData, solution: StepSolution) -> tuple[bool, bool]:
     """Whether the finger, the last contact, presses on the body, and whether it slips along it."""
     contacts = step.contacts
-    slip = float(contacts.d1[-1] @ (contacts.J[-1, :3] @ found.delta_q))
-    advance = float(np.linalg.norm(found.delta_q[:2]))
-    return bool(found.wrench[-1, 2] > 0), abs(slip) > SLIPS * advance
+    slip = float(contacts.d1[-1] @ (contacts.J[-1, :3] @ solution.delta_q))
+    advance = float(np.linalg.norm(solution.delta_q[:2]))
+    return bool(solution.wrench[-1, 2] > 0), abs(slip) > SLIPS * advance
 
 
 def finger_waypoints(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:

@@ -76,7 +76,7 @@ def predicted_pushes(
         "mu_omega_over_mu_v": {pair.name: float(ratios[pair.name]) for pair in pairs},
     }
     log = Log(path, lambda row: (row["pair"], row["push"]), header)
-    chunks = list(_chunks(pairs, pushes, log.found))
+    chunks = list(_chunks(pairs, pushes, log.by_key))
     calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
     total = sum(pushes[pair.name].number.size for pair in pairs)
     left = sum(len(tasks) for _, tasks in chunks)
@@ -89,7 +89,7 @@ def predicted_pushes(
             log.add(*rows)
             bar.update(len(rows))
     return {
-        pair.name: [log.found[pair.name, int(k)] for k in pushes[pair.name].number]
+        pair.name: [log.by_key[pair.name, int(k)] for k in pushes[pair.name].number]
         for pair in pairs
     }
 
@@ -101,8 +101,8 @@ def _chunks(
     pairs: Sequence[Pair], pushes: Mapping[str, Pushes], done: Mapping[Hashable, Row]
 ) -> Iterator[Chunk]:
     for pair in pairs:
-        own = pushes[pair.name]
-        every = zip(own.number.tolist(), own.before, own.path, strict=True)
+        of_pair = pushes[pair.name]
+        every = zip(of_pair.number.tolist(), of_pair.before, of_pair.path, strict=True)
         left = [task for task in every if (pair.name, task[0]) not in done]
         for k in range(0, len(left), CHUNK):
             yield pair.name, left[k : k + CHUNK]
@@ -124,10 +124,10 @@ def rows_of(
     """
     rows = []
     for number, pose, path in tasks:
-        found = prediction(scene, pose, path, certify)
+        end = prediction(scene, pose, path, certify)
         rows.append({
-            "pair": name, "push": number, "pose": found.pose, "steps": found.kinds,
-            "error_bound": found.error_bound, "sticks": found.sticks, "slides": found.slides,
+            "pair": name, "push": number, "pose": end.pose, "steps": end.kinds,
+            "error_bound": end.error_bound, "sticks": end.sticks, "slides": end.slides,
         })  # fmt: skip
     return rows
 

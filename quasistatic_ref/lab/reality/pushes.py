@@ -55,8 +55,8 @@ class Pushes:
     def every(self, step: int) -> "Pushes":
         """Every so manyth push, from the first."""
         other = None if self.published is None else self.published[::step]
-        own = self.before[::step], self.after[::step], self.path[::step]
-        return Pushes(self.number[::step], *own, other)
+        arrays = self.before[::step], self.after[::step], self.path[::step]
+        return Pushes(self.number[::step], *arrays, other)
 
 
 def pushes_read(folder: Path, pairs: list[Pair]) -> dict[str, Pushes]:
@@ -69,7 +69,7 @@ def pushes_read(folder: Path, pairs: list[Pair]) -> dict[str, Pushes]:
     """
     path = folder / "pushes.csv"
     table = table_read(path, COLUMNS, OTHERS, tuple(PAIR))
-    found = {}
+    pushes = {}
     for pair in pairs:
         rows = table.rows(pair.name)
         if not rows.size:
@@ -79,11 +79,11 @@ def pushes_read(folder: Path, pairs: list[Pair]) -> dict[str, Pushes]:
             problem = "must be whole numbers, each once"
             raise InputError(problem, file=path, field=f"{pair.name}, push")
         tips = table.array(rows, "tip_x0", "tip_y0", "tip_x1", "tip_y1")
-        found[pair.name] = Pushes(
+        pushes[pair.name] = Pushes(
             number.astype(np.int64),
             table.array(rows, "x0", "y0", "theta0"),
             table.array(rows, "x1", "y1", "theta1"),
             tips.reshape(-1, 2, 2),
             table.array(rows, *OTHERS) if all(name in table for name in OTHERS) else None,
         )
-    return found
+    return pushes

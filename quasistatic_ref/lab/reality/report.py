@@ -33,11 +33,11 @@ def reality_record(
         The predictions, in the same order.
     """
     kinds: Counter[str] = Counter()
-    for own in rows.values():
-        for row in own:
+    for of_pair in rows.values():
+        for row in of_pair:
             kinds.update(row["steps"])
-    bounds = [row["error_bound"] for own in rows.values() for row in own]
-    errors = {name: errors_of(poses(own), pushes[name]) for name, own in rows.items()}
+    bounds = [row["error_bound"] for of_pair in rows.values() for row in of_pair]
+    errors = {name: errors_of(poses(of_pair), pushes[name]) for name, of_pair in rows.items()}
     return {
         "format": "quasistatic-ref/reality-summary",
         "version": 1,
@@ -52,8 +52,8 @@ def reality_record(
 def predictions_text(rows: Mapping[str, Sequence[Row]]) -> str:
     """The predictions as CSV, seven digits: poses [m, rad], steps by certificate and by grip."""
     lines = ["surface,shape,push,x1,y1,theta1,exact,enclosure,sticks,slides"]
-    for name, own in rows.items():
-        for row in own:
+    for name, of_pair in rows.items():
+        for row in of_pair:
             pose = ",".join(f"{x:.7g}" for x in row["pose"])
             steps = ",".join(str(row["steps"].get(kind, 0)) for kind in ("exact", "enclosure"))
             grip = f"{row['sticks']},{row['slides']}"
@@ -61,11 +61,11 @@ def predictions_text(rows: Mapping[str, Sequence[Row]]) -> str:
     return "\n".join([*lines, ""])
 
 
-def identified_record(found: Identified | None) -> dict[str, Any]:
+def identified_record(identified: Identified | None) -> dict[str, Any]:
     """An identified ratio as plain data."""
-    if found is None:
+    if identified is None:
         return {"identifiable": False, "count": 0}
-    return vars(found) | {"identifiable": found.identifiable}
+    return vars(identified) | {"identifiable": identified.identifiable}
 
 
 def error_rows(record: Mapping[str, Any]) -> list[tuple[str, ...]]:
@@ -90,14 +90,14 @@ def certified_words(record: Mapping[str, Any]) -> str:
     total = sum(kinds.values())
     counts = ", ".join(f"{count:,} {kind}" for kind, count in kinds.items())
     bound = record["largest_error_bound"]
-    said = (
+    bounds_words = (
         "some have no error bound" if bound is None else f"the largest error bound is {bound:.1e}"
     )
-    return f"{total:,} steps: {counts}; {said}"
+    return f"{total:,} steps: {counts}; {bounds_words}"
 
 
 def identified_rows(
-    pairs: Sequence[Pair], found: Mapping[str, Identified | None]
+    pairs: Sequence[Pair], by_pair: Mapping[str, Identified | None]
 ) -> list[tuple[str, ...]]:
     """The table of identified ratios: one line a pair."""
     table: list[tuple[str, ...]] = [
@@ -105,17 +105,17 @@ def identified_rows(
          "published [mm]", "misfit", "mu_v N [N]", "verdict")
     ]  # fmt: skip
     for pair in pairs:
-        own = found[pair.name]
+        identified = by_pair[pair.name]
         published = "-" if pair.published is None else f"{1e3 * pair.published:.1f}"
-        if own is None:
+        if identified is None:
             table.append((pair.name, "0", *["-"] * 4, published, "-", "-", "not identifiable"))
             continue
         table.append((
-            pair.name, str(own.count), f"{1e3 * own.ratio:.1f}",
-            f"{1e3 * own.low:.1f} - {1e3 * own.high:.1f}",
-            f"{1e3 * own.drawn_low:.1f} - {1e3 * own.drawn_high:.1f}",
-            "-" if own.reverse is None else f"{1e3 * own.reverse:.1f}", published,
-            f"{own.misfit:.3f}", f"{own.friction:.2f}",
-            "identified" if own.identifiable else "not identifiable",
+            pair.name, str(identified.count), f"{1e3 * identified.ratio:.1f}",
+            f"{1e3 * identified.low:.1f} - {1e3 * identified.high:.1f}",
+            f"{1e3 * identified.drawn_low:.1f} - {1e3 * identified.drawn_high:.1f}",
+            "-" if identified.reverse is None else f"{1e3 * identified.reverse:.1f}", published,
+            f"{identified.misfit:.3f}", f"{identified.friction:.2f}",
+            "identified" if identified.identifiable else "not identifiable",
         ))  # fmt: skip
     return table

@@ -24,9 +24,9 @@ def random_contacts(rng: Rng, n_c: int, n_v: int, **fixed: Any) -> Contacts:
     mu_v = rng.uniform(0.1, 1.0, n_c)
     mu_omega = rng.uniform(0.001, 0.02, n_c)
     rows = rng.choice([4, 6], n_c)
-    found = contacts_of(phi, frames, J, mu_v, mu_omega, rows)
-    fields = {key: np.broadcast_to(v, getattr(found, key).shape) for key, v in fixed.items()}
-    return repeated(found, range(n_c), **fields)
+    contacts = contacts_of(phi, frames, J, mu_v, mu_omega, rows)
+    fields = {key: np.broadcast_to(v, getattr(contacts, key).shape) for key, v in fixed.items()}
+    return repeated(contacts, range(n_c), **fields)
 
 
 def spread_matrix(rng: Rng, n: int, size: float, ratio: float = 1.0) -> Array:
@@ -71,9 +71,9 @@ def divided(rng: Rng, step: StepData, classes: int) -> StepData:
     of_u = rng.integers(classes, size=step.n_u)
     contacts = step.contacts
     of_contact = rng.integers(classes, size=step.contacts.n_c)
-    own = of_contact[:, None, None] == np.concatenate([of_a, of_u])
+    coupled = of_contact[:, None, None] == np.concatenate([of_a, of_u])
     return step.replace(
         K_q=step.K_q * (of_a[:, None] == of_a),
         M_u=step.M_u * (of_u[:, None] == of_u),
-        contacts=repeated(contacts, range(contacts.n_c), J=contacts.J * own),
+        contacts=repeated(contacts, range(contacts.n_c), J=contacts.J * coupled),
     )

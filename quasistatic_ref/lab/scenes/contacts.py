@@ -55,9 +55,9 @@ def no_contacts(n_v: int) -> Contacts:
     return contacts_of((), (), np.zeros((0, 4, n_v)), (), (), ())
 
 
-def repeated(given: Contacts, index: Any, **changes: Any) -> Contacts:
+def repeated(every: Contacts, index: Any, **changes: Any) -> Contacts:
     """Some of the contacts, as often as their numbers occur, with some fields changed."""
-    fields = {key: getattr(given, key)[np.asarray(index, dtype=int)] for key in NUMBERS} | changes
+    fields = {key: getattr(every, key)[np.asarray(index, dtype=int)] for key in NUMBERS} | changes
     return Contacts(name=tuple(f"c{j}" for j in range(len(index))), **fields)
 
 

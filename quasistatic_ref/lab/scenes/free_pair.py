@@ -41,7 +41,7 @@ def capsule_and_box() -> tuple[System, ContactPair, Array]:
 def outline() -> dict[str, Array]:
     """What is drawn of it, seen along y: outlines (N, 3), closest points and axes (3,), [m, -]."""
     system, pair, q = capsule_and_box()
-    points, found = geometry(system, pair, q)
+    points, contacts = geometry(system, pair, q)
     at = system.kinematics(q)
     t = np.linspace(0, 2 * np.pi, 200)
     capsule = np.stack(
@@ -55,8 +55,8 @@ def outline() -> dict[str, Array]:
         "box": box @ at.R[two].T + at.t[two],
         "alpha": points.alpha[0],
         "beta": points.beta[0],
-        "n": found.n[0],
-        "d1": found.d1[0],
-        "d2": found.d2[0],
+        "n": contacts.n[0],
+        "d1": contacts.d1[0],
+        "d2": contacts.d2[0],
         "phi": points.phi,
     }

@@ -69,9 +69,9 @@ def loaded_pile(
     M_u = np.zeros((6 * len(masses), 6 * len(masses)))
     tau_u = np.zeros(6 * len(masses))
     for i, m in enumerate(masses):
-        own = np.arange(6 * i, 6 * i + 6)
-        M_u[own, own] = m * np.array([1.0, 1.0, 1.0, *[side * side / 6] * 3])
-        tau_u[own[2]] = -m * GRAVITY / unit
+        block = np.arange(6 * i, 6 * i + 6)
+        M_u[block, block] = m * np.array([1.0, 1.0, 1.0, *[side * side / 6] * 3])
+        tau_u[block[2]] = -m * GRAVITY / unit
     stiffness = 0.0 if spring is None else spring
     step = StepData(
         h=h,

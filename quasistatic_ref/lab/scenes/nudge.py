@@ -26,8 +26,8 @@ def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
         [m].
     """
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
-    own = on_link(system, "ball", shape)
-    pair = ContactPair("floor", world_plane(), own, MU_V, MU_OMEGA, 6, 1)
+    placed = on_link(system, "ball", shape)
+    pair = ContactPair("floor", world_plane(), placed, MU_V, MU_OMEGA, 6, 1)
     simulator = Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)))
     return FastSimulator(simulator), system.q_start
 
@@ -45,10 +45,10 @@ def nudged_ball(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulato
     hand = Body.of_shape("hand", Sphere(RADIUS), MASS, actuated=("base",), xyz=(*finger_at, RADIUS))
     ball = Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, RADIUS))
     system = System([hand, ball])
-    own = on_link(system, "ball", Sphere(RADIUS))
+    ball_shape = on_link(system, "ball", Sphere(RADIUS))
     pairs = [
-        ContactPair("floor", world_plane(), own, MU_V, MU_OMEGA, 6, 1),
-        ContactPair("push", on_link(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("floor", world_plane(), ball_shape, MU_V, MU_OMEGA, 6, 1),
+        ContactPair("push", on_link(system, "hand", finger), ball_shape, MU_V, MU_OMEGA, 6, 1),
     ]
     K_q = np.diag([2000.0] * 3 + [20.0] * 3)
     return FastSimulator(Simulator(system, pairs, h=H, K_q=K_q)), system.q_start

@@ -66,7 +66,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path] = ()) -
     if Path(uri).suffix.lower() not in MESHES:
         hint = suggestion(Path(uri).suffix.lower(), MESHES)
         raise ModelError(f"is not a known kind of mesh{hint}", value=uri)
-    packages = [Path(given) for given in package_dirs]
+    packages = [Path(folder_name) for folder_name in package_dirs]
     if uri.startswith(PACKAGE):
         inside = uri.removeprefix(PACKAGE).lstrip("/")
         name, _, below = inside.partition("/")

@@ -31,7 +31,7 @@ from quasistatic_ref.tolerances import LOADED
 
 BASE = "base"
 """Name of the joint of a base that moves."""
-OWN = {kind: joint for kind, joint in JOINTS.items() if issubclass(joint, TwistJoint)}
+NOT_IN_URDF = {kind: joint for kind, joint in JOINTS.items() if issubclass(joint, TwistJoint)}
 """Joints of files that URDF does not have."""
 
 
@@ -132,7 +132,7 @@ def urdf_model(text: str, base: str) -> pin.Model:
     """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base].pinocchio(), BASE)
     readable, names, kinds = _readable(text)
-    model = _with_own_joints(pin.buildModelFromXML(readable, *root, mimic=True), kinds)
+    model = _with_twist_joints(pin.buildModelFromXML(readable, *root, mimic=True), kinds)
     for number in range(1, model.njoints):
         model.names[number] = names.get(model.names[number], model.names[number])
     for frame in model.frames:
@@ -153,12 +153,12 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
     ModelError
         If there are such joints and mimic joints, whose copies in pinocchio point to the first.
     """
-    if not any(word in text for word in ("mimic", *OWN)):  # which saves the time of most
+    if not any(word in text for word in ("mimic", *NOT_IN_URDF)):  # which saves the time of most
         return text, {}, {}
     robot = ElementTree.fromstring(text)
     kinds = {}
     for joint in robot.findall("joint"):
-        kind = OWN.get(joint.attrib["type"])
+        kind = NOT_IN_URDF.get(joint.attrib["type"])
         if kind is not None:
             kinds[joint.attrib["name"]] = kind
             joint.set("type", "floating")
@@ -176,15 +176,15 @@ def _readable(text: str) -> tuple[str, dict[str, str], dict[str, type[TwistJoint
     return ElementTree.tostring(robot, encoding="unicode"), names, kinds
 
 
-def _with_own_joints(model: pin.Model, own: dict[str, type[TwistJoint]]) -> pin.Model:
+def _with_twist_joints(model: pin.Model, kinds: dict[str, type[TwistJoint]]) -> pin.Model:
     """The model with joints that URDF does not have, by their names, in the place of others."""
-    if not own:
+    if not kinds:
         return model
     made = pin.Model()
     made.appendBodyToJoint(0, model.inertias[0], pin.SE3.Identity())
     for i in range(1, model.njoints):
         name = model.names[i]
-        joint = own[name].pinocchio() if name in own else model.joints[i]
+        joint = kinds[name].pinocchio() if name in kinds else model.joints[i]
         made.addJoint(model.parents[i], joint, model.jointPlacements[i], name)
         made.appendBodyToJoint(i, model.inertias[i], pin.SE3.Identity())
     scalar = [i for i in range(1, model.njoints) if model.nqs[i] == 1]

@@ -125,7 +125,7 @@ class UrdfFile:
     notes: tuple[str, ...] = ()
 
 
-def urdf_file(given: str | Path) -> UrdfFile:
+def urdf_file(source: str | Path) -> UrdfFile:
     """Content of a URDF file, or of a string that is a URDF: one that begins with ``<``.
 
     Raises
@@ -134,11 +134,11 @@ def urdf_file(given: str | Path) -> UrdfFile:
         If it is missing or malformed, contradicts itself, or says something that the model
         has no place for; the message names the file, the element and the value.
     """
-    if isinstance(given, str) and given.lstrip().startswith("<"):
+    if isinstance(source, str) and source.lstrip().startswith("<"):
         path = Path("<robot>")
-        text = given
+        text = source
     else:
-        path = Path(given)
+        path = Path(source)
         text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
     with about_file(path):
         return _content(path, text)

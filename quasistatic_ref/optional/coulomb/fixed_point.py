@@ -74,7 +74,7 @@ class CoulombSolution(StepSolution):
 
     Parameters
     ----------
-    found : bool
+    converged : bool
         Whether s is its own, to within 1e-12 of the longest motion of a contact. If not, nothing is
         claimed of the step under Coulomb's law: neither that it has a solution nor that it has
         none.
@@ -89,7 +89,7 @@ class CoulombSolution(StepSolution):
         The step as it was given, with phi.
     """
 
-    found: bool
+    converged: bool
     s: Array
     s_residual: float
     s_iterations: int
@@ -135,7 +135,7 @@ def coulomb_step(
     Examples
     --------
     >>> step = qr.load_scenario("block_push", steps=1).run(progress=False).step_data(0)
-    >>> qr.coulomb_step(step).found
+    >>> qr.coulomb_step(step).converged
     True
     """
     contacts = step.contacts
@@ -150,7 +150,7 @@ def coulomb_step(
     end = iteration.end(s, most)
     return CoulombSolution(
         **field_values(end.solution),
-        found=end.found,
+        converged=end.converged,
         s=read_only(end.s),
         s_residual=end.residual,
         s_iterations=iteration.count,
@@ -163,19 +163,19 @@ class Iterate(NamedTuple):
 
     Parameters
     ----------
-    s, own : ndarray, shape (n_c,)
+    s, slip : ndarray, shape (n_c,)
         What phi was raised by, and the norm of the slips that came of it [m].
     residual : float
         The largest difference of the two [m].
-    found : bool
+    converged : bool
         Whether that is rounding.
     solution : StepSolution
     """
 
     s: Array
-    own: Array
+    slip: Array
     residual: float
-    found: bool
+    converged: bool
     solution: StepSolution
 
 
@@ -201,10 +201,10 @@ class Iteration:
         self.count += 1
         raised = self.step.replace(contacts=self.step.contacts.raised(s))
         solution = solve_step(raised, self.solver, accuracy=self.accuracy)
-        own = slip_norms(self.step.contacts, solution.delta_q, self.step.cone)
-        residual = largest(np.abs(own - s))
+        slip = slip_norms(self.step.contacts, solution.delta_q, self.step.cone)
+        residual = largest(np.abs(slip - s))
         longest = largest(longest_slips(self.step, solution.delta_q))
-        return Iterate(s, own, residual, residual <= COULOMB_RESIDUAL * longest, solution)
+        return Iterate(s, slip, residual, residual <= COULOMB_RESIDUAL * longest, solution)
 
     def end(self, s: Array, most: int) -> Iterate:
         """The fixed point that `s`, shape (n_c,) [m], leads to, or the last of `most` iterates.
@@ -215,13 +215,13 @@ class Iteration:
         """
         last = self.at(s)
         kept = [last]
-        while not last.found and self.count < most:
+        while not last.converged and self.count < most:
             ahead = extrapolated(kept)
             tried = None if ahead is None else self.at(ahead)
             if tried is not None and tried.residual <= GAIN * last.residual:
                 last = tried
             elif self.count < most:
-                last = self.at(last.own)
+                last = self.at(last.slip)
             kept = [*kept[1 - MEMORY :], last]
         return last
 
@@ -231,14 +231,14 @@ def extrapolated(iterates: Sequence[Iterate]) -> Array | None:
 
     Least squares take the place of an equation; None of one iterate, or if nothing is gained.
     """
-    off = np.array([x.own - x.s for x in iterates])
-    own = np.array([x.own for x in iterates])
+    off = np.array([x.slip - x.s for x in iterates])
+    slips = np.array([x.slip for x in iterates])
     if len(iterates) == 1:
         return None
     changes = np.diff(off, axis=0).T
     share = np.linalg.lstsq(changes, off[-1], rcond=EXTRAPOLATED)[0]
-    s = np.maximum(own[-1] - np.diff(own, axis=0).T @ share, 0.0)
-    return None if np.array_equal(s, own[-1]) else s
+    s = np.maximum(slips[-1] - np.diff(slips, axis=0).T @ share, 0.0)
+    return None if np.array_equal(s, slips[-1]) else s
 
 
 def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> CoulombSolution:
@@ -257,7 +257,7 @@ def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> Coulo
         If no solution is found.
     """
     solution = coulomb_step(step, solver, accuracy=accuracy)
-    if not solution.found:
+    if not solution.converged:
         raise NoFixedPoint(step, solution.s_iterations, solution.s_residual)
     return solution
 

@@ -210,12 +210,12 @@ def _widest(every: list[Judged], last: Judged | None = None) -> Judged:
     tolerance alone, which a gap and a normal that are right to rounding do not show.
     """
     for tolerance in (ENOUGH, WITNESS):
-        proved = [found for found in every if found.defect <= tolerance]
+        proved = [answer for answer in every if answer.defect <= tolerance]
         if proved:  # no gap exceeds the distance
-            widest = max(found.phi for found in proved)
-            level = [found for found in proved if found.phi >= widest - tolerance]
-            return min(level, key=lambda found: (found is last, found.defect))
-    return min(every, key=lambda found: found.defect)
+            widest = max(answer.phi for answer in proved)
+            level = [answer for answer in proved if answer.phi >= widest - tolerance]
+            return min(level, key=lambda answer: (answer is last, answer.defect))
+    return min(every, key=lambda answer: answer.defect)
 
 
 def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
@@ -234,9 +234,9 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
         )  # fmt: skip
         alpha = np.array(result.getNearestPoint1())
         beta = np.array(result.getNearestPoint2())
-        found = judged(a, b, phi, alpha, beta, np.array(result.normal))
-        if best is None or found.defect < best.defect:
-            best = found
+        answer = judged(a, b, phi, alpha, beta, np.array(result.normal))
+        if best is None or answer.defect < best.defect:
+            best = answer
         if best.defect <= SUPPORT_DEFECT * np.abs(a.t - b.t).max():
             break
     assert best is not None
@@ -274,18 +274,18 @@ def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> tuple[Judged
     known = _refined(a, b, n, size)
     best = max((first, known), key=lambda answer: (answer.defect <= WITNESS, answer.phi))
     rivals = rival_directions(a, b, best.n if best.defect <= WITNESS else n, best.phi, size)
-    found = [known, *(_refined(a, b, way, size) for way in rivals)]
-    for answer in found:
+    answers = [known, *(_refined(a, b, way, size) for way in rivals)]
+    for answer in answers:
         if answer.defect <= WITNESS and answer.phi > best.phi:
             best = answer
     # No gap exceeds the signed distance: where one does, the way out was not found.
     if rivals and gaps(a, b, np.array(rivals)).max() > best.phi + WITNESS:
-        return best._replace(defect=np.inf), found
+        return best._replace(defect=np.inf), answers
     # A way out that was not followed to its end, but may be the shorter one, decides nothing.
-    open_ends = [way for way in found[1:] if way.phi + way.defect > best.phi + WITNESS]
+    open_ends = [way for way in answers[1:] if way.phi + way.defect > best.phi + WITNESS]
     if any(way.n @ best.n < SAME for way in open_ends):
-        return best._replace(defect=np.inf), found
-    return best, found
+        return best._replace(defect=np.inf), answers
+    return best, answers
 
 
 def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
@@ -305,9 +305,9 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
             break
         before = n
         n = parted.n
-        found = _best(a, b, judged(a, b, _gap(a, b, n), parted.alpha, parted.beta - shift, n))
-        if found.defect < best.defect:
-            best = found
+        refined = _best(a, b, judged(a, b, _gap(a, b, n), parted.alpha, parted.beta - shift, n))
+        if refined.defect < best.defect:
+            best = refined
         if best.defect <= ENOUGH:
             break
         # A slow approach keeps its direction: take twice as long a step.

@@ -112,17 +112,17 @@ def curvature(solid: ShapeInWorld, n: Array) -> Array:
         Unit vector in the world frame [-].
     """
     shape = solid.shape
-    own = solid.R.T @ n
+    local = solid.R.T @ n
     match shape:
         case Ellipsoid():
-            D = shape.curvature(own)
+            D = shape.curvature(local)
         case Capsule():
-            D = shape.radius * (np.eye(3) - np.outer(own, own))
+            D = shape.radius * (np.eye(3) - np.outer(local, local))
         case Cylinder() | Cone():
-            radial = np.hypot(own[0], own[1])
+            radial = np.hypot(local[0], local[1])
             # Of a cone the very point that is taken for farthest decides, not another rounding.
-            on_rim = isinstance(shape, Cylinder) or shape.support_point(own)[2] < 0
-            around = np.array([-own[1], own[0], 0.0]) / (radial or 1.0)
+            on_rim = isinstance(shape, Cylinder) or shape.support_point(local)[2] < 0
+            around = np.array([-local[1], local[0], 0.0]) / (radial or 1.0)
             D = shape.radius * on_rim / (radial or np.inf) * np.outer(around, around)
         case _:
             D = np.zeros((3, 3))
@@ -182,20 +182,20 @@ def face(solid: ShapeInWorld, n: Array) -> Face:
         Unit vector in the world frame [-].
     """
     shape = solid.shape
-    own = solid.R.T @ n
+    local = solid.R.T @ n
     corners = solid.farthest(n)[None]
     radius = 0.0
     match shape:
-        case Cylinder() | Cone() if kinks(shape).near(own, FLAT).normals.size:
-            corners = solid.t[None] + np.sign(own[2]) * shape.half_length * solid.R[None, :, 2]
+        case Cylinder() | Cone() if kinks(shape).near(local, FLAT).normals.size:
+            corners = solid.t[None] + np.sign(local[2]) * shape.half_length * solid.R[None, :, 2]
             radius = shape.radius
-        case Capsule() | Cylinder() if abs(own[2]) <= FLAT:
+        case Capsule() | Cylinder() if abs(local[2]) <= FLAT:
             half = shape.half_length * solid.R[:, 2]
-            middle = solid.t + shape.radius * (n - own[2] * solid.R[:, 2])
+            middle = solid.t + shape.radius * (n - local[2] * solid.R[:, 2])
             corners = np.stack([middle - half, middle + half])
-        case Cone() if abs(own[2] - kinks(shape).levels[0]) <= FLAT:
+        case Cone() if abs(local[2] - kinks(shape).levels[0]) <= FLAT:
             tip = shape.half_length * solid.R[:, 2]
-            level = n - own[2] * solid.R[:, 2]
+            level = n - local[2] * solid.R[:, 2]
             rim = shape.radius * level / np.sqrt(level @ level) - tip
             corners = solid.t + np.stack([rim, tip])
         case Box() | ConvexMesh():

@@ -65,13 +65,13 @@ def curve_crossings(
     """
     on_a = touching(a, alpha, n)
     on_b = touching(b, beta, -n)
-    found = [
+    crossings = [
         edge_crossings(on_a.straight, on_b.straight, n),
         _edge_and_rim(on_a, on_b, n),
         _edge_and_rim(on_b, on_a, n, swapped=True),
         _rims(on_a, on_b, n, float(dot(beta - alpha, n))),
     ]
-    return Crossings(*map(np.concatenate, zip(*found, strict=True)))
+    return Crossings(*map(np.concatenate, zip(*crossings, strict=True)))
 
 
 def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:

@@ -80,10 +80,10 @@ def _newton(n: Array, step: Callable[[Array], tuple[Array, float] | None]) -> It
     """The limit of steps, which return the next n and the length of the step; None: no maximum."""
     last = np.inf
     for _ in range(STEPS):
-        found = step(n)
-        if found is None:
+        move = step(n)
+        if move is None:
             return
-        n, length = found
+        n, length = move
         # Down to rounding the steps shrink, there they stay as they are.
         if length >= last and length < 1e-9:
             break

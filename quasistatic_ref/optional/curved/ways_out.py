@@ -59,10 +59,10 @@ def rival_directions(
     near = sharp @ sphere.T > NEAR
     sharp_peaks = (np.where(near, spread_gaps, -np.inf) <= sharp_gaps[:, None]).all(axis=1)
     directions = np.concatenate([sphere[peaks], sharp[sharp_peaks]])
-    found = np.concatenate([spread_gaps[peaks], sharp_gaps[sharp_peaks]])
+    peak_gaps = np.concatenate([spread_gaps[peaks], sharp_gaps[sharp_peaks]])
     chosen = [first]
-    for k in np.argsort(-found, kind="stable"):
-        if found[k] <= phi - REACH * size or len(chosen) > STARTS:
+    for k in np.argsort(-peak_gaps, kind="stable"):
+        if peak_gaps[k] <= phi - REACH * size or len(chosen) > STARTS:
             break
         if all(directions[k] @ other < APART for other in chosen):
             chosen.append(directions[k])
@@ -72,21 +72,21 @@ def rival_directions(
 def sharp_directions(solid: ShapeInWorld) -> Array:
     """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
     flat = polytope(solid.shape)
-    own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
-    return own @ solid.R.T
+    normals = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
+    return normals @ solid.R.T
 
 
-def known_gaps(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
+def known_gaps(a: ShapeInWorld, b: ShapeInWorld, nearest: Witness) -> tuple[Array, Array]:
     """Gaps, (N,) [m], along the normals (N, 3) of faces at the closest points, and along axes.
 
     Parameters
     ----------
     a, b : ShapeInWorld
-    found : Witness
+    nearest : Witness
         Their closest points.
     """
     ways = [sharp_directions(a), -sharp_directions(b)]
-    for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):
+    for solid, end, sign in ((a, nearest.alpha, 1.0), (b, nearest.beta, -1.0)):
         _, normals = solid.shape.faces(product(end - solid.t, solid.R)[None])
         ways.append(sign * product(normals[0], solid.R.T))
     every = np.concatenate(ways)

@@ -69,8 +69,8 @@ def data_rates(
     load = np.concatenate([*loads.values()], axis=1)
     places = {}
     stop = 0
-    for name, own in loads.items():
-        places[name] = slice(stop, stop + own.shape[1])
+    for name, columns in loads.items():
+        places[name] = slice(stop, stop + columns.shape[1])
         stop = places[name].stop
 
     parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
@@ -100,11 +100,11 @@ def _pull(
     y: Array,
 ) -> Array:
     """Derivatives by all parameters of what multipliers y (n_c, 4) exert, shape (n_v, P)."""
-    found = np.zeros(shape)
-    found[:, places["dq_dq"]] = rows.pull(y)
+    pull = np.zeros(shape)
+    pull[:, places["dq_dq"]] = rows.pull(y)
     for name, J in by_friction.items():
-        found[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
-    return found
+        pull[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
+    return pull
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:

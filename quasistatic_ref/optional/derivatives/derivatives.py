@@ -81,8 +81,8 @@ def derivatives(
     --------
     >>> scenario = qr.load_scenario("sphere_spin")
     >>> simulator, q = scenario.simulator(), scenario.system.q_start
-    >>> found = qr.derivatives(simulator, q, [])
-    >>> found.differentiable
+    >>> rates = qr.derivatives(simulator, q, [])
+    >>> rates.differentiable
     True
     """
     check_derivable(simulator)
@@ -99,14 +99,14 @@ def derivatives(
         one = combined(rates.data, directed(rates.places, towards, "towards"))
         equations = Equations(equations.beyond(one))
     touching = equations.of
-    found = reach.rates if touching is reach.touching else equations.rates(rates.data)
+    x_rates = reach.rates if touching is reach.touching else equations.rates(rates.data)
 
     obstacles = [
         *geometry_obstacles(simulator, rates, touching, out_of_reach(simulator, rates)),
         *target_obstacles(simulator, rates),
-        *row_obstacles(simulator, rates, touching, found, {*map(tuple, near)}),
+        *row_obstacles(simulator, rates, touching, x_rates, {*map(tuple, near)}),
     ]
-    return gradient(rates, found.x, obstacles, equations.along, reach)
+    return gradient(rates, x_rates.x, obstacles, equations.along, reach)
 
 
 def check_nearly(nearly: float) -> None:

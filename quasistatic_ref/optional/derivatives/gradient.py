@@ -121,17 +121,17 @@ class Derivatives(Shown, Plain):
     @property
     def reaches(self) -> dict[str, tuple[NextKink, ...]]:
         """How far each column holds to both sides, by field; computed when it is read."""
-        found = {}
+        reaches = {}
         for name, place in self._rates.places.items():
             missing = np.isnan(getattr(self, name)).reshape(len(self.dq_dq), -1).any(axis=0)
             ahead = (self._ahead(p, name, bad) for p, bad in enumerate(missing, place.start))
-            found[name] = tuple(ahead)
-        return found
+            reaches[name] = tuple(ahead)
+        return reaches
 
     @property
     def reach(self) -> float:
         """The least of these distances, in natural units [-]; computed when it is read."""
-        distances = np.array([kink.distance for own in self.reaches.values() for kink in own])
+        distances = np.array([kink.distance for kinks in self.reaches.values() for kink in kinks])
         units = self._rates.units
         some = units > 0  # that of a link without mass is zero: no change of it matters
         return float((distances[some] / units[some]).min(initial=np.inf))
@@ -153,9 +153,11 @@ class Derivatives(Shown, Plain):
         """A direction of all parameters, shape (P,), and the rates of the data along it."""
         direction = directed(self._rates.places, directions, where)
         used = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
-        for found in self.reasons:
-            if found.kind not in reason.ONE_SIDED and used & set(found.fields):
-                raise InputError("has no one-sided derivative here: " + found.sentence, field=where)
+        for obstacle in self.reasons:
+            if obstacle.kind not in reason.ONE_SIDED and used & set(obstacle.fields):
+                raise InputError(
+                    "has no one-sided derivative here: " + obstacle.sentence, field=where
+                )
         return direction, combined(self._rates.data, direction)
 
 
@@ -214,7 +216,9 @@ def directed(places: Places, directions: Mapping[str, Array | float], where: str
     InputError
         If a name or a shape is wrong, or a number is not finite.
     """
-    widths = {name.removeprefix("dq_d"): own.stop - own.start for name, own in places.items()}
+    widths = {
+        name.removeprefix("dq_d"): columns.stop - columns.start for name, columns in places.items()
+    }
     for name in directions:
         if name not in widths:
             raise InputError(f"must be one of {', '.join(widths)}", field=where, value=name)

@@ -39,7 +39,7 @@ def geometry_obstacles(
     contacts = step.contacts
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
-    found = []
+    obstacles = []
     for j, kind, says in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
         jumps = kind not in reason.SMOOTH_POINTS
         if j not in felt and (not jumps or safe[j]):
@@ -52,8 +52,8 @@ def geometry_obstacles(
         blurred = kind != reason.CROSSING and rates.contacts.blurred[j]
         fields = tuple(rates.places) if blurred else FIELDS
         name = contacts.name[j]
-        found.append(rates.obstacle(kind, (name,), fields, f"{name} {says}"))
-    return [*found, *_ties(simulator, rates, safe)]
+        obstacles.append(rates.obstacle(kind, (name,), fields, f"{name} {says}"))
+    return [*obstacles, *_ties(simulator, rates, safe)]
 
 
 def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstacle]:
@@ -61,17 +61,17 @@ def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstac
     kept = rates.couples
     at = 0
     for pair in simulator.pairs:
-        own = slice(at, at + pair.n_c)
+        places = slice(at, at + pair.n_c)
         at += pair.n_c
-        if safe[own].all():
+        if safe[places].all():
             continue
-        points = rates.result.points.chosen(np.arange(own.start, own.stop))
-        inside, outside = tied_points(kept[own], points)
+        points = rates.result.points.chosen(np.arange(places.start, places.stop))
+        inside, outside = tied_points(kept[places], points)
         if outside:
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
             says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
             yield rates.obstacle(reason.POINTS, where, FIELDS, says)
-        jump = spare_pair(kept[own], points, rates.motion.J)
+        jump = spare_pair(kept[places], points, rates.motion.J)
         if jump is not None:
             yield rates.obstacle(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
 

@@ -37,7 +37,7 @@ def row_obstacles(
     simulator: Simulator,
     rates: StepRates,
     touching: Touching,
-    found: OptimumRates,
+    optimum_rates: OptimumRates,
     near: Set[tuple[int, ...]],
 ) -> list[Obstacle]:
     """Rows that stand in the way of some parameters.
@@ -47,7 +47,7 @@ def row_obstacles(
     simulator : Simulator
     rates : StepRates
     touching : Touching
-    found : OptimumRates
+    optimum_rates : OptimumRates
     near : set of (int, int)
         Contact and row of those that nearly touch, or nearly bear no load.
     """
@@ -60,11 +60,11 @@ def row_obstacles(
         fields = tuple(name for name, place in rates.places.items() if bad[place].any())
         obstacles.append(Obstacle(Reason(kind, where, fields, sentence), bad))
 
-    for contacts, bad in found.contradicts.items():
+    for contacts, bad in optimum_rates.contradicts.items():
         where = tuple(names[j] for j in contacts)
         says = f"the equations of {listed(where)} would contradict each other"
         add(reason.CONTRADICTION, where, bad, says)
-    for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
+    for (j, i), bad in zip(touching.idle.tolist(), optimum_rates.opens, strict=True):
         if bad.any():
             row = f"row {row_names[i]} of {names[j]}"
             kind = reason.WEAK

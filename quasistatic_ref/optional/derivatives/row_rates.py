@@ -67,10 +67,10 @@ class RowRates:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
         twists = (self.motion.J @ x)[self.links]
         d_twists = self.motion.twist_rates(x)[self.links]
-        found = np.einsum("sjaik,sja->jik", self.d_screws, twists)
-        found += (self.screws.transpose(0, 1, 3, 2) @ d_twists).sum(axis=0)
-        found[:, 0] += self.rates.phi
-        return np.asarray(found)
+        motion_rates = np.einsum("sjaik,sja->jik", self.d_screws, twists)
+        motion_rates += (self.screws.transpose(0, 1, 3, 2) @ d_twists).sum(axis=0)
+        motion_rates[:, 0] += self.rates.phi
+        return np.asarray(motion_rates)
 
     @property
     def terms(self) -> Array:

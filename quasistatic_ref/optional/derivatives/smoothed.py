@@ -77,14 +77,16 @@ def smoothed(
     kinematics = simulator.system.kinematics(q)
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
-    found = barrier_step(step, kappa)
-    if not np.abs(found.x).max(initial=0.0) < FILLED:
+    barrier = barrier_step(step, kappa)
+    if not np.abs(barrier.x).max(initial=0.0) < FILLED:
         raise InputError(
             "is so large that it pushes bodies out of range", field="kappa", value=kappa
         )
     statistics = SolverStatistics("barrier", "solved", None, None, kappa, interface="none")
-    solution = step_solution(step, found.x, found.lam, Certificate("none"), statistics, alone=False)
-    q_next = simulator.system.integrate(q, found.x)
+    solution = step_solution(
+        step, barrier.x, barrier.lam, Certificate("none"), statistics, alone=False
+    )
+    q_next = simulator.system.integrate(q, barrier.x)
     result = StepResult(q_next, step, solution, points, {})
     rates = StepRates(simulator, q, result)
 
@@ -93,6 +95,6 @@ def smoothed(
         *geometry_obstacles(simulator, rates, None, nowhere),
         *target_obstacles(simulator, rates),
     ]
-    x = barrier_rates(step, found, rates.data)
-    along = partial(barrier_rates, step, found)
+    x = barrier_rates(step, barrier, rates.data)
+    along = partial(barrier_rates, step, barrier)
     return gradient(rates, x, obstacles, along, None)

@@ -40,7 +40,7 @@ BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")
 
 AT_KINKS = ("raise", "one-sided", "smoothed")
 
-Found = Callable[[Array, Array, Array, float], Derivatives]
+Differentiate = Callable[[Array, Array, Array, float], Derivatives]
 """q, q_bar_a, force, kappa -> the step with its derivatives."""
 
 
@@ -145,10 +145,10 @@ def smoothed_jax(simulator: Simulator) -> Callable[..., Any]:
     True
     """
 
-    def found(q: Array, q_bar_a: Array, force: Array, kappa: float) -> Derivatives:
+    def derivatives_at(q: Array, q_bar_a: Array, force: Array, kappa: float) -> Derivatives:
         return smoothed(simulator, q, q_bar_a, kappa, force)
 
-    step = _differentiable(simulator, found, None)
+    step = _differentiable(simulator, derivatives_at, None)
     return lambda q, q_bar_a, kappa, force=0.0: step(q, q_bar_a, force, kappa)
 
 
@@ -164,7 +164,7 @@ def jax_package() -> ModuleType:
 
 
 def _differentiable(
-    simulator: Simulator, found: Found, instead: Found | None
+    simulator: Simulator, derivatives_at: Differentiate, instead: Differentiate | None
 ) -> Callable[..., Any]:
     """A function of (q, q_bar_a, force, kappa) for JAX; at kinks its derivatives are others."""
     check_derivable(simulator)
@@ -182,25 +182,25 @@ def _differentiable(
     thread = ThreadPoolExecutor(1)
     thread.submit(check_arithmetic).result()
 
-    def alone(names: tuple[str, ...], *given: Array) -> tuple[Array, ...]:
+    def alone(names: tuple[str, ...], *arguments: Array) -> tuple[Array, ...]:
         rates_too = ",(q,by_q),(q,by_a),(q,by_v)" if names else ""
         # Of vmap, one inside of another, there are more axes in front.
         each = np.vectorize(
-            partial(_rates, system, found, instead, names),
+            partial(_rates, system, derivatives_at, instead, names),
             signature=f"(q),(a),(v),()->(q),(kinds){rates_too}",
         )
         with system.lock:  # a system is for one thread, and each function has its own
-            return tuple(each(*given))
+            return tuple(each(*arguments))
 
     @cache  # JAX compiles the call of each function once
     def outside(names: tuple[str, ...]) -> Callable[..., tuple[Array, ...]]:
-        return lambda *given: thread.submit(alone, names, *map(np.asarray, given)).result()
+        return lambda *arguments: thread.submit(alone, names, *map(np.asarray, arguments)).result()
 
-    def called(names: tuple[str, ...], *given: Any) -> Any:
-        if not any(isinstance(one, jax.core.Tracer) for one in given):
-            return tuple(map(jax.numpy.asarray, alone(names, *map(np.asarray, given))))
+    def called(names: tuple[str, ...], *arguments: Any) -> Any:
+        if not any(isinstance(one, jax.core.Tracer) for one in arguments):
+            return tuple(map(jax.numpy.asarray, alone(names, *map(np.asarray, arguments))))
         what = ends + (matrices if names else ())
-        return jax.pure_callback(outside(names), what, *given, vmap_method="broadcast_all")
+        return jax.pure_callback(outside(names), what, *arguments, vmap_method="broadcast_all")
 
     def rule(primals: tuple[Any, ...], tangents: tuple[Any, ...]) -> Any:
         *moves, by_kappa = [not isinstance(tangent, symbolic) for tangent in tangents]
@@ -212,7 +212,7 @@ def _differentiable(
         none = jax.custom_derivatives.zero_from_primal(verdict, symbolic_zeros=True)
         return (q_next, verdict), (change, none)
 
-    def twice(*given: Any) -> Any:
+    def twice(*arguments: Any) -> Any:
         problem = "has no second derivative: JAX has the first ones as numbers, take differences"
         raise InputError(problem, field="step in JAX")
 
@@ -221,13 +221,13 @@ def _differentiable(
     once = jax.custom_jvp(called, nondiff_argnums=(0,))
     once.defjvp(twice)
 
-    def checked(*given: Any) -> Any:
-        traced = any(isinstance(one, jax.core.Tracer) for one in given)
+    def checked(*arguments: Any) -> Any:
+        traced = any(isinstance(one, jax.core.Tracer) for one in arguments)
         arrays = jax.numpy if traced else np
-        force = given[2]
+        force = arguments[2]
         if not isinstance(force, jax.core.Tracer) and np.ndim(force) == 0 and force == 0:
-            given = (*given[:2], np.zeros(system.n_v), given[3])
-        named = zip(ARGUMENTS, given, sizes, strict=True)
+            arguments = (*arguments[:2], np.zeros(system.n_v), arguments[3])
+        named = zip(ARGUMENTS, arguments, sizes, strict=True)
         numbers = tuple(_checked(jax, arrays, *one) for one in named)
         return step(*numbers) if traced else called((), *numbers)
 
@@ -263,14 +263,15 @@ def _checked(
 
 
 def _rates(
-    system: System, found: Found, instead: Found | None, names: tuple[str, ...],
+    system: System, derivatives_at: Differentiate, instead: Differentiate | None,
+    names: tuple[str, ...],
     q: Array, q_bar_a: Array, force: Array, kappa: Array,
 ) -> tuple[Array, ...]:  # fmt: skip
     """Where the step ends, its verdict, and the derivatives by the entries of `names`."""
     at = system.checked(normalised(system.joints, q))
     whole = system.with_actuated(at, q_bar_a)
     goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
-    of = found(at, goal, force, float(kappa))
+    of = derivatives_at(at, goal, force, float(kappa))
     kinds = {why.kind for why in _lacking(of, BY)}
     end = of.result.q
     verdict = np.array([kind in kinds for kind in KINDS])
@@ -284,8 +285,8 @@ def _rates(
     back = np.linalg.pinv(entry_rates(system.joints, q))
     aim = np.linalg.pinv(entry_rates(system.joints, whole)[: system.n_q_a, : system.n_a])
     by = (back, aim, np.eye(system.n_v))
-    given = [onto @ getattr(of, name) @ own for name, own in zip(BY, by, strict=True)]
-    return end, verdict, *given
+    products = [onto @ getattr(of, name) @ entries for name, entries in zip(BY, by, strict=True)]
+    return end, verdict, *products
 
 
 def _lacking(of: Derivatives, names: tuple[str, ...]) -> tuple[Reason, ...]:

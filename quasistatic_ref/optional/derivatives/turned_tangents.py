@@ -55,14 +55,14 @@ def _turns(n: Array, d1: Array, d2: Array) -> list[Array]:
     """
     size = np.abs(n)
     tied = np.flatnonzero(size - size.min() <= TIED)
-    found = []
+    turns = []
     for axis in np.eye(3)[tied[tied != size.argmin()]]:
         across = axis - (axis @ n) * n
         across = across / np.sqrt(across @ across)
         turn = np.eye(4)
         turn[1:3, 1:3] = np.stack([across, np.cross(n, across)]) @ np.stack([d1, d2], axis=1)
-        found.append(turn)
-    return found
+        turns.append(turn)
+    return turns
 
 
 def _inside(table: Array, load: Array) -> bool:

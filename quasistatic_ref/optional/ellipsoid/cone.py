@@ -185,17 +185,17 @@ def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
     k = 4 * len(mu)
     s = slack[:k].reshape(-1, 4)
     f = lam[:k].reshape(-1, 4)
-    own = slack[k:]
-    own_lam = lam[k:]
+    extra_slack = slack[k:]
+    extra_lam = lam[k:]
     scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
     without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
     short = np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0]  # Eq. (10)
     pull = np.linalg.norm(scaled, axis=1) - f[:, 0]  # Eq. (11)
     work = np.sum(s * f, axis=1)  # Eq. (12)
     return (
-        np.concatenate([short, -own]),
-        np.concatenate([pull, without.ravel(), -own_lam]),
-        np.concatenate([work, own * own_lam]),
+        np.concatenate([short, -extra_slack]),
+        np.concatenate([pull, without.ravel(), -extra_lam]),
+        np.concatenate([work, extra_slack * extra_lam]),
     )
 
 
@@ -220,18 +220,18 @@ def _not_enclosed(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
     """Return a point next to the optimum [m, rad], and what is wrong with the claim."""
-    found = checked_pair(step)
-    if found is None:
+    pair = checked_pair(step)
+    if pair is None:
         return [], "no displacement strictly inside of all cones was found"
     with working_precision(BITS):
-        error = enclosed_error(form, found, delta_q)
+        error = enclosed_error(form, pair, delta_q)
         claimed = claims.error_bound
     reason = wrong_claim("active", active, ())
     if claimed is None or not error <= claimed:
         reason = f"error_bound is claimed to be {claimed!r}; {error!r} is proved"
     elif not claimed <= ENCLOSED:
         reason = f"error_bound is {claimed!r}; an enclosure has {ENCLOSED!r} at most"
-    return point(found), reason
+    return point(pair), reason
 
 
 def _not_multipliers(

@@ -143,8 +143,8 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
         return unloaded
     with working_precision(BITS):
         frame = scaled_blocks(step, form)
-        found = (_enclosed(step, frame, *guess) for guess in guesses(frame, start))
-        return next(filter(None, found), None)
+        enclosures = (_enclosed(step, frame, *guess) for guess in guesses(frame, start))
+        return next(filter(None, enclosures), None)
 
 
 def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
@@ -167,21 +167,21 @@ def _enclosed(
 ) -> Enclosure | None:
     """Return what a guess proves; None if that is too little."""
     form = frame.form
-    found = checked(frame, pair)
-    if found is None:
+    checked_guess = checked(frame, pair)
+    if checked_guess is None:
         return None
-    lam = _impulses(step, frame, found, states)
+    lam = _impulses(step, frame, checked_guess, states)
     exact = None if SLIDES in states else _at_apex(step, form, lam)
     if exact is not None:
         return exact
     reserve = RESERVE * frame.size * frame.size  # in the form's units of energy
-    delta_q = rounded_displacement(frame, found)
-    error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
-    x = point(found)
+    delta_q = rounded_displacement(frame, checked_guess)
+    error = enclosed_error(form, replace(checked_guess, gap=checked_guess.gap + reserve), delta_q)
+    x = point(checked_guess)
     gap = fraction((reserve / form.h).upper()) + duality_gap(form, x, fractions(lam))
     if not (error < ENCLOSED and negligible(form, x, gap)):
         return None
-    return Enclosure(delta_q, lam, _net(form, found), None, error, rounded_up(gap))
+    return Enclosure(delta_q, lam, _net(form, checked_guess), None, error, rounded_up(gap))
 
 
 def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | None:
@@ -201,16 +201,16 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
         return None if pair is None else checked(frame, pair)
 
 
-def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
+def enclosed_error(form: ExactForm, pair: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
-    off = exact_matrix(delta_q[:, None]) - found.x
-    length = square_root(inner(off, form.H * off)) + square_root(2 * found.gap)
-    return nearest_above(length / found.free) if found.free > 0 else float("inf")
+    off = exact_matrix(delta_q[:, None]) - pair.x
+    length = square_root(inner(off, form.H * off)) + square_root(2 * pair.gap)
+    return nearest_above(length / pair.free) if pair.free > 0 else float("inf")
 
 
-def point(found: Checked) -> list[fmpq]:
+def point(pair: Checked) -> list[fmpq]:
     """The x of a checked pair, without rounding [m, rad]."""
-    return [fraction(v) for v in found.x.entries()]
+    return [fraction(v) for v in pair.x.entries()]
 
 
 def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
@@ -230,12 +230,12 @@ def _by_newton(problem: Blocks, pair: Pair) -> Iterator[Guess]:
         states = contact_states(problem, pair)
         if states == before:
             return
-        found = newton_pair(problem, pair, states)
-        if found is None:
+        minimum = newton_pair(problem, pair, states)
+        if minimum is None:
             return
-        yield found, states
+        yield minimum, states
         before = states
-        pair = found
+        pair = minimum
 
 
 def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
@@ -254,9 +254,9 @@ def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
     return Checked(x, impulses.entries(), gap, frame.free)
 
 
-def _impulses(step: StepData, frame: ScaledBlocks, found: Checked, states: list[int]) -> Array:
+def _impulses(step: StepData, frame: ScaledBlocks, pair: Checked, states: list[int]) -> Array:
     """Return lam in float64, zero where a contact is open, inside of its cones."""
-    lam = np.array([float(v / frame.form.h) for v in found.y])
+    lam = np.array([float(v / frame.form.h) for v in pair.y])
     for rows, state in zip(frame.problem.rows, states, strict=True):
         if state == OPEN:
             lam[rows.start : rows.stop] = 0.0
@@ -271,15 +271,15 @@ def rounded(ball: arb) -> float:
     return float(ball) if nearest is None else nearest
 
 
-def rounded_displacement(frame: ScaledBlocks, found: Checked) -> Array:
+def rounded_displacement(frame: ScaledBlocks, pair: Checked) -> Array:
     """The x of a pair in float64, shape (n_v,) [m, rad]; an entry that may be zero is zero."""
     values = []
-    for v, middle in enumerate(found.x.entries()):
-        radius = square_root(2 * found.gap * frame.form.H_inverse[v, v])
+    for v, middle in enumerate(pair.x.entries()):
+        radius = square_root(2 * pair.gap * frame.form.H_inverse[v, v])
         values.append(rounded(middle + arb(0, radius.upper())))
     return np.array(values)
 
 
-def _net(form: ExactForm, found: Checked) -> Array:
-    net = form.H * found.x - form.g
+def _net(form: ExactForm, pair: Checked) -> Array:
+    net = form.H * pair.x - form.g
     return np.array([float(v / form.h) for v in net.entries()]) + 0.0

@@ -64,19 +64,19 @@ def compliant_forces(
     n_c = step.contacts.n_c
     form = StepForm(step)
     delta_q, wrench = near
-    own = np.zeros(len(step.extra.b))
-    start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
+    extra_lam = np.zeros(len(step.extra.b))
+    start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), extra_lam])
     with working_precision(BITS):
         frame = scaled_blocks(step, form, compliance)
         for pair, _ in guesses(frame, start):
-            found = checked(frame, pair)
-            if found is None or not found.gap <= WIDE * frame.size * frame.size:
+            checked_pair = checked(frame, pair)
+            if checked_pair is None or not checked_pair.gap <= WIDE * frame.size * frame.size:
                 continue
             forces = np.zeros(4 * n_c)
             for i in range(4 * n_c):
-                off = frame.mu[i] * square_root(2 * found.gap / frame.give[i])
-                impulse = (found.y[i] + arb(0, off.upper())) / form.h
+                off = frame.mu[i] * square_root(2 * checked_pair.gap / frame.give[i])
+                impulse = (checked_pair.y[i] + arb(0, off.upper())) / form.h
                 forces[i] = rounded(impulse / step.h)
-            x = rounded_displacement(frame, found)
+            x = rounded_displacement(frame, checked_pair)
             return forces.reshape(-1, 4)[:, np.argsort(P_OF_WRENCH)], x
     raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)

@@ -43,10 +43,10 @@ class ScaledBlocks:
     free: arb
     size: arb
 
-    def in_form(self, found: Pair) -> Pair:
+    def in_form(self, pair: Pair) -> Pair:
         """The x and y of a pair of the form, whose multipliers are `mu` times y."""
-        x = [self.size * r * v for r, v in zip(self.root, found.x.entries(), strict=True)]
-        y = [self.size / ell * v for ell, v in zip(self.length, found.y.entries(), strict=True)]
+        x = [self.size * r * v for r, v in zip(self.root, pair.x.entries(), strict=True)]
+        y = [self.size / ell * v for ell, v in zip(self.length, pair.y.entries(), strict=True)]
         return Pair(column(x), column(y))
 
     def start(self, delta_q: Array, lam: Array) -> Pair:

@@ -29,7 +29,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
 from quasistatic_ref.solve.compiled import CANON
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, Own
+from quasistatic_ref.solve.cvxpy_problem import Additions, CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
@@ -62,7 +62,7 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     if extension.terms is none:
         return no_rows(step.n_v)
     problem = CvxpyProblem(step)
-    constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
+    constraints, costs = _added_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
     unknowns = (problem.delta_q_a, problem.delta_q_u)
     problem.fill(step)
     for x in unknowns:
@@ -210,7 +210,7 @@ def extended_solution(
     if not driven(step):  # nothing but the extension drives it
         units = units._replace(size=1.0)
     natural = natural_step(step, units)
-    problem = CvxpyProblem(natural, *_own_terms(extension, step, units))
+    problem = CvxpyProblem(natural, *_added_terms(extension, step, units))
     problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
@@ -230,7 +230,7 @@ def extended_solution(
     raise failure
 
 
-def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own, Own]:
+def _added_terms(extension: Extension, step: StepData, units: Units) -> tuple[Additions, Additions]:
     """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
 
     @cache  # its terms are formed once: further variables of its own are in both
@@ -250,7 +250,7 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int = 0) -> Symbols:
     """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
     public = step.n_v - private
-    own = step.n_u - private
+    unactuated = step.n_u - private
     coordinate = units.size * units.coordinate[:public]
     length = units.size * units.length
     kind = cone(step.cone)
@@ -258,7 +258,7 @@ def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int =
     return Symbols(
         delta_q=cp.multiply(coordinate, problem.delta_q[:public]),
         delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
-        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u[:own]),
+        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u[:unactuated]),
         delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
         slack=tuple(
             length * row[j]
@@ -293,8 +293,8 @@ def _solved(
     check_arithmetic()
     residuals = conic_residuals(program, np.array(x), np.array(z))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
-        said = f"it said {status}, but its worst residual is {residuals.worst:.1e}"
-        raise StepNotSolved(name, said, step, accuracy, residuals)
+        problem_words = f"it said {status}, but its worst residual is {residuals.worst:.1e}"
+        raise StepNotSolved(name, problem_words, step, accuracy, residuals)
     stats = problem.problem.solver_stats
     statistics = SolverStatistics(name, status, stats.num_iters, stats.solve_time, accuracy)
     return Certificate("residual", asdict(residuals), step=step), statistics

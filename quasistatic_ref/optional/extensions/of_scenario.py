@@ -28,13 +28,13 @@ class OfScenario(Plain):
     rises : Rises
         Friction of joints and of supports, (R40).
     limits : JointLimits
-    own : callable, optional
+    users : callable, optional
         A function of q, without rises and rows.
     """
 
     rises: Rises
     limits: JointLimits
-    own: ExtensionOfQ | None = None
+    users: ExtensionOfQ | None = None
 
     @property
     def fields(self) -> tuple[str, ...]:
@@ -43,18 +43,18 @@ class OfScenario(Plain):
             "joint_friction": len(self.rises.coordinates),
             "support": len(self.rises.contacts),
             "joint_limits": len(self.limits),
-            "extension": self.own is not None,
+            "extension": self.users is not None,
         }
         return tuple(name for name, part in parts.items() if part)
 
-    def beside(self, own: ExtensionOfQ | None) -> "OfScenario":
+    def beside(self, users: ExtensionOfQ | None) -> "OfScenario":
         """The same together with an extension of a user's own."""
-        return replace(self, own=own)
+        return replace(self, users=users)
 
     def __call__(self, q: Array) -> Extension:
         """The extension at q, shape (n_q,)."""
-        own = Extension() if self.own is None else self.own(q)
-        return replace(own, rises=self.rises, rows=self.limits.rows(q))
+        users = Extension() if self.users is None else self.users(q)
+        return replace(users, rises=self.rises, rows=self.limits.rows(q))
 
 
 def of_scenario(
@@ -103,22 +103,22 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
     if entry.joint_friction == URDF:
         return urdf_friction(system, entry.body.name)
     table = {} if entry.joint_friction is None else entry.joint_friction
-    given = TableReader(table, entry.table.name("joint_friction"), ScenarioError)
-    own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
-    rubbed = [joint for joint in own if not joint.free]
-    given.only(entry.short(joint) for joint in rubbed)
-    found: dict[str, float] = {}
+    fields = TableReader(table, entry.table.name("joint_friction"), ScenarioError)
+    joints = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
+    rubbed = [joint for joint in joints if not joint.free]
+    fields.only(entry.short(joint) for joint in rubbed)
+    friction: dict[str, float] = {}
     for joint in rubbed:
         name = entry.short(joint)
         coordinates = joint.coordinates
-        if name not in given:
+        if name not in fields:
             continue
         one = len(coordinates) == 1
-        loads = [given.number(name)] if one else given.array(name, (len(coordinates),)).tolist()
+        loads = [fields.number(name)] if one else fields.array(name, (len(coordinates),)).tolist()
         if min(loads) < 0:
-            raise given.error_about(name, "must be at least 0", loads)
-        found |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
-    return found
+            raise fields.error_about(name, "must be at least 0", loads)
+        friction |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
+    return friction
 
 
 def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:

@@ -30,14 +30,14 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
         return step
     n_v = step.n_v
     contacts = step.contacts
-    own = np.arange(n_v, n_v + p)
+    columns = np.arange(n_v, n_v + p)
     M_u = np.zeros((step.n_u + p, step.n_u + p))
     M_u[: step.n_u, : step.n_u] = step.M_u
     M_u[step.n_u :, step.n_u :] = np.diag(rises.masses)
     J = np.concatenate([contacts.J, np.zeros((contacts.n_c, 4, p))], axis=2)
-    J[rises.contacts, :3, own[c:]] = contacts.n[rises.contacts]
+    J[rises.contacts, :3, columns[c:]] = contacts.n[rises.contacts]
     rows = np.zeros((2, c, n_v + p))
-    rows[:, np.arange(c), own[:c]] = 1.0
+    rows[:, np.arange(c), columns[:c]] = 1.0
     rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
     extra = step.extra
     H, g = extra.cost or (None, None)
@@ -131,9 +131,9 @@ def _support(system: System, name: str, mu_v: float, mu_omega: float) -> Contact
         raise InputError(problem, field="support", value=name)
     root = system.link(name)
     at = system.kinematics(system.q_start)
-    own = [i for i, link in enumerate(system.links) if link.startswith(f"{name}/")]
-    centres = np.einsum("lij,lj->li", at.R[own], system.centres[own]) + at.t[own]
-    centre = np.average(centres, axis=0, weights=system.masses[own]) - at.t[root]
+    links = [i for i, link in enumerate(system.links) if link.startswith(f"{name}/")]
+    centres = np.einsum("lij,lj->li", at.R[links], system.centres[links]) + at.t[links]
+    centre = np.average(centres, axis=0, weights=system.masses[links]) - at.t[root]
     below = product(at.R[root].T, centre) * [1.0, 1.0, 0.0]
     plane = HalfSpace(np.array([0.0, 0.0, 1.0]), at.t[root, 2])
     floor = PlacedShape(f"floor of {name}", 0, np.eye(3), np.zeros(3), plane)
@@ -150,7 +150,7 @@ def urdf_friction(system: System, name: str) -> dict[str, float]:
     (text,) = (t for body, t in zip(system.bodies, system.texts, strict=True) if body.name == name)
     moves = {coordinate.name: (coordinate.name, 1.0) for coordinate in system.coordinates}
     moves |= {mimic.name: (mimic.of, mimic.multiplier) for mimic in system.mimics}
-    found: dict[str, float] = {}
+    frictions: dict[str, float] = {}
     for joint in xml_root(text).iter("joint"):
         dynamics = joint.find("dynamics")
         moved = moves.get(f"{name}/{joint.get('name')}")
@@ -158,5 +158,5 @@ def urdf_friction(system: System, name: str) -> dict[str, float]:
             says = Tag(dynamics, f"{name}: joint[{joint.get('name')}].dynamics")
             coordinate, factor = moved
             friction = abs(factor) * says.number("friction", default=0.0)
-            found[coordinate] = found.get(coordinate, 0.0) + friction
-    return found
+            frictions[coordinate] = frictions.get(coordinate, 0.0) + friction
+    return frictions

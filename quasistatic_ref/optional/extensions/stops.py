@@ -85,7 +85,7 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
     joints = {joint.name: joint for joint in system.joints}
     moves = {name: (name, 1.0, 0.0) for name in joints}
     moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
-    found: dict[str, tuple[float, float]] = {}
+    limits: dict[str, tuple[float, float]] = {}
     for body, text in zip(system.bodies, system.texts, strict=True):
         for joint in xml_root(text).iter("joint") if body.name in bodies else ():
             limit = joint.find("limit")
@@ -94,31 +94,31 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
             if limit is None or kind is None or kind.unit or name not in moves:
                 continue
             says = Tag(limit, f"{body.name}: joint[{joint.get('name')}].limit")
-            own = says.position_limits()
-            if own is None:
+            ends = says.position_limits()
+            if ends is None:
                 continue
-            if own[0] > own[1]:
-                problem = f"its lower limit is above its upper one, {own[1]:.6g}"
-                raise InputError(problem, field=name, value=own[0])
+            if ends[0] > ends[1]:
+                problem = f"its lower limit is above its upper one, {ends[1]:.6g}"
+                raise InputError(problem, field=name, value=ends[0])
             of, multiplier, offset = moves[name]
             if multiplier == 0:
-                if not own[0] <= offset <= own[1]:
-                    problem = f"stands still beyond its limits, {own[0]:.6g} to {own[1]:.6g}"
+                if not ends[0] <= offset <= ends[1]:
+                    problem = f"stands still beyond its limits, {ends[0]:.6g} to {ends[1]:.6g}"
                     raise InputError(problem, field=name, value=offset)
                 continue
-            low, high = sorted((end - offset) / multiplier for end in own)
-            before = found.get(of, (-np.inf, np.inf))
-            found[of] = max(low, before[0]), min(high, before[1])
-    for name, (low, high) in found.items():
+            low, high = sorted((end - offset) / multiplier for end in ends)
+            before = limits.get(of, (-np.inf, np.inf))
+            limits[of] = max(low, before[0]), min(high, before[1])
+    for name, (low, high) in limits.items():
         if low > high:
             problem = "has no position within its limits and those of the joints that mimic it"
             raise InputError(problem, field=name, value=[low, high])
-    limited = [joints[name] for name in found]
+    limited = [joints[name] for name in limits]
     return JointLimits(
-        names=tuple(found),
+        names=tuple(limits),
         places=np.array([joint.q.start for joint in limited], dtype=np.int64),
         coordinates=np.array([joint.v.start for joint in limited], dtype=np.int64),
-        lower=np.array([low for low, _ in found.values()]),
-        upper=np.array([high for _, high in found.values()]),
+        lower=np.array([low for low, _ in limits.values()]),
+        upper=np.array([high for _, high in limits.values()]),
         n_v=system.n_v,
     )

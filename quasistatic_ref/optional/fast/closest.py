@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints, check_finite, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import OWN
+from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.optional.fast.library import Structure, library
 from quasistatic_ref.optional.fast.poses import Poses
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud
@@ -110,7 +110,7 @@ class Closest:
         compiled = library().closest_of_cloud
         for structure, pair, own in self._by_c:
             if compiled(structure.pointer):
-                own.tie[:] = OWN
+                own.tie[:] = UNIQUE_NORMAL
             else:
                 left = [*left, (pair, own)]
         if left:

@@ -13,7 +13,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.formats.given import check_kind
+from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.library import ffi, library, missing

@@ -61,7 +61,7 @@ class EliminatedStep:
         self.form = StepForm(step)
         self.compliance = arb(compliance)
         self.z = [self.form.motion(j) for j in range(step.contacts.n_c)]
-        self.own = self.form.exact_rows(range(int(step.offsets[-1]), step.m))
+        self.extra_rows = self.form.exact_rows(range(int(step.offsets[-1]), step.m))
 
     def candidate(self, faces: Sequence[Rows]) -> Candidate:
         """The optimum on the face of each contact, in a polyhedral cone.
@@ -93,10 +93,10 @@ class EliminatedStep:
             stiff = self.compliance * scale
             H = self.form.H * stiff - of_x
             g = self.form.g * stiff + constant
-        form = MatrixForm(H, g, _matrix([*conditions, *self.own], n))
+        form = MatrixForm(H, g, _matrix([*conditions, *self.extra_rows], n))
         working: tuple[int, ...] = ()
-        if self.own:
-            under = MatrixForm(H, g, _matrix(self.own, n))
+        if self.extra_rows:
+            under = MatrixForm(H, g, _matrix(self.extra_rows, n))
             working = tuple(len(conditions) + i for i in self._active(under))
         return Candidate(Minimiser(form, working), _matrix(scaled_s, n), scale)
 
@@ -105,21 +105,21 @@ class EliminatedStep:
         end = dual_active_set(under)
         if not isinstance(end, Farkas):
             return end.minimiser.working
-        own = np.arange(self.step.offsets[-1], self.step.m)
-        raise StepInfeasible(self.step, farkas_vector(self.step, under, end, own))
+        extra_rows = np.arange(self.step.offsets[-1], self.step.m)
+        raise StepInfeasible(self.step, farkas_vector(self.step, under, end, extra_rows))
 
-    def wrong_faces(self, found: Candidate) -> list[int]:
+    def wrong_faces(self, candidate: Candidate) -> list[int]:
         """The contacts that break a condition of their face."""
-        broken = [i for i, sign in found.minimiser.slack_signs.items() if sign < 0]
+        broken = [i for i, sign in candidate.minimiser.slack_signs.items() if sign < 0]
         contacts = np.searchsorted(self.step.offsets, broken, side="right") - 1
         return sorted({*contacts.tolist()})
 
-    def numbers(self, found: Candidate) -> tuple[Array, Array]:
+    def numbers(self, candidate: Candidate) -> tuple[Array, Array]:
         """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
-        minimiser = found.minimiser
+        minimiser = candidate.minimiser
         with working_precision(EXACT):
-            unit = self.compliance * found.scale
-        p = minimiser.rounded(lambda solution: (found.s * solution.z).entries(), unit)
+            unit = self.compliance * candidate.scale
+        p = minimiser.rounded(lambda solution: (candidate.s * solution.z).entries(), unit)
         return p.reshape(-1, 4), minimiser.rounded(lambda solution: solution.x)
 
 
@@ -161,11 +161,11 @@ def eliminated_optimum(
     """
     program = EliminatedStep(step, compliance)
     for _ in range(PROOFS):
-        found = program.candidate(faces)
-        wrong = program.wrong_faces(found)
+        candidate = program.candidate(faces)
+        wrong = program.wrong_faces(candidate)
         if not wrong:
-            return program.numbers(found)
-        point = found.minimiser.fractions.z
+            return program.numbers(candidate)
+        point = candidate.minimiser.fractions.z
         for j in wrong:
             with working_precision(EXACT):
                 z = program.z[j] * point

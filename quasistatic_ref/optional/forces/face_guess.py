@@ -107,8 +107,8 @@ class _Energy:
         stiffness = self.k
         for softer in SOFTER:
             self.k = stiffness / softer
-            at, found = self.settled(at)
-            if found and softer == 1:
+            at, settled = self.settled(at)
+            if settled and softer == 1:
                 break
         return at
 
@@ -134,9 +134,9 @@ class _Energy:
         """The linear function that the gradient is on some pieces, at x, shape (n_v,)."""
         z = self.B @ x + self.gap
         s = (self.onto(at) @ z[:, :, None]).ravel()
-        own = self.step.extra
-        short = np.where(at.pressing, own.A @ x - own.b, 0.0)
-        push = s @ self.B.reshape(self.gap.size, len(x)) - STIFF * short @ own.A
+        extra = self.step.extra
+        short = np.where(at.pressing, extra.A @ x - extra.b, 0.0)
+        push = s @ self.B.reshape(self.gap.size, len(x)) - STIFF * short @ extra.A
         return self.H @ x - self.g - self.k * push
 
     def zero(self, at: Pieces) -> Array:
@@ -144,15 +144,15 @@ class _Energy:
         origin = np.zeros(self.step.n_v)
         B = self.B.reshape(self.gap.size, len(origin))
         s = (self.onto(at) @ self.B).reshape(B.shape)
-        own = self.step.extra.A[list(at.pressing)]
-        push = B.T @ s - STIFF * own.T @ own
-        found = np.linalg.solve(self.H - self.k * push, -self.gradient(origin, at))
-        return np.asarray(found)
+        A = self.step.extra.A[list(at.pressing)]
+        push = B.T @ s - STIFF * A.T @ A
+        x = np.linalg.solve(self.H - self.k * push, -self.gradient(origin, at))
+        return np.asarray(x)
 
     def pieces_at(self, x: Array, near: Pieces) -> Pieces:
         """Those at x; where rounding decides, those that are `near`."""
-        own = self.step.extra
-        pressing = tuple((own.A @ x < own.b).tolist())
+        extra = self.step.extra
+        pressing = tuple((extra.A @ x < extra.b).tolist())
         return self.pieces(self.B @ x + self.gap, near)._replace(pressing=pressing)
 
     def pieces(self, z: Array, near: Pieces) -> Pieces:
@@ -168,8 +168,8 @@ class _Energy:
     def onto(self, at: Pieces) -> Array:
         """What s is, times z, on the face of each contact, shape (n_c, 4, 4)."""
         counts = self.step.counts.tolist()
-        found = [_floats(self.step.cone, n, f)[-4:] for n, f in zip(counts, at.faces, strict=True)]
-        return np.array(found).reshape(-1, 4, 4)
+        faces = [_floats(self.step.cone, n, f)[-4:] for n, f in zip(counts, at.faces, strict=True)]
+        return np.array(faces).reshape(-1, 4, 4)
 
 
 @cache

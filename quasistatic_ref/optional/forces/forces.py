@@ -97,8 +97,8 @@ def contact_forces(
     >>> qr.contact_forces(step).wrench.round(3)[0, 2]  # the weight [N]
     np.float64(2.943)
     """
-    given = None if compliance is None else np.broadcast_to(compliance, step.contacts.n_c)
-    if given is not None and not (np.isfinite(given) & (given > 0)).all():
+    chosen = None if compliance is None else np.broadcast_to(compliance, step.contacts.n_c)
+    if chosen is not None and not (np.isfinite(chosen) & (chosen > 0)).all():
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
     x, wrench = _without_compliance(step) if near is None else near
@@ -107,28 +107,28 @@ def contact_forces(
     compliances = np.zeros(step.contacts.n_c)
     imbalance = sensitivity = 0.0
     for group, part in group_steps(step):
-        own = group.contacts
-        c = group_compliance(part) if given is None else _one_of(given[own])
+        members = group.contacts
+        c = group_compliance(part) if chosen is None else _one_of(chosen[members])
         try:
-            found = _of_group(part, c, (x[group.coordinates], wrench[own]))
+            group_forces = _of_group(part, c, (x[group.coordinates], wrench[members]))
         except StepInfeasible:
             step_optimum(step)  # says so of the whole step
             raise
-        forces[own] = found.wrench
-        delta_q[group.coordinates] = found.delta_q
-        compliances[own] = c
-        imbalance = max(imbalance, found.imbalance)
-        sensitivity = max(sensitivity, found.sensitivity)
+        forces[members] = group_forces.wrench
+        delta_q[group.coordinates] = group_forces.delta_q
+        compliances[members] = c
+        imbalance = max(imbalance, group_forces.imbalance)
+        sensitivity = max(sensitivity, group_forces.sensitivity)
     return ContactForces(forces, delta_q, compliances, imbalance, sensitivity)
 
 
-def _one_of(given: Array) -> float:
+def _one_of(compliances: Array) -> float:
     """The compliance [m/N] that is given to each contact of a group, shape (c,)."""
-    found = np.unique(given)
-    if len(found) > 1:
+    distinct = np.unique(compliances)
+    if len(distinct) > 1:
         problem = "must be one number for all contacts of a group"
-        raise InputError(problem, field="compliance", value=found.tolist())
-    return float(found[0]) if len(found) else NOTHING_MOVES
+        raise InputError(problem, field="compliance", value=distinct.tolist())
+    return float(distinct[0]) if len(distinct) else NOTHING_MOVES
 
 
 def _without_compliance(step: StepData) -> tuple[Array, Array]:
@@ -141,8 +141,8 @@ def _without_compliance(step: StepData) -> tuple[Array, Array]:
             raise StepNotSolved("none", "no enclosure of the optimum was found", step, 0.0)
     else:
         optimum = step_optimum(step)
-    own = optimum.lam[: step.offsets[-1]]
-    return optimum.delta_q, contact_wrenches(step.contacts, own, step.h, step.cone)
+    multipliers = optimum.lam[: step.offsets[-1]]
+    return optimum.delta_q, contact_wrenches(step.contacts, multipliers, step.h, step.cone)
 
 
 def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactForces:
@@ -233,6 +233,6 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     mu = [arb(v) for v in scaled_by(step.contacts).ravel().tolist()]
     n = step.n_v
     p = end.minimiser.rounded(
-        lambda found: [m * s for m, s in zip(mu, found.x[n:], strict=True)], arb(compliance)
+        lambda optimum: [m * s for m, s in zip(mu, optimum.x[n:], strict=True)], arb(compliance)
     )
-    return p.reshape(-1, 4), end.minimiser.rounded(lambda found: found.x[:n])
+    return p.reshape(-1, 4), end.minimiser.rounded(lambda optimum: optimum.x[:n])

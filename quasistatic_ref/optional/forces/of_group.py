@@ -121,4 +121,4 @@ def sides(step: StepData) -> list[Indices]:
     )
     label[: step.n_a] = 0
     label[label < step.n_a] = 0
-    return [np.flatnonzero(label == own) for own in np.unique(label)]
+    return [np.flatnonzero(label == side) for side in np.unique(label)]

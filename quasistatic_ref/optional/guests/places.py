@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import OWN
+from quasistatic_ref.contact.separations import UNIQUE_NORMAL
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.touches import USED_OR_IN_GAP, friction
@@ -136,7 +136,7 @@ class Places:
             beta=centres[:, 1],
             n=np.tile([0.0, 0.0, 1.0], (len(of_place), 1)),
             point=np.arange(len(of_place)) - self.first[of_place],
-            tie=np.full(len(of_place), OWN),
+            tie=np.full(len(of_place), UNIQUE_NORMAL),
         )
         at = self.first[pair] + rank
         every.phi[at] = phi

@@ -113,7 +113,7 @@ def scenario_written(
         }
         bodies = files.bodies(simulator)
         for name, entry in entries.items():
-            bodies[name] |= _said_of_motion(entry)
+            bodies[name] |= _motion_fields(entry)
         solver = {name: getattr(simulator, name) for name in ("backend", "accuracy", "certify")}
         tables = {"": top, "solver": solver, "limits": vars(simulator.limits)}
         tables |= {f"bodies.{name}": table for name, table in bodies.items()}
@@ -157,7 +157,7 @@ class _SceneFiles:
 
     def named(self, placed: PlacedShape) -> str:
         """What a contact calls a shape, which is written where no file has it yet."""
-        if any(placed is own for own in self.system.shapes):
+        if any(placed is shape for shape in self.system.shapes):
             return placed.name
         if placed.link == WORLD:
             kind, sizes = solid_table(placed.shape, placed.name)
@@ -189,7 +189,7 @@ class _SceneFiles:
                 "stand in files"
             )
             raise InputError(problem, field=placed.name)
-        number = [own.name for own in self.system.bodies].index(body)
+        number = [other.name for other in self.system.bodies].index(body)
         (parent,) = [one for one in self.robots[number].findall("link") if one.get("name") == link]
         name = placed.name.replace("/", "_").replace("#", "_")
         if all(one.get("name") != name for one in parent.findall("collision")):
@@ -203,8 +203,8 @@ class _SceneFiles:
     def bodies(self, simulator: Simulator) -> dict[str, Any]:
         """The tables of all bodies; their URDFs are written."""
         tables = {}
-        own = zip(self.system.bodies, self.robots, strict=True)
-        for body, robot in own:
+        pairs = zip(self.system.bodies, self.robots, strict=True)
+        for body, robot in pairs:
             self.copy_meshes(body, robot)
             file = f"{self.stem}_{body.name}.urdf"
             text_written(self.folder / file, tostring(robot, encoding="unicode") + "\n")
@@ -219,18 +219,18 @@ class _SceneFiles:
     def actuation(self, body: Body, simulator: Simulator) -> dict[str, Any]:
         """What is actuated, its stiffness, and whether gravity acts on it."""
         actuated = self.system.coordinates[: self.system.n_a]
-        own = np.array([c.joint.startswith(f"{body.name}/") for c in actuated], dtype=bool)
-        if not own.any():
+        of_body = np.array([c.joint.startswith(f"{body.name}/") for c in actuated], dtype=bool)
+        if not of_body.any():
             return {}
-        if np.any(simulator.K_q[np.ix_(own, ~own)]):
+        if np.any(simulator.K_q[np.ix_(of_body, ~of_body)]):
             problem = "couples two bodies, and a scenario has a matrix for each body"
             raise InputError(problem, field="K_q")
-        acts = simulator.gravity_factor[: self.system.n_a][own]
+        acts = simulator.gravity_factor[: self.system.n_a][of_body]
         if acts.any() and not acts.all():
             problem = f"differs between joints of {body.name}; a scenario says it of a body"
             raise InputError(problem, field="gravity_acts")
         named = body.actuated if body.actuated == "all" else list(body.actuated)
-        K_q = simulator.K_q[np.ix_(own, own)].tolist()
+        K_q = simulator.K_q[np.ix_(of_body, of_body)].tolist()
         return {"actuated": named, "K_q": K_q, "gravity_compensated": not acts.any()}
 
     def copy_meshes(self, body: Body, robot: Element) -> None:
@@ -241,34 +241,34 @@ class _SceneFiles:
             for each in [*link.findall("collision"), *link.findall("visual")]:
                 for mesh in each.findall("geometry/mesh"):
                     try:
-                        found = mesh_path(mesh.get("filename", ""), folder, body.package_dirs)
+                        mesh_file = mesh_path(mesh.get("filename", ""), folder, body.package_dirs)
                     except ModelError:
                         if each.tag == "collision":
                             raise
                         link.remove(each)
                         continue
-                    name = f"{self.stem}_{body.name}_{found.name}"
+                    name = f"{self.stem}_{body.name}_{mesh_file.name}"
                     copy = self.folder / name
-                    if copy.exists() and copy.read_bytes() != found.read_bytes():
+                    if copy.exists() and copy.read_bytes() != mesh_file.read_bytes():
                         problem = "is the name of two meshes of one body"
-                        raise InputError(problem, field=f"{body.name}: {found.name}")
-                    copy.write_bytes(found.read_bytes())
+                        raise InputError(problem, field=f"{body.name}: {mesh_file.name}")
+                    copy.write_bytes(mesh_file.read_bytes())
                     mesh.set("filename", name)
 
 
-def _said_of_motion(entry: BodyEntry) -> dict[str, Any]:
+def _motion_fields(entry: BodyEntry) -> dict[str, Any]:
     """What a body's table says and no simulator knows: targets, wrenches, friction, limits."""
-    said: dict[str, Any] = {"targets": entry.targets} if entry.targets else {}
+    fields: dict[str, Any] = {"targets": entry.targets} if entry.targets else {}
     if entry.wrenches is not None:
         rows = zip(entry.wrenches.times.tolist(), entry.wrenches.values.tolist(), strict=True)
-        said["wrenches"] = [{"t": t, "force": w[:3], "torque": w[3:]} for t, w in rows]
+        fields["wrenches"] = [{"t": t, "force": w[:3], "torque": w[3:]} for t, w in rows]
     if entry.joint_friction is not None:
-        said["joint_friction"] = entry.joint_friction
+        fields["joint_friction"] = entry.joint_friction
     if entry.joint_limits is not None:
-        said["joint_limits"] = entry.joint_limits
+        fields["joint_limits"] = entry.joint_limits
     if entry.support is not None:
-        said["support"] = entry.support.given
-    return said
+        fields["support"] = entry.support.fields
+    return fields
 
 
 def _roll_pitch_yaw(placed: PlacedShape) -> list[float]:
@@ -304,9 +304,9 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     loaded = load_scenario(path)
     pairs = [pair for pair in loaded.pairs if "(" in pair.name]  # those of supports have none
     other = replace(loaded, pairs=tuple(pairs), of_bodies=None).simulator()
-    for own, written in zip(simulator.pairs, other.pairs, strict=True):
+    for ours, written in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
-            shape = getattr(own, side)
+            shape = getattr(ours, side)
             again = getattr(written, side)
             if np.any(shape.R != again.R) or np.any(shape.t != again.t):
                 problem = "is rounded where a URDF is read; place the shape without a rotation"

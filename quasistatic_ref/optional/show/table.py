@@ -71,8 +71,8 @@ def coordinate_frame(trajectory: "Trajectory") -> "DataFrame":
     values = trajectory["q"][1:]
     targets = np.full((steps, len(names)), np.nan)
     if steps:
-        given = trajectory["q_bar_a"]
-        targets[:, : given.shape[1]] = given
+        q_bar_a = trajectory["q_bar_a"]
+        targets[:, : q_bar_a.shape[1]] = q_bar_a
     words, units = zip(*(name.removesuffix("]").split(" [") for name in names), strict=True)
     return pandas.DataFrame({
         "t [s]": np.repeat(trajectory["t"], len(names)),

@@ -66,7 +66,7 @@ def test_point_and_sphere_slip_by_coulombs_law_however_slowly_s_converges(scene,
     """The iteration alone needs -27.6 / log(r) steps for 1e-12: 700 at mu_v = 5."""
     step, sliding, X, r = scene(mu)
     at_end = coulomb_step(step.replace(cone=cone), fast=cone == "pyramid")
-    assert at_end.found
+    assert at_end.converged
     assert at_end.s_iterations <= 5
     assert at_end.delta_q[sliding] == pytest.approx(X, rel=1e-11 / (1 - r))
     assert at_end.delta_q[2] == pytest.approx(0.0, abs=1e-11 * mu * X)
@@ -82,7 +82,7 @@ def test_a_solution_has_coulombs_law_and_nothing_that_bears_lifts_off(cone):
     for _ in range(1 if cone == "ellipsoid" else 4):
         step = random_step(rng).replace(cone=cone)
         at_end = coulomb_step(step, fast=cone != "ellipsoid")
-        assert at_end.found
+        assert at_end.converged
         certificate = at_end.certificate
         assert verify(at_end.step, at_end.delta_q, certificate.active, at_end.lam, certificate)
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
@@ -104,7 +104,7 @@ def test_what_is_not_found_is_not_said_not_to_exist():
     """Each iterate raises s by the clearance."""
     step = guide(6.0, clearance=1e-7)
     at_end = coulomb_step(step, most=6)
-    assert not at_end.found
+    assert not at_end.converged
     message = (
         r"^no solution under Coulomb's law was found in 200 iterations, which does not say that "
         r"there is none: s is still off by 1e-07 m; take a smaller h, or law = \"convex\"$"
@@ -130,7 +130,7 @@ def test_a_step_whose_convex_step_has_no_solution_needs_a_start():
     with pytest.raises(StepInfeasible):
         coulomb_step(step)
     at_end = coulomb_step(step, start=[1e-3 * np.sin(1.0)] * 2)
-    assert at_end.found
+    assert at_end.converged
     assert at_end.delta_q == pytest.approx([0.0, 0.0, 1e-3], abs=1e-12)
 
 

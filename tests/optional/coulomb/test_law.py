@@ -58,7 +58,7 @@ def test_a_recorded_step_is_the_one_that_was_certified(plain, tmp_path):
     q_bar = scenario.targets((k + 1) * scenario.h)
     result = scenario.simulator().step(run["q"][k], q_bar)
     assert result.solution.step == result.step == step
-    assert result.solution.found
+    assert result.solution.converged
     assert (result.points.phi == run["phi"][k]).all()
     certificate = result.solution.certificate
     assert verify(step, run["delta_q"][k], certificate.active, run["lam"][k], certificate)

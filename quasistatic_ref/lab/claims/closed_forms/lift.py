@@ -80,12 +80,12 @@ def evidence() -> Evidence:
     def at_rate(rate: float, speed: float, lever: float) -> StepData:
         return lifting_step(speed, lever, 1 / rate)
 
-    found = thresholds(at_rate, sweep, expected, part=slice(7, None))
+    measured = thresholds(at_rate, sweep, expected, part=slice(7, None))
     held = (at_rate(rate / 1.1, *of) for rate, of in zip(expected, sweep, strict=True))
     risen = np.array([exact(step).delta_q[6] for step in held]) / (speed * 1.1 / expected)
     return Evidence.of(
         comparison(
-            "rate of steps that turns the bar [1/s]", found, expected, CLOSED_FORM, expected
+            "rate of steps that turns the bar [1/s]", measured, expected, CLOSED_FORM, expected
         ),
         comparison("rise of a bar that is held, over v h [-]", risen, 1.0, CLOSED_FORM),
     )

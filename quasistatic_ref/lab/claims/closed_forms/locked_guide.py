@@ -46,7 +46,7 @@ def evidence() -> Evidence:
     """Forces from a hundredth of what reaches the limit to a million times that."""
     shares = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6]
     clearances = [0.0, 1e-5, 1e-3]
-    found = []
+    slips = []
     expected = []
     pressed = []
     balance = []
@@ -55,7 +55,7 @@ def evidence() -> Evidence:
         free = H**2 * force / M * np.array([np.cos(angle), np.sin(angle)])
         most = c / MU_V
         answer = guide_step(force, angle, c)
-        found.append(answer.delta_q[[0, 2]])
+        slips.append(answer.delta_q[[0, 2]])
         expected.append(np.minimum(free, most))
         # What does not move the body, the walls bear: mu_v N along each tangent.
         pressed.append(MU_V * answer.wrench[:, 2].sum() / force)
@@ -79,7 +79,7 @@ def evidence() -> Evidence:
     }
     scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
     return Evidence.of(
-        comparison("slip along d1 and d2 [m]", found, expected, CLOSED_FORM, scale),
+        comparison("slip along d1 and d2 [m]", slips, expected, CLOSED_FORM, scale),
         comparison("mu_v times the load of the walls, over the force [-]", pressed, balance,
                    CLOSED_FORM, 1.0),
         comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),

@@ -39,7 +39,7 @@ def evidence() -> Evidence:
     sweep = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6])
     widths, mus, _ = sweep.T
     expected = mus * widths
-    found = thresholds(pushed_peg, sweep, expected, (0.2, 5.0))
+    measured = thresholds(pushed_peg, sweep, expected, (0.2, 5.0))
     wedged = (pushed_peg(0.99 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     rest = [exact(step).delta_q for step in wedged]
     solved = []
@@ -51,9 +51,9 @@ def evidence() -> Evidence:
         descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
     size = np.abs(formula).max(1, keepdims=True)
-    picture = {"mu": mus, "width": widths, "found": found, "h": H}
+    picture = {"mu": mus, "width": widths, "found": measured, "h": H}
     return Evidence.of(
-        comparison("depth below which it wedges [m]", found, expected, CLOSED_FORM, expected),
+        comparison("depth below which it wedges [m]", measured, expected, CLOSED_FORM, expected),
         comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
         comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
         **picture,

@@ -23,12 +23,12 @@ def evidence() -> Evidence:
     sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
     grip, mu_v, mu_omega = sweep.T
     expected = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
-    found = thresholds(held_bar, sweep, expected)
+    measured = thresholds(held_bar, sweep, expected)
     steps = (held_bar(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
     loads = [exact(step).wrench[:, 2] for step in steps]
     grips = np.stack([grip, grip], axis=1)
     return Evidence.of(
-        comparison("offset that turns the bar [m]", found, expected, CLOSED_FORM, expected),
+        comparison("offset that turns the bar [m]", measured, expected, CLOSED_FORM, expected),
         comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),
     )
 

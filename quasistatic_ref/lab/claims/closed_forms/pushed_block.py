@@ -55,14 +55,14 @@ def evidence() -> Evidence:
     """Speeds, friction and time steps."""
     sweep = grid([0.005, 0.05, 0.2], [0.2, 0.5], [5e-3, 1e-2])
     v, mu, h = sweep.T
-    found = np.array([steady_push(*x) for x in sweep])
+    measured = np.array([steady_push(*x) for x in sweep])
     friction = mu * M * GRAVITY
     drag = M * v / h
-    force = STIFFNESS * found[:, 0]
+    force = STIFFNESS * measured[:, 0]
     picture = {"v": v, "mu": mu, "h": h, "force": force, "m": M}
-    gap = found[:, 1:3]
+    gap = measured[:, 1:3]
     ride = np.repeat((mu * v * h)[:, None], 2, axis=1)
-    load = found[:, 3]
+    load = measured[:, 3]
     weight = M * GRAVITY
     return Evidence.of(
         sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),

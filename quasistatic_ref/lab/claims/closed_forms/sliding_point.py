@@ -47,10 +47,10 @@ def threshold_evidence() -> Evidence:
     sweep = grid(angles, mus)
     at = sweep[:, 0]
     expected = 1 / (np.cos(at) + np.sin(at))
-    found = thresholds(pushed_point, sweep, expected)
-    picture = {"angles": angles, "found": found.reshape(-1, len(mus)).T, "mus": mus, "h": H}
+    measured = thresholds(pushed_point, sweep, expected)
+    picture = {"angles": angles, "found": measured.reshape(-1, len(mus)).T, "mus": mus, "h": H}
     what = "least force that moves it, over mu_v m g [-]"
-    return Evidence.of(comparison(what, found, expected, CLOSED_FORM), **picture)
+    return Evidence.of(comparison(what, measured, expected, CLOSED_FORM), **picture)
 
 
 def slip_evidence() -> Evidence:

@@ -84,8 +84,8 @@ def configurations(after: Callable[[Array, Array], Array]) -> Array:
 
 def _by_the_program(q: Array, target: Array) -> Array:
     """The q after a step."""
-    found: Array = step(SCENE | {"q": q, "q_bar_a": target})["q_next"]
-    return found
+    q_next: Array = step(SCENE | {"q": q, "q_bar_a": target})["q_next"]
+    return q_next
 
 
 def _by_us() -> Callable[[Array, Array], Array]:
@@ -94,9 +94,9 @@ def _by_us() -> Callable[[Array, Array], Array]:
     mine = posed.mine
 
     def after(q: Array, target: Array) -> Array:
-        own = mine.model_q(q.tolist())
-        force = wrench_force(SCENE, mine, own)
-        return posed.simulator.step(own, target, force).q[mine.q]
+        q_model = mine.model_q(q.tolist())
+        force = wrench_force(SCENE, mine, q_model)
+        return posed.simulator.step(q_model, target, force).q[mine.q]
 
     return after
 

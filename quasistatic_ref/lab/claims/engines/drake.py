@@ -88,8 +88,8 @@ def distances() -> tuple[Array, Array]:
             near = query.ComputeSignedDistancePairClosestPoints(*geometries)
             points = [np.asarray(near.p_ACa), np.asarray(near.p_BCb)]
             world = [at.R[k] @ p + at.t[k] for k, p in zip(links, points, strict=True)]
-            found = pair_closest_points(pair, at.R, at.t)
-            ours.append(np.concatenate([found.phi, found.alpha[0], found.beta[0]]))
+            nearest = pair_closest_points(pair, at.R, at.t)
+            ours.append(np.concatenate([nearest.phi, nearest.alpha[0], nearest.beta[0]]))
             theirs.append(np.concatenate([[near.distance], *world]))
     return np.array(ours), np.array(theirs)
 

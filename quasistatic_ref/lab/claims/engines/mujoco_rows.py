@@ -62,7 +62,7 @@ def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
     J = data.efc_J.reshape(data.nefc, -1) @ T
     M = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, M)
-    found: dict[str, list[Any]] = {}
+    columns: dict[str, list[Any]] = {}
     for contact in data.contact:
         if contact.efc_address < 0 or contact.dim != 4:
             continue
@@ -84,8 +84,8 @@ def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
             "omega": omega @ T,
         }
         for key, value in one.items():
-            found.setdefault(key, []).append(value)
-    return {key: np.array(values) for key, values in found.items()} | {"M": T.T @ M @ T}
+            columns.setdefault(key, []).append(value)
+    return {key: np.array(values) for key, values in columns.items()} | {"M": T.T @ M @ T}
 
 
 def rows_of(scene: Heap) -> dict[str, Array]:

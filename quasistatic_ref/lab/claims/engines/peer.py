@@ -44,9 +44,10 @@ def arm(side: float) -> str:
     sphere = f'<geometry><sphere radius="{RADIUS}"/></geometry>'
     shapes = [
         "".join(
-            f'<collision><origin xyz="0 {side * 0.1 * i:.1f} 0"/>{sphere}</collision>' for i in own
+            f'<collision><origin xyz="0 {side * 0.1 * i:.1f} 0"/>{sphere}</collision>'
+            for i in indices
         )
-        for own in ((0,), (1, 2, 3), (1, 2))
+        for indices in ((0,), (1, 2, 3), (1, 2))
     ]
     links = [
         link_text(f"link_{i}", 1.0, inertia).replace("</link>", f"{shape}</link>")
@@ -90,7 +91,7 @@ def our_steps(model: dict[str, Any]) -> list[StepResult]:
     K_q = {f"{name}/{joint}": k for name in HAND for joint, k in STIFFNESS.items()}
     simulator = Simulator(system, pairs, h=model["h"], K_q=K_q, gravity=(0.0, 0.0, 0.0))
     q = system.q_start
-    found = []
+    results = []
     for k in range(model["steps"]):
         moved = min(k + 1, model["moving"])
         target = {
@@ -100,9 +101,9 @@ def our_steps(model: dict[str, Any]) -> list[StepResult]:
                 STIFFNESS, start[f"arm_{name}"], model["rate"][f"arm_{name}"], strict=True
             )
         }
-        found.append(simulator.step(q, system.placed(target)[: system.n_q_a]))
-        q = found[-1].q
-    return found
+        results.append(simulator.step(q, system.placed(target)[: system.n_q_a]))
+        q = results[-1].q
+    return results
 
 
 def data_rates(step: StepData) -> DataRates:
@@ -118,10 +119,10 @@ def data_rates(step: StepData) -> DataRates:
 def gradients(answer: StepSolution) -> tuple[Array, Array]:
     """The peer's B and A: dq+/du (n_v, n_a) and dq+/dq (n_v, n_v); NaN where there is none."""
     step = answer.step
-    found = Equations(touching_rows(answer, np.zeros(step.contacts.n_c))).rates(data_rates(step))
-    x = found.x.copy()
+    rates = Equations(touching_rows(answer, np.zeros(step.contacts.n_c))).rates(data_rates(step))
+    x = rates.x.copy()
     none = np.zeros(x.shape[1], dtype=bool)
-    x[:, np.any([none, *found.contradicts.values(), *found.opens], axis=0)] = np.nan
+    x[:, np.any([none, *rates.contradicts.values(), *rates.opens], axis=0)] = np.nan
     return x[:, : step.n_a], np.eye(step.n_v) + x[:, step.n_a :]
 
 
@@ -130,13 +131,13 @@ def evidence() -> Evidence:
 
     Its gradients by targets, in every tenth step, are compared where ours exist.
     """
-    given = json_read(peer_file())
-    results = our_steps(given["model"])
+    peer = json_read(peer_file())
+    results = our_steps(peer["model"])
     mine = np.array([result.q[ORDER] for result in results])
-    every = len(results) // len(given["gradients"])
+    every = len(results) // len(peer["gradients"])
     pairs = [
         (B, theirs["B"])
-        for result, theirs in zip(results[::every], given["gradients"], strict=True)
+        for result, theirs in zip(results[::every], peer["gradients"], strict=True)
         if not np.isnan(B := gradients(result.solution)[0][ORDER]).any()
     ]
     assert pairs
@@ -146,7 +147,7 @@ def evidence() -> Evidence:
             comparison(
                 f"coordinates, {solver} [m, rad]",
                 mine,
-                np.hstack([np.array(given["runs"][solver][name]) for name in INSTANCES]),
+                np.hstack([np.array(peer["runs"][solver][name]) for name in INSTANCES]),
                 limit,
             )
             for solver, limit in limits.items()

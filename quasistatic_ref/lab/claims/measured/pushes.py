@@ -35,7 +35,7 @@ def errors(cone: str) -> tuple[Array, Array, int]:
 
     Returns
     -------
-    own, other : ndarray, shape (2,)
+    ours, other : ndarray, shape (2,)
         Of place and angle [mm, deg].
     unproved : int
     """
@@ -43,22 +43,22 @@ def errors(cone: str) -> tuple[Array, Array, int]:
     pairs = pairs_read(folder)
     loads = loads_read(folder, pairs)
     pushes = pushes_read(folder, pairs)
-    own = []
+    ours = []
     other = []
     unproved = 0
     for pair in pairs:
-        found = identified_ratio(loads[pair.name], pair.outline.gyration)
+        identified = identified_ratio(loads[pair.name], pair.outline.gyration)
         some = pushes[pair.name].every(EVERY)
-        assert found is not None
+        assert identified is not None
         assert some.published is not None
-        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, found.ratio)
+        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, identified.ratio)
         ways = zip(some.before, some.path, strict=True)
         ends = [prediction(scene, before, path) for before, path in ways]
         unproved += sum(n for e in ends for kind, n in e.kinds.items() if kind not in PROOFS)
-        own.append(pose_errors(np.array([end.pose for end in ends]), some.after).mean(0))
+        ours.append(pose_errors(np.array([end.pose for end in ends]), some.after).mean(0))
         other.append(pose_errors(some.published, some.after).mean(0))
     units = np.array([1e3, np.degrees(1.0)])
-    return units * np.mean(own, axis=0), units * np.mean(other, axis=0), unproved
+    return units * np.mean(ours, axis=0), units * np.mean(other, axis=0), unproved
 
 
 PROOFS = ("exact", "enclosure")
@@ -66,17 +66,17 @@ PROOFS = ("exact", "enclosure")
 
 def evidence() -> Evidence:
     """A hundredth of the pushes in two cones."""
-    own, other, unproved = errors("ellipsoid")
+    ours, other, unproved = errors("ellipsoid")
     pyramid, _, also = errors("pyramid")
     return Evidence.of(
         comparison("steps without a proof [-]", [unproved, also], 0.0, 0.0),
         within("mean error of the place less the published simulator's [mm]",
-               own[0] - other[0], -MORE_MM, MORE_MM),
+               ours[0] - other[0], -MORE_MM, MORE_MM),
         within("mean error of the angle less the published simulator's [deg]",
-               own[1] - other[1], -MORE_DEG, MORE_DEG),
-        within("pyramid's error of the place over the ellipsoid's [-]", pyramid[0] / own[0],
+               ours[1] - other[1], -MORE_DEG, MORE_DEG),
+        within("pyramid's error of the place over the ellipsoid's [-]", pyramid[0] / ours[0],
                WORSE, np.inf),
-        within("pyramid's error of the angle over the ellipsoid's [-]", pyramid[1] / own[1],
+        within("pyramid's error of the angle over the ellipsoid's [-]", pyramid[1] / ours[1],
                WORSE, np.inf),
     )  # fmt: skip
 

@@ -45,16 +45,16 @@ def evidence() -> Evidence:
         pair = ContactPair(name, on_link(system, "one", shape), cloud, 0.5, 0.01, 6, 3)
         for _ in range(POSES):
             q = system.integrate(system.q_start, rng.uniform(-1, 1, 12) * SPREAD)
-            points, found = geometry(system, pair, q)
+            points, contacts = geometry(system, pair, q)
             gap = points.beta - points.alpha
             defects.append(gap - points.phi[:, None] * points.n)
             lengths.append(np.sign(points.phi) * np.linalg.norm(gap, axis=1) - points.phi)
-            axes = np.stack([found.d1, found.d2, found.n], axis=1)
+            axes = np.stack([contacts.d1, contacts.d2, contacts.n], axis=1)
             frames.append(axes @ axes.transpose(0, 2, 1) - np.eye(3))
-            frames.append((np.cross(found.d1, found.d2) - found.n)[:, None])
+            frames.append((np.cross(contacts.d1, contacts.d2) - contacts.n)[:, None])
             if abs(points.phi).min() > 1e-3:
                 slopes.append(_differences(system, pair, q, points.point))
-                rows.append(np.einsum("cr,crv->cv", found.n, found.J[:, :3]))
+                rows.append(np.einsum("cr,crv->cv", contacts.n, contacts.J[:, :3]))
     ordinary = [np.isfinite(s).all(axis=1) for s in slopes]
     measured = np.concatenate([s[o] for s, o in zip(slopes, ordinary, strict=True)])
     expected = np.concatenate([r[o] for r, o in zip(rows, ordinary, strict=True)])

@@ -11,15 +11,15 @@ ALONE = ("clarabel", "qpsolvers:clarabel", "osqp", "qpsolvers:osqp")
 
 def evidence() -> Evidence:
     """The share of the solve in a step, by backend, and that of the solver's own time."""
-    found = step_profiles()
-    taken: dict[str, Profile] = {profile.backend: profile for profile in found["profiles"]}
+    picture = step_profiles()
+    taken: dict[str, Profile] = {profile.backend: profile for profile in picture["profiles"]}
     through = [name for name in taken if name != DAQP]
     comparisons = [
         *(within(f"{name}: solve [-]", taken[name].solve, *MAJORITY) for name in through),
         *(within(f"{name}: solver's own time [-]", taken[name].alone, *MAJORITY) for name in ALONE),
         within("daqp: solver's own time [-]", taken[DAQP].alone, *MINORITY),
     ]
-    return Evidence.of(*comparisons, **found)
+    return Evidence.of(*comparisons, **picture)
 
 
 CLAIM = Claim(

@@ -82,9 +82,9 @@ def closest_point_rates(
     turn = -cross_matrix(n) @ omega  # omega x n
     bend = np.array([f.bend for f in features]).reshape(2, N, 3, 3)
     free = np.zeros((2, N, 2, 3))  # the free directions, or that of a rim, filled up by zeros
-    for own, f in zip(free.reshape(-1, 2, 3), features, strict=True):
-        own[: len(f.free)] = f.free
-        own[: len(f.arc)] = f.arc
+    for columns, f in zip(free.reshape(-1, 2, 3), features, strict=True):
+        columns[: len(f.free)] = f.free
+        columns[: len(f.arc)] = f.arc
     curvature = np.array([f.curvature for f in features]).reshape(2, N)
     apart = v[1] - v[0]
 

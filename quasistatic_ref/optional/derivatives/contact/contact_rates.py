@@ -41,9 +41,9 @@ def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:
         if couple.at_an_end and couple_rates([couple.merged], J).unique[0]:
             slid[j] = dependent(couple.merged.features)
             taken[j] = couple.merged if slid[j] else couple
-    found = couple_rates(taken, J, slides)
+    rates = couple_rates(taken, J, slides)
     level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
-    return found._replace(blurred=found.blurred | level_too, level_rim=level, slides=slid)
+    return rates._replace(blurred=rates.blurred | level_too, level_rim=level, slides=slid)
 
 
 def nearly_level(couple: Couple) -> bool:
@@ -114,7 +114,7 @@ def tangent_rates(contacts: Contacts, d_n: Array) -> tuple[Array, Array]:
     """
     axis = np.eye(3)[np.abs(contacts.n).argmin(axis=1)]
     c = np.vecdot(contacts.n, axis)[:, None, None]
-    n, d1, d2 = (own[:, :, None] for own in (contacts.n, contacts.d1, contacts.d2))
-    along_1, along_2 = ((own * d_n).sum(axis=1, keepdims=True) for own in (d1, d2))
+    n, d1, d2 = (vector[:, :, None] for vector in (contacts.n, contacts.d1, contacts.d2))
+    along_1, along_2 = ((vector * d_n).sum(axis=1, keepdims=True) for vector in (d1, d2))
     about = -c / np.sqrt(1 - c * c) * along_2
     return about * d2 - along_1 * n, -about * d1 - along_2 * n

@@ -129,12 +129,12 @@ def couples(
     pairs: Sequence[ContactPair], points: ClosestPoints, R: Array, t: Array
 ) -> list[Couple]:
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
-    found = list[Couple]()
+    contacts = list[Couple]()
     for pair in pairs:
         of = PairInWorld(pair, in_world(pair, R, t))
-        at = len(found)
-        found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
-    return found
+        at = len(contacts)
+        contacts += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
+    return contacts
 
 
 def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
@@ -193,12 +193,12 @@ def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -
         None where the rim is level but does not stay so: no point of it is the nearest, or float64
         does not know which.
     """
-    own = body.R.T @ towards
-    d_own = (body.R.T @ turning)[:2]
-    length = np.hypot(*own[:2])
+    local = body.R.T @ towards
+    d_local = (body.R.T @ turning)[:2]
+    length = np.hypot(*local[:2])
     if length <= LEVEL:
-        return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
-    around = rim_corners(1.0, 0.0, own)
-    turn = around[1, :2] @ d_own / length
+        return None if np.abs(d_local).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
+    around = rim_corners(1.0, 0.0, local)
+    turn = around[1, :2] @ d_local / length
     # Each corner moves towards the next one.
     return np.outer(rim.radius * body.R @ around[(rim.quarter + 1) % 4], turn)

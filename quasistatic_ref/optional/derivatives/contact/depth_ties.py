@@ -45,8 +45,8 @@ def depth_tie(couple: Couple) -> bool:
             return True
     elif couple.phi == 0:
         return False  # faces or edges that just touch are not in penetration
-    found, every = pair_and_gaps(couple.of.pair.name, a, b)
-    return len(tied_normals(a, b, found, within, every)) > 1
+    nearest, every = pair_and_gaps(couple.of.pair.name, a, b)
+    return len(tied_normals(a, b, nearest, within, every)) > 1
 
 
 def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -> bool:

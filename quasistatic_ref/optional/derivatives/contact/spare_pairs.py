@@ -56,9 +56,9 @@ def _covered(of: PairInWorld) -> bool:
     level = every.phi <= of.closest.phi + REPEATED
     of_alpha = every.point < a.shape.corner_count
     of_beta = (every.point < of.pair.corners) & ~of_alpha
-    for body, way, own in ((a, n, of_alpha), (b, -n, of_beta)):
+    for body, way, corners in ((a, n, of_alpha), (b, -n, of_beta)):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
-        if whole and np.count_nonzero(level & own) >= _face_corners(body, way):
+        if whole and np.count_nonzero(level & corners) >= _face_corners(body, way):
             return True
     return False
 

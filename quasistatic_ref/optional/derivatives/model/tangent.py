@@ -71,9 +71,9 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
     """
     by_q = np.eye(len(delta_q))
     by_change = np.eye(len(delta_q))
-    for own, ad in _bases(joints, delta_q):
-        by_change[own] = right_jacobian(ad)
-        by_q[own] -= ad @ by_change[own]
+    for block, ad in _bases(joints, delta_q):
+        by_change[block] = right_jacobian(ad)
+        by_q[block] -= ad @ by_change[block]
     return by_q, by_change
 
 
@@ -88,9 +88,9 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     """
     by_q = -np.eye(len(change))
     by_next = np.eye(len(change))
-    for own, ad in _bases(joints, change):
-        by_q[own] = -np.linalg.inv(right_jacobian(-ad))
-        by_next[own] = np.linalg.inv(right_jacobian(ad))
+    for block, ad in _bases(joints, change):
+        by_q[block] = -np.linalg.inv(right_jacobian(-ad))
+        by_next[block] = np.linalg.inv(right_jacobian(ad))
     return by_q, by_next
 
 
@@ -123,22 +123,22 @@ def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[st
     within : float
         Largest deviation from pi that counts as none [rad].
     """
-    found = []
+    names = []
     for joint in joints:
         if joint.unit and joint.v.stop <= len(change):
             turn = change[joint.v][joint.lengths :]
             if np.linalg.norm(turn) >= np.pi - within:
-                found.append(joint.name)
-    return found
+                names.append(joint.name)
+    return names
 
 
 def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, slice], Array]]:
     """Of each joint that moves by a twist its block of a matrix, and ad of its part of a change."""
-    found = []
+    blocks = []
     for joint in joints:
         if isinstance(joint, TwistJoint) and joint.v.stop <= len(change):
-            own = list(joint.twist)
+            axes = list(joint.twist)
             twist = np.zeros(6)
-            twist[own] = change[joint.v]
-            found.append(((joint.v, joint.v), adjoint(twist)[own][:, own]))
-    return found
+            twist[axes] = change[joint.v]
+            blocks.append(((joint.v, joint.v), adjoint(twist)[axes][:, axes]))
+    return blocks

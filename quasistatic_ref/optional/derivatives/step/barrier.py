@@ -77,10 +77,10 @@ def barrier_step(step: StepData, kappa: float) -> Barrier:
         If there is no displacement strictly inside of all rows, as far as the method can tell.
     """
     with np.errstate(all="ignore"):  # numbers that leave their range end the method
-        found = _newton(*standard_form(step), kappa)
-    if found is None:
+        barrier = _newton(*standard_form(step), kappa)
+    if barrier is None:
         raise StepNotSolved("barrier", "nothing lies strictly inside of all rows", step, kappa)
-    return found
+    return barrier
 
 
 def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | None:
@@ -125,13 +125,13 @@ def _share(values: Array, changes: Array) -> float:
     return float(min(1.0, SHORTEN * until))
 
 
-def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
+def barrier_rates(step: StepData, barrier: Barrier, data: DataRates) -> Array:
     """How the minimiser changes with P parameters, shape (n_v, P) [m, rad per unit].
 
     Parameters
     ----------
     step : StepData
-    found : Barrier
+    barrier : Barrier
     data : DataRates
         At the minimiser.
 
@@ -142,13 +142,13 @@ def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
     """
     form = standard_form(step)
     table = cone_matrix(step.cone)
-    multipliers = impulses(step.contacts, found.lam, step.cone) @ table
+    multipliers = impulses(step.contacts, barrier.lam, step.cone) @ table
     moved = (table @ data.motion)[step.mask]
     pushed = data.load + data.pull(multipliers)
-    return _weighted_solution(form.H, form.A, found, pushed, moved)
+    return _weighted_solution(form.H, form.A, barrier, pushed, moved)
 
 
-def _weighted_solution(H: Array, A: Array, found: Barrier, pushed: Array, moved: Array) -> Array:
+def _weighted_solution(H: Array, A: Array, barrier: Barrier, pushed: Array, moved: Array) -> Array:
     """(H + A'SA)^-1 (pushed - A'S moved), shape (n_v, P), with a bound of the error of the solve.
 
     S grows as 1 / kappa: float64 loses the whole of H next to A'SA. So the numbers are balls, at a
@@ -160,7 +160,7 @@ def _weighted_solution(H: Array, A: Array, found: Barrier, pushed: Array, moved:
     while precision <= MOST_BITS:
         with working_precision(precision):
             rows = exact_matrix(A)
-            slack, lam = (list(map(arb, v.tolist())) for v in (found.slack, found.lam))
+            slack, lam = (list(map(arb, v.tolist())) for v in (barrier.slack, barrier.lam))
             weighted = rows.transpose() * _diagonal(
                 [y / s for y, s in zip(lam, slack, strict=True)]
             )
@@ -178,7 +178,7 @@ def _weighted_solution(H: Array, A: Array, found: Barrier, pushed: Array, moved:
     raise InputError(
         "is so small that the derivatives are not known to any digit; take a larger one",
         field="kappa",
-        value=float(found.lam.max() * found.slack.min()),
+        value=float(barrier.lam.max() * barrier.slack.min()),
     )
 
 

@@ -144,7 +144,7 @@ class Equations:
         self, data: DataRates, right: Array, y: Array
     ) -> dict[tuple[int, ...], Mask]:
         """Dependent rows that a parameter would set against each other."""
-        found: dict[tuple[int, ...], Mask] = {}
+        contradictions: dict[tuple[int, ...], Mask] = {}
         terms = data.terms / self.length.min(initial=1.0)
         size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
         owner = np.nonzero(self.kept)[0]
@@ -159,8 +159,8 @@ class Equations:
                 bad |= across > CONSISTENT * np.maximum(np.linalg.norm(pulled, axis=0), 1.0)
             if bad.any():
                 contacts = tuple(np.unique(owner[np.abs(nu) > DEPENDENT]).tolist())
-                found[contacts] = found.get(contacts, False) | bad
-        return found
+                contradictions[contacts] = contradictions.get(contacts, False) | bad
+        return contradictions
 
     def along(self, data: DataRates) -> Array:
         """The derivative along a single parameter as it grows, shape (n_v,) [m, rad per unit].

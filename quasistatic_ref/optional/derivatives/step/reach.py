@@ -128,13 +128,13 @@ class Reach:
         """
         slack = self.touching.slack[:, None]
         rates = np.abs(self.closing)
-        found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
+        kinks = [self.touching.open[(slack < distance * rates).any(axis=1)]]
         for column in np.flatnonzero(self.loaded < distance).tolist():
             for sign in (1, -1):
                 if not self._goes_on(column, sign, distance[column]):
                     one = self._unloaded(column, sign)
-                    found += [one.rows] if one.t < distance[column] else []
-        near = np.concatenate(found)
+                    kinks += [one.rows] if one.t < distance[column] else []
+        near = np.concatenate(kinks)
         return np.unique(near, axis=0) if len(near) else near
 
     def _goes_on(self, column: int, sign: int, distance: float) -> bool:
@@ -187,10 +187,10 @@ def _least(
 ) -> Array | None:
     """The u of least cost with below u <= 0 and along . u = length; None if there is none."""
     for options in (TIGHT, {}):  # HiGHS may call a program unbounded that is not
-        found = linprog(cost, below, np.zeros(len(below)), along[None], [length], bounds,
+        least = linprog(cost, below, np.zeros(len(below)), along[None], [length], bounds,
                         options=options)  # fmt: skip
-        if found.status == 0:
-            return np.asarray(found.x)
-        if found.status == 2:  # nothing is feasible
+        if least.status == 0:
+            return np.asarray(least.x)
+        if least.status == 2:  # nothing is feasible
             return None
     return None

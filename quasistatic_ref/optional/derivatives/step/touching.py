@@ -79,7 +79,7 @@ class Touching:
 
     def unloaded(self, some: Indices) -> "Touching":
         """The same where some rows, shape (k, 2), touch without load."""
-        strict, open_ = (~_among(own, some) for own in (self.strict, self.open))
+        strict, open_ = (~_among(rows, some) for rows in (self.strict, self.open))
         idle = np.concatenate([self.idle, some[~_among(some, self.idle)]])
         return replace(
             self, strict=self.strict[strict], idle=idle,

@@ -169,8 +169,8 @@ def drawn_shapes(scene: HasScene) -> tuple[PlacedShape, ...]:
     """
     pairs = [shape for pair in scene.pairs for shape in (pair.alpha, pair.beta)]
     clouded = {shape.link for shape in pairs if isinstance(shape.shape, PointCloud)}
-    own = [shape for shape in scene.system.shapes if shape.link not in clouded]
-    return tuple({id(shape): shape for shape in (*own, *pairs)}.values())
+    of_bodies = [shape for shape in scene.system.shapes if shape.link not in clouded]
+    return tuple({id(shape): shape for shape in (*of_bodies, *pairs)}.values())
 
 
 def extent(of: Moment) -> Array:
@@ -210,8 +210,8 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
         moved[1:] = True
     points = [c.beta[None] for m in looked_at for c in m.contacts]
     for m in looked_at:
-        own = [placed for placed in m.shapes if moved[placed.link]]
-        points += [m.world(placed, surface_points(placed.shape)) for placed in own]
+        moving = [placed for placed in m.shapes if moved[placed.link]]
+        points += [m.world(placed, surface_points(placed.shape)) for placed in moving]
         seen = [visual for visual in looks if moved[visual.link]]
         points += [v.corners @ m.R[v.link].T + m.t_links[v.link] for v in seen]
     return box_of(np.concatenate(points))
@@ -236,12 +236,12 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
     rim = _rim(str(run.header["cone"]))
     wrench = reported(run, k)
     bears = wrench[:, 2] > BEARING * max(wrench[:, 2].max(initial=0.0), 1e-12)
-    found = []
+    drawn = []
     for j, (*force, torque) in enumerate(wrench):
         frame = np.stack([run[axis][k, j] for axis in ("d1", "d2", "n")])
         f_n = float(force[2])
         mu_v = float(run["mu_v"][j])
-        found.append(DrawnContact(
+        drawn.append(DrawnContact(
             beta=run["beta"][k, j],
             frame=frame,
             force=force @ frame,
@@ -252,7 +252,7 @@ def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
             rim=f_n * rim * [mu_v, mu_v, 1.0] @ frame,
             state=_state(run, k, j, frame) if bears[j] else "apart",
         ))  # fmt: skip
-    return tuple(found)
+    return tuple(drawn)
 
 
 def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:

@@ -47,15 +47,15 @@ class Visual(NamedTuple):
 
 def visuals(scene: HasScene) -> list[Visual]:
     """Visual elements of all bodies; those that cannot be read are left out: they bear no load."""
-    own = body_colours(scene.system)
+    colours = body_colours(scene.system)
     return [
         visual
         for body in scene.system.bodies
-        for visual in _of_body(body, scene.system, own[body.name])
+        for visual in _of_body(body, scene.system, colours[body.name])
     ]
 
 
-def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
+def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
     file = urdf_file(body.urdf)
     robot = xml_root(file.text)
     named = {material.get("name"): material for material in robot.findall("material")}
@@ -70,7 +70,7 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
                 corners = _corners(shape, file.path.parent, body.package_dirs)
             except ModelError:
                 continue
-            colour = _colour(element.find("material"), named) or own
+            colour = _colour(element.find("material"), named) or body_colour
             number = system.link(f"{body.name}/{link.get('name')}")
             yield Visual(number, corners @ R.T + t, colour)
 
