@@ -125,9 +125,10 @@ def contact_pairs(
             raise table.error_about("mu_omega", problem, mu_omega)
         k = value(table, CONTACT, "k")
         within = _within(k, table.name("k"))
-        k = 1
         if within is None:
             k = TableReader({"k": k}, table.where, ScenarioError).integer("k", least=1)
+        else:
+            k = 1
         hull = value(table, CONTACT, "hull")
         count = len(pairs) + len(sides[0]) * len(sides[1])
         if count > MOST_PAIRS:

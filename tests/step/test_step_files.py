@@ -14,10 +14,10 @@ from tests.helpers import point_on_floor, random_step
 
 RNG = np.random.default_rng(11)
 PLAIN = random_step(RNG, n_a=2, n_u=3, rows=(6, 4))
-UNIQUE_NORMAL = Extra(("limit", "wall"), RNG.normal(size=(2, 5)), RNG.normal(size=2))
+EXTRA = Extra(("limit", "wall"), RNG.normal(size=(2, 5)), RNG.normal(size=2))
 STEPS = {
     "plain": PLAIN,
-    "with rows of one's own": PLAIN.replace(extra=UNIQUE_NORMAL),
+    "with rows of one's own": PLAIN.replace(extra=EXTRA),
     "without contacts": PLAIN.replace(contacts=no_contacts(5)),
     "nothing actuated": point_on_floor(),
     "everything actuated": random_step(RNG, n_a=3, n_u=0, rows=(4,)),

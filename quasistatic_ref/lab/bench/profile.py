@@ -57,8 +57,8 @@ class Profile(NamedTuple):
     @property
     def alone(self) -> float:
         """Share of the solver's own time in a step without its interface [-]."""
-        own, interface = (self.typical[part] for part in SOLVE)
-        return own / (sum(self.typical.values()) - interface)
+        solver, interface = (self.typical[part] for part in SOLVE)
+        return solver / (sum(self.typical.values()) - interface)
 
 
 def step_profiles() -> dict[str, Any]:
@@ -104,8 +104,14 @@ class _Run:
         result = self._simulator.step(self._q, target)
         self._q = result.q
         lap = result.seconds
-        own = result.solution.statistics.solve_time or 0.0
-        laps = (own, lap["solve"] - own, lap["distances"], lap["rows"], lap["integrate"])
+        solve_time = result.solution.statistics.solve_time or 0.0
+        laps = (
+            solve_time,
+            lap["solve"] - solve_time,
+            lap["distances"],
+            lap["rows"],
+            lap["integrate"],
+        )
         self._laps.append(laps)
 
     def profile(self) -> Profile:

@@ -75,8 +75,8 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
             one = TableReader(entry, f"cases[{i}]")
-            given = _whole(one.take("input"), shapes)
-            cases.append(Case(one.text("id"), one.text("provenance"), given))
+            case_input = _whole(one.take("input"), shapes)
+            cases.append(Case(one.text("id"), one.text("provenance"), case_input))
             one.close()
         top.close()
         _check_ids([case.id for case in cases])

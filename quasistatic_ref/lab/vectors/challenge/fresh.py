@@ -77,7 +77,7 @@ def fresh_case(name: str, seed: tuple[int, ...], level: int) -> tuple[Json, Json
     Parameters
     ----------
     name : str
-        A layer of ASKED.
+        A layer of CHALLENGED.
     seed : tuple of int
     level : int
         EASY, PLAIN or HARD.
@@ -101,10 +101,10 @@ def fresh_case(name: str, seed: tuple[int, ...], level: int) -> tuple[Json, Json
 def record_of(name: str, case: Json) -> Json | None:
     """What is expected of an input; None if it is none, or if rounding decides its answer."""
     try:
-        found = layer(name).expected(case)
+        expected = layer(name).expected(case)
     except (QuasistaticError, ArithmeticError, ValueError, IndexError, KeyError):
         return None
-    record = found.json()
+    record = expected.json()
     for tolerance in record["tolerance"].values():
         tolerance["absolute"] *= MARGIN
     output = record["output"]
@@ -154,9 +154,9 @@ def _frame_of_axes(contact: Json) -> Json:
 
 def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
     n_c = 1 if level == EASY else int(rng.integers(1, 5))
-    found = random_contacts(rng, n_c, n_v)
+    contacts = random_contacts(rng, n_c, n_v)
     if level < HARD:
-        return found
+        return contacts
     kind = rng.integers(8)
     changes = (
         {"phi": np.zeros(n_c)},
@@ -168,7 +168,7 @@ def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
         {"phi": np.full(n_c, -1e-3)},
         {},
     )[kind]
-    return repeated(found, [0, *range(n_c - 1)] if kind == 7 else range(n_c), **changes)
+    return repeated(contacts, [0, *range(n_c - 1)] if kind == 7 else range(n_c), **changes)
 
 
 def _contact_entries(at: Contacts, keys: tuple[str, ...]) -> Json:
@@ -176,14 +176,14 @@ def _contact_entries(at: Contacts, keys: tuple[str, ...]) -> Json:
     return [{key: getattr(at, key)[j].tolist() for key in keys} for j in range(at.n_c)]
 
 
-def _program(given: StepData) -> Json:
+def _program(step: StepData) -> Json:
     """H, g, A, b of a step, in float64, as a case holds them; second-order cones likewise."""
-    form = standard_form(given)
+    form = standard_form(step)
     H = form.H.tolist()
     g = form.g.tolist()
-    if given.cone != "ellipsoid":
+    if step.cone != "ellipsoid":
         return {"H": H, "g": g, "A": form.A.tolist(), "b": form.b.tolist()}
-    at = given.contacts
+    at = step.contacts
     torsion = np.where(at.rows == 6, at.mu_omega, 0.0)
     mu = np.stack([np.ones(at.n_c), at.mu_v, at.mu_v, torsion], axis=1)
     F = form.A.reshape(at.n_c, 4, -1) * mu[:, :, None]
@@ -211,11 +211,11 @@ def _qp(rng: Rng, level: int) -> Json:
     kind = int(rng.integers(3)) if level == HARD else -1  # one trouble at a time
     ratio = 10.0 ** int(rng.integers(9)) if kind == 0 else 1.0
     at = _contacts(rng, HARD if kind == 1 else min(level, PLAIN), n_a + n_u)
-    found = _program(random_program(rng, n_a, n_u, at, ratio))
+    program = _program(random_program(rng, n_a, n_u, at, ratio))
     if kind == 2:  # a row and its opposite, that leave no room
-        found["A"].append([-x for x in found["A"][0]])
-        found["b"].append(-found["b"][0] + 1e-3)
-    return found
+        program["A"].append([-x for x in program["A"][0]])
+        program["b"].append(-program["b"][0] + 1e-3)
+    return program
 
 
 def _wrench(rng: Rng, level: int) -> Json:
@@ -369,5 +369,5 @@ MAKERS: dict[str, Callable[[Rng, int], Json]] = {
     "integrate": _integrate,
     "step": _step,
 }
-ASKED = tuple(MAKERS)
+CHALLENGED = tuple(MAKERS)
 """Layers with new cases: all but `derivative`."""

@@ -84,8 +84,8 @@ def random_q(rng: Rng, mechanism: Json) -> list[float]:
     q: list[float] = []
     for actuated in (True, False):
         for body in mechanism["bodies"]:
-            has_own = body["joint"] != "fixed" and "mimic" not in body
-            if has_own and body["actuated"] == actuated:
+            has_coordinate = body["joint"] != "fixed" and "mimic" not in body
+            if has_coordinate and body["actuated"] == actuated:
                 q += _random_position(rng, body["joint"])
     return q
 

@@ -16,7 +16,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.finding import Failure
 from quasistatic_ref.lab.vectors.challenge.fresh import (
-    ASKED,
+    CHALLENGED,
     EASY,
     HARD,
     PLAIN,
@@ -65,7 +65,7 @@ class Outcome:
         kinds = list(dict.fromkeys([PASSED, FAILED, *(kind for _, kind in self.verdicts)]))
         counts = [
             (layer, *(str(self.verdicts[layer, kind]) for kind in kinds))
-            for layer in ASKED
+            for layer in CHALLENGED
             if self.cases(layer)
         ]
         return [("layer", *kinds), *counts]
@@ -74,7 +74,7 @@ class Outcome:
     def remark(self) -> str:
         """Where to look first; empty if no answer is wrong."""
         wrong = {finding.layer for finding in self.findings if finding.kind == "wrong"}
-        return next((usual_sentence(layer) for layer in ASKED if layer in wrong), "")
+        return next((usual_sentence(layer) for layer in CHALLENGED if layer in wrong), "")
 
     @property
     def status(self) -> int:
@@ -119,7 +119,7 @@ def challenge(
     InputError
         Of an unknown layer, of one without new cases, and of a program that does not start.
     """
-    names = [_check_asked(name) for name in layers or ASKED]
+    names = [_check_asked(name) for name in layers or CHALLENGED]
     until = math.inf if seconds is None else time.monotonic() + seconds
     limit = cases or (CASES if seconds is None else math.inf)
     outcome = Outcome()
@@ -168,7 +168,7 @@ def asked_again(program: Program, finding: Json, digits: float | None = None) ->
 
 
 def _check_asked(name: str) -> str:
-    if check_layer(name) not in ASKED:
+    if check_layer(name) not in CHALLENGED:
         raise InputError("has no new cases; the vectors have some", field="layer", value=name)
     return name
 

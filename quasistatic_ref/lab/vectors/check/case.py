@@ -52,8 +52,8 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
     Verdict
         Its id is empty. Fields that the layer does not ask for are named, and not looked at.
     """
-    asked, extra = _asked_fields(layer, record, answer)
-    return replace(_verdict(layer, case, record, asked), extra=extra)
+    fields, extra = _asked_fields(layer, record, answer)
+    return replace(_verdict(layer, case, record, fields), extra=extra)
 
 
 def _asked_fields(layer: str, record: Json, answer: Json) -> tuple[Json, tuple[str, ...]]:
@@ -107,10 +107,10 @@ def _field_verdict(layer: str, case: Json, record: Json, expected: Json, answer:
     if problem:
         return failure(*problem, digits=0.0)
     signed = aligned(layer, case, expected, answer)
-    found = differences(expected, signed, record["tolerance"])
-    failing = {name: d for name, d in found.items() if not d.holds}
+    compared = differences(expected, signed, record["tolerance"])
+    failing = {name: d for name, d in compared.items() if not d.holds}
     free = dependent_fields(layer, record)
-    digits = min((d.digits for name, d in found.items() if name not in free), default=None)
+    digits = min((d.digits for name, d in compared.items() if name not in free), default=None)
     if not failing and signed != answer:
         return acceptance("-q in the place of a quaternion q", digits)
     if not failing:
@@ -119,7 +119,7 @@ def _field_verdict(layer: str, case: Json, record: Json, expected: Json, answer:
     if freedom is None:
         return plain_failure(failing)
     verdict = freedom(case, record, answer, failing)
-    held = [d.digits for name, d in found.items() if name not in free and name not in failing]
+    held = [d.digits for name, d in compared.items() if name not in free and name not in failing]
     digits = min(held, default=None)
     return verdict if verdict.field else Verdict("", verdict.verdict, verdict.reason, "", digits)
 

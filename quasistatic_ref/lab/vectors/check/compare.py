@@ -102,16 +102,16 @@ def parts(output: Json) -> dict[str, Json]:
 
     The contacts of a step become ``contacts.phi``, ``contacts.n``, ...; in the order of ORDER.
     """
-    found: dict[str, Json] = {}
+    fields: dict[str, Json] = {}
     for name, value in output.items():
         first = value[0] if isinstance(value, list) and value else None
         names = first.keys() if isinstance(first, dict) else ()
         if names and all(isinstance(v, dict) and v.keys() == names for v in value):
             for inner in names:
-                found[f"{name}.{inner}"] = [entry[inner] for entry in value]
+                fields[f"{name}.{inner}"] = [entry[inner] for entry in value]
         else:
-            found[name] = value
-    return dict(sorted(found.items(), key=lambda item: _place(item[0])))
+            fields[name] = value
+    return dict(sorted(fields.items(), key=lambda item: _place(item[0])))
 
 
 def _place(field: str) -> tuple[bool, int]:
@@ -133,8 +133,8 @@ def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
 
 def exact_tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
     """The same of float64 [its unit], however few digits are asked for: digits depend on it."""
-    own = tolerance.get(field, {})
-    return float(own["exact"]) if "exact" in own else tolerance_of(tolerance, field)
+    of_field = tolerance.get(field, {})
+    return float(of_field["exact"]) if "exact" in of_field else tolerance_of(tolerance, field)
 
 
 def difference(

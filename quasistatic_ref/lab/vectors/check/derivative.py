@@ -41,13 +41,13 @@ def _kink(expected: Sequence[Json], answer: Json) -> Verdict:
     if "reasons" not in answer:
         return Verdict("", PASSED, without=("reasons",))
     try:
-        given = {_key(reason) for reason in answer["reasons"]}
+        named = {_key(reason) for reason in answer["reasons"]}
     except (TypeError, KeyError):
         return failure("reasons", "reasons must be a list of {kind, pair, index, rows}")
     wanted = {_key(reason) for reason in expected}
-    if given == wanted:
+    if named == wanted:
         return Verdict("", PASSED)
-    if given > wanted:
+    if named > wanted:
         return acceptance("the right reasons and further ones")
     return failure("reasons", f"the reason is another one: {why}")
 

@@ -67,8 +67,8 @@ def check_answers(
     known = [name for name in named if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
         raise InputError("holds no expected/LAYER.json", file=vectors)
-    found = {name: answers_read(folder, name) for name in known}
-    if not any(given.present for given in found.values()):
+    of_layers = {name: answers_read(folder, name) for name in known}
+    if not any(answer.present for answer in of_layers.values()):
         names = ", ".join(f"{name}.json" for name in known)
         raise InputError(f"answers no layer; the files looked for are {names}", file=folder)
     reports = []
@@ -76,21 +76,21 @@ def check_answers(
         records = expected_read(vectors, name)
         cases = _cases_named(inputs_read(vectors, name), only, name)
         if cases:
-            report = layer_report(name, cases, records, found[name], digits)
+            report = layer_report(name, cases, records, of_layers[name], digits)
             reports.append(report.required() if layers is not None else report)
     return Report(str(folder), tuple(reports), digits)
 
 
 def _cases_named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
     """The cases of a layer whose ids are named, or begin as is named; all where none is."""
-    found: list[Case] = []
+    chosen: list[Case] = []
     for one in only:
-        own = [case for case in cases if case.id.startswith(one)]
-        own = [case for case in own if case.id == one] or own
-        if not own and one.partition("/")[0] == layer:
+        matching = [case for case in cases if case.id.startswith(one)]
+        matching = [case for case in matching if case.id == one] or matching
+        if not matching and one.partition("/")[0] == layer:
             raise InputError("is no beginning of the id of a case", field="only", value=one)
-        found += [case for case in own if case not in found]
-    return found if only else cases
+        chosen += [case for case in matching if case not in chosen]
+    return chosen if only else cases
 
 
 @np.errstate(all="ignore")  # answers may be any numbers: what overflows does not match
@@ -122,8 +122,8 @@ def layer_report(
         if case.id not in answers.outputs:
             verdicts.append(Verdict(case.id, MISSING, "no answer"))
             continue
-        given = answers.outputs[case.id]
-        verdict, _ = answer_judged(layer, case, record, given, answers, digits)
+        answer = answers.outputs[case.id]
+        verdict, _ = answer_judged(layer, case, record, answer, answers, digits)
         verdicts.append(verdict)
     answered = [*answers.outputs, *answers.unsupported]
     unknown = [name for name in answered if name not in expected]
@@ -143,7 +143,7 @@ def answer_judged(
     layer: str,
     case: Case,
     record: Json,
-    given: Json,
+    answer: Json,
     answers: Answers,
     digits: float | None = None,
 ) -> tuple[Verdict, Json]:
@@ -155,18 +155,18 @@ def answer_judged(
     case : Case
     record : dict
         What is expected.
-    given : object
+    answer : object
         The output of another implementation, in the conventions that are declared in `answers`.
     answers : Answers
     digits : float, optional
         [-].
     """
     try:
-        output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
+        output = converted(layer, case.input, answer, answers.tangent, answers.quaternion)
         verdict = verdict_to_digits(layer, case.input, record, output, digits)
         verdict = verdict.named(case.id)
     except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
-        output = given
+        output = answer
         verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)
     return verdict, output

@@ -96,11 +96,11 @@ def aligned(layer: str, case: Json, expected: Json, answer: Json) -> Json:
     field = {"integrate": "q", "step": "q_next"}.get(layer)
     if field is None or field not in expected:
         return answer
-    wanted, given = (np.array(o[field], dtype=np.float64) for o in (expected, answer))
+    wanted, q = (np.array(o[field], dtype=np.float64) for o in (expected, answer))
     for place in quaternion_places(case["mechanism"]):
-        if given[place] @ wanted[place] < 0:
-            given[place] = -given[place]
-    return {**answer, field: given.tolist()}
+        if q[place] @ wanted[place] < 0:
+            q[place] = -q[place]
+    return {**answer, field: q.tolist()}
 
 
 def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) -> Verdict:
@@ -142,16 +142,16 @@ def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) ->
     if problem := contacts_problem(case, record, answer["contacts"]):
         sentence = f"{first.sentence}; nor are these other valid contacts: {problem}"
         return failure(first.field, sentence, first.digits)
-    own = record_from(case, record, answer["contacts"])
+    theirs = record_from(case, record, answer["contacts"])
     failing = {
         name: d
-        for name, d in differences(own["output"], answer, own["tolerance"]).items()
+        for name, d in differences(theirs["output"], answer, theirs["tolerance"]).items()
         if not d.holds
     }
     if any(name.startswith("contacts.") for name in failing):
         return plain_failure(failing)
     if failing:
-        verdict = other_step(case, own, answer, failing)
+        verdict = other_step(case, theirs, answer, failing)
         if verdict.field:
             return verdict
     return acceptance("other contacts where rounding decides, and what follows from them")

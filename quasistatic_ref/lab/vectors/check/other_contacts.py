@@ -48,20 +48,20 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         if one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
     for pair in case["pairs"]:
-        own = [c for c in contacts if c["pair"] == pair["name"]]
+        of_pair_contacts = [c for c in contacts if c["pair"] == pair["name"]]
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
-        if len({c["index"] for c in own}) < len(own):
+        if len({c["index"] for c in of_pair_contacts}) < len(of_pair_contacts):
             return f"{pair['name']} names a candidate twice"
-        given = sorted(float(c["phi"]) for c in own)
-        if any(abs(one - other) > 2 * allowed for one, other in zip(given, due, strict=True)):
+        depths = sorted(float(c["phi"]) for c in of_pair_contacts)
+        if any(abs(one - other) > 2 * allowed for one, other in zip(depths, due, strict=True)):
             return f"the distances of {pair['name']} are others"
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
             sides |= {side: entry["shape"], f"pose_{side}": shape_pose(case, entry)}
-        found = candidates(sides, pair["k"])
-        known = {one.index: one for one in (*found.about, *found.filling)}
-        for contact in own:
+        of_sides = candidates(sides, pair["k"])
+        known = {one.index: one for one in (*of_sides.about, *of_sides.filling)}
+        for contact in of_pair_contacts:
             if contact["index"] not in known:
                 return f"{pair['name']} has no candidate {contact['index']}"
             if problem := _contact_problem(known[contact["index"]], contact, allowed):
@@ -102,13 +102,13 @@ def _tangent_along_axis(axis: int, n: Array) -> Array:
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
     """What is expected of a step with these contacts: H, g and all tolerances stay."""
     pairs = {pair["name"]: pair for pair in case["pairs"]}
-    given = [{**of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
-    entries, _, rows = with_rows(case, given)
+    whole = [{**of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
+    entries, _, rows = with_rows(case, whole)
     qp_case = {key: record["output"][key] for key in ("H", "g")} | rows.output
     solved = layer("qp").expected(qp_case)
     output, _, _ = step_output(case, entries, qp_case, solved)
     if "forces" in record["output"]:
-        found, _ = compliant_forces(matrices(qp_case), case, entries, output["lam"])
-        output["forces"] = found
+        forces, _ = compliant_forces(matrices(qp_case), case, entries, output["lam"])
+        output["forces"] = forces
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}

@@ -223,20 +223,20 @@ class Report:
     @property
     def sentences(self) -> list[str]:
         """What the table does not say: why a layer fails, where to look first, what is missing."""
-        said = []
+        sentences = []
         for layer in self.layers:
             if layer.trouble and not layer.ok:
-                said.append(f"{layer.layer}: {layer.trouble}")
-            said += [words for words in (layer.partial, layer.unasked) if words]
+                sentences.append(f"{layer.layer}: {layer.trouble}")
+            sentences += [words for words in (layer.partial, layer.unasked) if words]
         wrong = [layer for layer in self.layers if layer.count(FAILED)]
         if wrong:
-            said.append(usual_sentence(wrong[0].layer))
+            sentences.append(usual_sentence(wrong[0].layer))
         if self.digits is not None:
-            said.append(f"acceptable are answers that are right to {self.digits:g} digits")
+            sentences.append(f"acceptable are answers that are right to {self.digits:g} digits")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
         if unanswered:
-            said.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
-        return [*said, self.verdict]
+            sentences.append(f"not answered, so nothing is said of them: {', '.join(unanswered)}")
+        return [*sentences, self.verdict]
 
     @property
     def verdict(self) -> str:

@@ -7,10 +7,10 @@ LINES = 60
 """At most so many numbers of one case are shown."""
 
 
-def side_by_side(expected: Json, given: Json) -> list[tuple[str, ...]]:
+def side_by_side(expected: Json, answer: Json) -> list[tuple[str, ...]]:
     """The table of all numbers that differ, its header first; then how many are the same."""
     ours = {_place(path): value for path, value in leaves(expected)}
-    theirs = {_place(path): value for path, value in leaves(given)}
+    theirs = {_place(path): value for path, value in leaves(answer)}
     rows = [("place", "expected", "given", "difference")]
     other = [at for at in {**ours, **theirs} if _text(ours, at) != _text(theirs, at)]
     for at in other[:LINES]:
@@ -24,11 +24,11 @@ def _place(path: str) -> str:
     return path.removeprefix(".") or "output"
 
 
-def _change(expected: Json, given: Json) -> str:
+def _change(expected: Json, answer: Json) -> str:
     """The given number less the expected one; nothing of what are no two numbers."""
-    if any(isinstance(v, bool) or not isinstance(v, int | float) for v in (expected, given)):
+    if any(isinstance(v, bool) or not isinstance(v, int | float) for v in (expected, answer)):
         return ""
-    return f"{float(given) - float(expected):.3g}"
+    return f"{float(answer) - float(expected):.3g}"
 
 
 def _text(values: dict[str, Json], place: str) -> str:

@@ -91,17 +91,17 @@ def chosen_points(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k:
         If k > 1 for a solid whose corners depend on where the other is.
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
-    found = candidates(case, k)
+    every = candidates(case, k)
     least = smaller(alpha, beta)
-    if not found.of_two:
-        return _kept_candidates(found.about, k, least)
-    chosen = _kept_candidates(found.about, k, least, of_two=True)
-    contacts = chosen.contacts + [{"index": one.index, **one.numbers} for one in found.filling]
+    if not every.of_two:
+        return _kept_candidates(every.about, k, least)
+    chosen = _kept_candidates(every.about, k, least, of_two=True)
+    contacts = chosen.contacts + [{"index": one.index, **one.numbers} for one in every.filling]
     contacts.sort(key=itemgetter("index"))
-    clear = chosen.clear and found.clear
-    certain = [one for one in found.about if one not in found.doubtful]
+    clear = chosen.clear and every.clear
+    certain = [one for one in every.about if one not in every.doubtful]
     indices = [one["index"] for one in chosen.contacts]
-    for crossed in ([], found.doubtful) if found.doubtful else ():
+    for crossed in ([], every.doubtful) if every.doubtful else ():
         kept = _kept_candidates([*certain, *crossed], k, least, of_two=True)
         clear = clear and indices == [one["index"] for one in kept.contacts]
     return replace(chosen, contacts=contacts, clear=clear)
@@ -223,7 +223,7 @@ def _corners(shape: Json) -> Json:
 
 def _candidates(case: Json) -> list[Candidate]:
     """Closest points of each point of a cloud, or of the two solids; their indices come later."""
-    found, _ = rounded_results(
+    results, _ = rounded_results(
         lambda: [{**one.table(), "unique": one.unique} for one in witnesses(case)]
     )
     for side in ("alpha", "beta"):
@@ -231,31 +231,33 @@ def _candidates(case: Json) -> list[Candidate]:
             alone = [{"kind": "cloud", "points": [point]} for point in case[side]["points"]]
             return [
                 Candidate(0, numbers, numbers.pop("unique"), {**case, side: shape})
-                for numbers, shape in zip(found, alone, strict=True)
+                for numbers, shape in zip(results, alone, strict=True)
             ]
-    return [Candidate(0, found[0], found[0].pop("unique"), case)]
+    return [Candidate(0, results[0], results[0].pop("unique"), case)]
 
 
-def _bearing_corner(case: Json, own: Candidate, nearest: Candidate) -> Candidate:
+def _bearing_corner(case: Json, corner: Candidate, nearest: Candidate) -> Candidate:
     """A corner as it bears with the pair's normal: which way is decided on rounded numbers."""
-    side, other = ("alpha", "beta") if own.case["alpha"]["kind"] == "cloud" else ("beta", "alpha")
+    side, other = (
+        ("alpha", "beta") if corner.case["alpha"]["kind"] == "cloud" else ("beta", "alpha")
+    )
     out = 1 if other == "alpha" else -1
     R, t = frame(case[f"pose_{other}"])
-    x = (np.array(own.numbers[side]) - t) @ R
-    found = [
+    x = (np.array(corner.numbers[side]) - t) @ R
+    normals = [
         way
         for way in ways(case[other], out * np.array(nearest.numbers["n"]) @ R)
         if bearing(case[other], x[None], way)[1][0]
     ]
-    own_way = out * np.array(own.numbers["n"]) @ R
-    if not found or np.abs(found[-1] - own_way).max() <= TIED:
-        return own
-    way = found[-1]
+    corner_way = out * np.array(corner.numbers["n"]) @ R
+    if not normals or np.abs(normals[-1] - corner_way).max() <= TIED:
+        return corner
+    way = normals[-1]
 
     def place() -> Json:
         box = placed_shape(case[other], case[f"pose_{other}"])
-        corner = placed_shape(own.case[side], case[f"pose_{side}"])
-        point = corner.world(corner.points[0])
+        solid = placed_shape(corner.case[side], case[f"pose_{side}"])
+        point = solid.world(solid.points[0])
         face = np.count_nonzero(way) == 1
         n = box.world_direction(vector(way)) if face else out * witnesses(case)[0].n
         reach = sum(
@@ -267,7 +269,7 @@ def _bearing_corner(case: Json, own: Candidate, nearest: Candidate) -> Candidate
         alpha, beta = (foot, point) if other == "alpha" else (point, foot)
         return {"phi": phi, "alpha": alpha, "beta": beta, "n": out * n}
 
-    return replace(nearest, index=own.index, numbers=rounded_results(place)[0], is_closest=False)
+    return replace(nearest, index=corner.index, numbers=rounded_results(place)[0], is_closest=False)
 
 
 def _crossings(case: Json, nearest: Candidate, k: int) -> tuple[list[Candidate], list[Candidate]]:
@@ -279,8 +281,8 @@ def _crossings(case: Json, nearest: Candidate, k: int) -> tuple[list[Candidate],
     at = [np.array(nearest.numbers[key]) for key in FIELDS]
 
     def crossed(over: float) -> list[tuple[int, int]]:
-        found = crossings(case["alpha"], poses[0], case["beta"], poses[1], at, over)
-        return [(i, j) for i, j, *_ in found]
+        pairs = crossings(case["alpha"], poses[0], case["beta"], poses[1], at, over)
+        return [(i, j) for i, j, *_ in pairs]
 
     def candidate(edges: tuple[int, int]) -> Candidate:
         def place() -> Json:
@@ -326,8 +328,8 @@ def _kept_candidates(
         rank = gaps(phi + error, least).tolist()
         return [(bool(late[i]), rank[i], one.index) for i, one in enumerate(some)]
 
-    own, nearer, farther = (ranks(error) for error in (0.0, -TIED, TIED))
-    order = sorted(range(len(some)), key=own.__getitem__)
+    exact, nearer, farther = (ranks(error) for error in (0.0, -TIED, TIED))
+    order = sorted(range(len(some)), key=exact.__getitem__)
     kept = sorted((some[i] for i in order[:k]), key=attrgetter("index"))
     clear = not order[k:] or max(farther[i] for i in order[:k]) < min(nearer[i] for i in order[k:])
     answers = [layer("distance").expected(one.case) for one in kept]

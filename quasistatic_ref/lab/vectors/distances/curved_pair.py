@@ -49,15 +49,15 @@ def polytope_and_curved(flat: Core, curved: Placed) -> Witness:
     InputError
         If the polytope without its margin meets the curved solid.
     """
-    found = _normal_of_both(
+    witness = _normal_of_both(
         _of_polytope(flat, curved), partial(_is_normal_of_polytope, flat), "polytope", curved.kind
     )
     # Not unique are the points where flat parts of both solids lie in each other.
-    reach = found.n @ found.alpha
-    highest = [x for x in flat.vertices if sign(found.n @ x - reach) == 0]
+    reach = witness.n @ witness.alpha
+    highest = [x for x in flat.vertices if sign(witness.n @ x - reach) == 0]
     ways = _independent([x - highest[0] for x in highest[1:]])
-    unique = not _shares_a_way(ways, flat_of(curved, -found.n))
-    return replace(found, unique=unique).inflated(flat.margin, fmpq(0))
+    unique = not _shares_a_way(ways, flat_of(curved, -witness.n))
+    return replace(witness, unique=unique).inflated(flat.margin, fmpq(0))
 
 
 def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
@@ -68,12 +68,12 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
     InputError
         If the solids meet.
     """
-    found = _normal_of_both(
+    witness = _normal_of_both(
         _of_cylinder(cylinder, other), partial(_is_normal_of_cylinder, cylinder),
         cylinder.kind, other.kind,
     )  # fmt: skip
-    unique = not _shares_a_way(flat_of(cylinder, found.n), flat_of(other, -found.n))
-    return replace(found, unique=unique)
+    unique = not _shares_a_way(flat_of(cylinder, witness.n), flat_of(other, -witness.n))
+    return replace(witness, unique=unique)
 
 
 def _normal_of_both(
@@ -160,22 +160,22 @@ def _on_rim(cylinder: Placed, centre: Vector, other: Placed) -> Iterator[Witness
                 yield point_on_solid(other, point).swapped()
 
 
-def _is_normal_of_polytope(flat: Core, found: Witness) -> bool:
+def _is_normal_of_polytope(flat: Core, witness: Witness) -> bool:
     """Whether alpha is a point of the polytope, and n a normal of it there."""
-    reach = found.n @ found.alpha
-    if any(sign(found.n @ x - reach) > 0 for x in flat.vertices):
+    reach = witness.n @ witness.alpha
+    if any(sign(witness.n @ x - reach) > 0 for x in flat.vertices):
         return False
     for normal in flat.normals:
         face = max(normal @ x for x in flat.vertices)
-        if sign(normal @ found.alpha - face) > 0:
+        if sign(normal @ witness.alpha - face) > 0:
             return False
     return True
 
 
-def _is_normal_of_cylinder(cylinder: Placed, found: Witness) -> bool:
+def _is_normal_of_cylinder(cylinder: Placed, witness: Witness) -> bool:
     """Whether alpha is a point of the cylinder, and n a normal of it there."""
-    at = cylinder.local(found.alpha)
-    n = cylinder.local_direction(found.n)
+    at = cylinder.local(witness.alpha)
+    n = cylinder.local_direction(witness.n)
     radius, half = cylinder.sizes
     if sign(length(at[:2]) - radius) > 0 or sign(abs(at[2]) - half) > 0:
         return False

@@ -19,8 +19,8 @@ def solid_on_plane(plane: Placed, solid: Placed) -> Witness:
     if flat is not None:
         heights = [down @ x for x in flat.vertices]
         lowest = heights.index(max(heights))
-        found = point_on_solid(plane, flat.vertices[lowest])
-        alone = replace(found, unique=heights.count(max(heights)) == 1)
+        witness = point_on_solid(plane, flat.vertices[lowest])
+        alone = replace(witness, unique=heights.count(max(heights)) == 1)
         return alone.inflated(fmpq(0), flat.margin)
     point = SUPPORTS[solid.kind](solid.sizes, solid.local_direction(down))
     return replace(point_on_solid(plane, solid.world(point)), unique=not flat_of(solid, down))

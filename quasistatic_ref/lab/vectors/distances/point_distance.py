@@ -37,19 +37,19 @@ def point_on_solid(solid: Placed, point: Vector) -> Witness:
     at = solid.local(point)
     match solid.kind:
         case "box":
-            found = _box(solid.sizes, at)
+            surface = _box(solid.sizes, at)
         case "cylinder":
-            found = _cylinder(solid.sizes, at)
+            surface = _cylinder(solid.sizes, at)
         case "cone":
-            found = _cone(solid.sizes, at)
+            surface = _cone(solid.sizes, at)
         case "ellipsoid":
-            found = _ellipsoid(solid.sizes, at)
+            surface = _ellipsoid(solid.sizes, at)
         case _:
             normal = solid.sizes[:3]
             phi = (normal @ at - solid.sizes[3]) / length(normal)
-            found = Surface(phi, normal / length(normal), True)
-    n = solid.world_direction(found.normal)
-    return Witness(found.phi, point - found.phi * n, point, n, found.unique)
+            surface = Surface(phi, normal / length(normal), True)
+    n = solid.world_direction(surface.normal)
+    return Witness(surface.phi, point - surface.phi * n, point, n, surface.unique)
 
 
 def _box(half: Vector, at: Vector) -> Surface:

@@ -140,13 +140,13 @@ def _common_points(a: Sequence[Vector], b: Sequence[Vector], normal: Vector) -> 
     """
     edges_a = list(_edges(a, normal))
     edges_b = list(_edges(b, normal))
-    found: list[Vector] = []
+    points_in_both: list[Vector] = []
     for points, others, edges in ((a, b, edges_b), (b, a, edges_a)):
-        found += [x for x in points if _inside(x, others, edges, normal)]
+        points_in_both += [x for x in points if _inside(x, others, edges, normal)]
     for one in edges_a:
         for other in edges_b:
-            found += _crossing(one, other, normal)
-    once = dict.fromkeys(tuple(x) for x in found)
+            points_in_both += _crossing(one, other, normal)
+    once = dict.fromkeys(tuple(x) for x in points_in_both)
     return [np.array(x) for x in once]
 
 

@@ -50,12 +50,12 @@ def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) ->
     entries = [exact({key: c[key] for key in READ if key in c}) for c in contacts]
     tables = [cone_table(case["cone"], entry["rows"], entry["mu_v"]) for entry in entries]
     c = compliances(contacts)
-    given = compliant_program(*program, tables, case["h"], c)
-    form = exact_form_of(*given)
+    softened = compliant_program(*program, tables, case["h"], c)
+    form = exact_form_of(*softened)
     end = dual_active_set(form, np.flatnonzero(lam).tolist())
     assert isinstance(end, Optimum)
     s = np.array(end.minimiser.fractions.point[len(program[1]) :])
-    return rounded_results(lambda: forces_of(s, [number(own) for own in c], entries))
+    return rounded_results(lambda: forces_of(s, [number(c_j) for c_j in c], entries))
 
 
 def forces_bound(

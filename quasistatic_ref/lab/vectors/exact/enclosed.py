@@ -39,20 +39,20 @@ def enclosed_optimum(step: StepData) -> Expected:
         If no displacement strictly inside of all cones is found: there is no such case.
     """
     form = StepForm(step)
-    found = checked_pair(step, GAP, BITS)
-    if found is None:
+    pair = checked_pair(step, GAP, BITS)
+    if pair is None:
         raise InputError("has no displacement strictly inside of all cones", field="second_order")
     with working_precision(BITS):
         inverse = form.H.inv()
         # Where no cone bears load, the gap is a ball about zero.
-        radius = [square_root(2 * found.gap * inverse[v, v]).upper() for v in range(form.n)]
-        x = arb_mat(form.n, 1, [found.x[v, 0] + arb(0, radius[v]) for v in range(form.n)])
+        radius = [square_root(2 * pair.gap * inverse[v, v]).upper() for v in range(form.n)]
+        x = arb_mat(form.n, 1, [pair.x[v, 0] + arb(0, radius[v]) for v in range(form.n)])
         balls = {
             "delta_q": x.entries(),
             "A_lam": ((form.H * x - form.g) * (1 / form.h)).entries(),
             "slack": (form.A * x + form.c).entries(),
         }
-        lam = [float(v / form.h) + 0.0 for v in found.y]
+        lam = [float(v / form.h) + 0.0 for v in pair.y]
         output = {name: [_nearest(v) for v in values] for name, values in balls.items()}
     with working_precision(PROVED):  # what `verify` proves, in the precision that it works in
         again = checked_pair(step)

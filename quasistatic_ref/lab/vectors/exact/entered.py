@@ -39,8 +39,8 @@ def exact_case(case: Json) -> Json:
             if name not in known:
                 problem = f"is not a body{suggestion(str(name), known[1:])}"
                 raise InputError(problem, field="body", value=name)
-    found: Json = exact(case)
-    return found
+    numbers: Json = exact(case)
+    return numbers
 
 
 def exact(value: Any) -> Any:

@@ -60,5 +60,5 @@ def sizes(case: Any) -> Any:
 
 def largest(values: Any) -> Fraction:
     """The largest of the sizes in an array, or of anything that becomes one; 0 of none."""
-    found = [Size(x).value for x in np.ravel(np.array(values, dtype=object))]
-    return fraction(max(found, default=fmpq(0)))
+    sizes = [Size(x).value for x in np.ravel(np.array(values, dtype=object))]
+    return fraction(max(sizes, default=fmpq(0)))

@@ -50,14 +50,14 @@ def expected(case_input: Json) -> Expected:
 
 def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list[bool]]:
     """Output and digits, as lists over the points of a cloud or of one, and what is unique."""
-    found: list[Witness] = []
+    points: list[Witness] = []
 
     def fields() -> dict[str, Any]:
-        found[:] = witnesses(case)
-        return {key: [getattr(one, key) for one in found] for key in FIELDS}
+        points[:] = witnesses(case)
+        return {key: [getattr(one, key) for one in points] for key in FIELDS}
 
     output, digits = rounded_results(fields)
-    return output, digits, [one.unique for one in found]
+    return output, digits, [one.unique for one in points]
 
 
 def _tolerance(

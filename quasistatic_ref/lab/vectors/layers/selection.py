@@ -39,12 +39,12 @@ def own(case_input: Json) -> Json:
     from quasistatic_ref.contact.tied_faces import TURNED
 
     k = case_input["k"]
-    found = []
+    indices = []
     for g, phi in enumerate(case_input["phi"]):
         left = np.arange(len(phi))
         if "normals" in case_input:
             n = np.array(case_input["normals"][g])
             left = np.flatnonzero(n @ n[-1] >= TURNED)
         order = left[closest(np.array(phi)[left], k)].tolist()
-        found.append([*order, *range(len(phi), 2 * len(phi) - len(left))][:k])
-    return {"indices": found}
+        indices.append([*order, *range(len(phi), 2 * len(phi) - len(left))][:k])
+    return {"indices": indices}

@@ -38,13 +38,13 @@ ROUNDINGS = 16
 
 def expected(case_input: Json) -> Expected:
     """All that one step comes to, and q after it."""
-    contacts, found = contacts_of(case_input)
+    contacts, by_pair = contacts_of(case_input)
     contacts, jacobian, rows = with_rows(case_input, contacts)
     H, g = objective(case_input)
     H_size, g_size = terms(case_input)
     H_size = max([H_size, *(abs(x) for row in H for x in row)])
     qp_case = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
-    errors, bounds = _errors(case_input, qp_case, found, jacobian, rows, (H_size, g_size))
+    errors, bounds = _errors(case_input, qp_case, by_pair, jacobian, rows, (H_size, g_size))
     solved = qp.expected(qp_case, errors)
     output, wrenches, after = step_output(case_input, contacts, qp_case, solved)
     base_tolerance = {
@@ -54,16 +54,16 @@ def expected(case_input: Json) -> Expected:
         "A": tolerance(errors.A, "that of the layer rows, and of J and the normals"),
         "b": tolerance(errors.b, "that of phi"),
     }  # fmt: skip
-    ties = {"tie": not all(one.clear for one in found)}
-    ties["unique"] = all(one.unique for one in found)
+    ties = {"tie": not all(one.clear for one in by_pair)}
+    ties["unique"] = all(one.unique for one in by_pair)
     flags = {**solved.flags, **ties}
     if wrenches is None or after is None:
         return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
     wrench_bound = _wrench_bound(case_input, solved, wrenches)
-    given = qp.matrices(qp_case)
-    output["forces"], digits = compliant_forces(given, case_input, contacts, output["lam"])
+    program = qp.matrices(qp_case)
+    output["forces"], digits = compliant_forces(program, case_input, contacts, output["lam"])
     largest = max([1.0, *(abs(f) for row in output["forces"] for f in row)])
-    forces_off = forces_bound(given, case_input, contacts, output["delta_q"], errors)
+    forces_off = forces_bound(program, case_input, contacts, output["delta_q"], errors)
     forces_off = min(forces_off, LOOSEST * largest)
     q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
     return Expected(
@@ -85,8 +85,8 @@ def with_rows(case: Json, contacts: list[Json]) -> tuple[list[Json], Expected, E
     place = {key: case[key] for key in ("mechanism", "q")}
     jacobian = layer("jacobian").expected({**place, "contacts": contacts})
     blocks = jacobian.output["J"]
-    found = [{**contact, "J": J} for contact, J in zip(contacts, blocks, strict=True)]
-    return found, jacobian, layer("rows").expected({"cone": case["cone"], "contacts": found})
+    whole = [{**contact, "J": J} for contact, J in zip(contacts, blocks, strict=True)]
+    return whole, jacobian, layer("rows").expected({"cone": case["cone"], "contacts": whole})
 
 
 def step_output(
@@ -118,13 +118,13 @@ def _contacts_by_pair(case: Json) -> list[Chosen]:
     """The contacts of each pair."""
     names = {pair[side] for pair in case["pairs"] for side in ("alpha", "beta")}
     places = {name: shape_pose(case, case["shapes"][name]) for name in sorted(names)}
-    found = []
+    by_pair = []
     for pair in case["pairs"]:
         alpha, beta = (case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta"))
-        found.append(
+        by_pair.append(
             chosen_points(alpha, beta, places[pair["alpha"]], places[pair["beta"]], pair["k"])
         )
-    return found
+    return by_pair
 
 
 def shape_pose(case: Json, entry: Json) -> Json:
@@ -153,12 +153,12 @@ def shape_pose(case: Json, entry: Json) -> Json:
 
 def contacts_of(case: Json) -> tuple[list[Json], list[Chosen]]:
     """Contacts of all pairs without J, and whence they are."""
-    found = _contacts_by_pair(case)
+    by_pair = _contacts_by_pair(case)
     contacts = []
-    for pair, one in zip(case["pairs"], found, strict=True):
-        given = of_pair(case, pair)
-        contacts += [{**given, **c, **_tangents(c["n"])} for c in one.contacts]
-    return contacts, found
+    for pair, one in zip(case["pairs"], by_pair, strict=True):
+        of_both = of_pair(case, pair)
+        contacts += [{**of_both, **c, **_tangents(c["n"])} for c in one.contacts]
+    return contacts, by_pair
 
 
 def of_pair(case: Json, pair: Json) -> Json:
@@ -190,17 +190,17 @@ def objective(case_input: Json) -> tuple[Json, Json]:
 def _errors(
     case: Json,
     qp_case: Json,
-    found: list[Chosen],
+    by_pair: list[Chosen],
     jacobian: Expected,
     rows: Expected,
     sizes: tuple[float, float],
 ) -> tuple[Errors, dict[str, Tolerance]]:
     """What rounding in the layers before leaves in the case of layer `qp`, and in the contacts."""
-    points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
+    points = [abs(x) for one in by_pair for c in one.contacts for x in (*c["alpha"], *c["beta"])]
     pose = ROUNDINGS * EPS
     size_of = {"n": 1.0}
     worst = {
-        name: max([one.tolerance[name] for one in found], default=0.0)
+        name: max([one.tolerance[name] for one in by_pair], default=0.0)
         + pose * size_of.get(name, max(points, default=0.0))
         for name in FIELDS
     }
@@ -228,10 +228,10 @@ def _wrench_bound(case: Json, solved: Expected, wrenches: Expected) -> Fraction:
     contacts = len(wrenches.output["wrench"])
     rows = len(solved.output["lam"]) // max(contacts, 1) + 1
     frictions = [max(p["mu_v"], p["mu_omega"]) for p in case["pairs"]] if contacts else []
-    own_error = Fraction(wrenches.tolerance["wrench"].absolute)
+    rounding = Fraction(wrenches.tolerance["wrench"].absolute)
     error = rows * max([1.0, *frictions]) * solved.tolerance["lam"].absolute
-    return own_error + Fraction(error) / Fraction(case["h"])
+    return rounding + Fraction(error) / Fraction(case["h"])
 
 
-def _plus(given: Tolerance, more: float) -> Real:
-    return Fraction(given.absolute) + Fraction(more)
+def _plus(tolerance: Tolerance, more: float) -> Real:
+    return Fraction(tolerance.absolute) + Fraction(more)

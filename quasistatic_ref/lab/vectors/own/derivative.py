@@ -17,9 +17,9 @@ def own_derivative(case_input: Json) -> Json:
         return {"differentiable": False}
     mine = posed.mine
     n_a = posed.step.n_a
-    found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
+    rates = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
     # With mu = 0 the layer leaves that derivative out: mu cannot be smaller.
-    if any(reason.kind != ZERO_FRICTION for reason in found.reasons):
+    if any(reason.kind != ZERO_FRICTION for reason in rates.reasons):
         return {"differentiable": False}
     v = mine.v
     a = mine.v[:n_a]
@@ -30,13 +30,13 @@ def own_derivative(case_input: Json) -> Json:
         for mu in ("mu_v", "mu_omega")
     )
     answer = {
-        "dq_dq": found.dq_dq[np.ix_(v, v)],
-        "dq_dq_bar_a": found.dq_dq_bar_a[np.ix_(v, a)],
-        "dq_dtau": found.dq_dtau[np.ix_(v, v)],
-        "dq_dmu_v": found.dq_dmu_v[np.ix_(v, rubs)],
-        "dq_dmu_omega": found.dq_dmu_omega[np.ix_(v, turns)],
-        "dq_dK_q": found.dq_dK_q[np.ix_(v, a)],
-        "dq_dh": found.dq_dh[v],
-        "dq_dm": found.dq_dmasses[np.ix_(v, massive)],
+        "dq_dq": rates.dq_dq[np.ix_(v, v)],
+        "dq_dq_bar_a": rates.dq_dq_bar_a[np.ix_(v, a)],
+        "dq_dtau": rates.dq_dtau[np.ix_(v, v)],
+        "dq_dmu_v": rates.dq_dmu_v[np.ix_(v, rubs)],
+        "dq_dmu_omega": rates.dq_dmu_omega[np.ix_(v, turns)],
+        "dq_dK_q": rates.dq_dK_q[np.ix_(v, a)],
+        "dq_dh": rates.dq_dh[v],
+        "dq_dm": rates.dq_dmasses[np.ix_(v, massive)],
     }
     return {"differentiable": True, **{name: value.tolist() for name, value in answer.items()}}

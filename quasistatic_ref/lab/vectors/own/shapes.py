@@ -51,13 +51,13 @@ def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     b = own_shape_in_world(case, "beta")
     if isinstance(b.shape, PointCloud):
         phi, foot, point, n = _points_on_solid(a, b, b.shape.points)
-        found = {"phi": phi, "alpha": foot, "beta": point, "n": n}
+        points = {"phi": phi, "alpha": foot, "beta": point, "n": n}
     elif isinstance(a.shape, PointCloud):
         phi, foot, point, n = _points_on_solid(b, a, a.shape.points)
-        found = {"phi": phi, "alpha": point, "beta": foot, "n": -n}
+        points = {"phi": phi, "alpha": point, "beta": foot, "n": -n}
     else:
-        found = {key: np.asarray(x) for key, x in solid_pair("pair", a, b)._asdict().items()}
-    return {key: (value + 0.0).tolist() for key, value in found.items()}
+        points = {key: np.asarray(x) for key, x in solid_pair("pair", a, b)._asdict().items()}
+    return {key: (value + 0.0).tolist() for key, value in points.items()}
 
 
 def _points_on_solid(

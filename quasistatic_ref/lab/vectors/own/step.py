@@ -118,20 +118,20 @@ def _forces(case: Json, simulator: Simulator, solution: StepSolution) -> Json:
     given = {pair["name"]: pair.get("compliance", COMPLIANCE) for pair in case["pairs"]}
     each = np.array([given[name] for name in simulator.layout.names])
     try:
-        found = contact_forces(solution.step, each, (solution.delta_q, solution.wrench))
+        forces = contact_forces(solution.step, each, (solution.delta_q, solution.wrench))
     except InputError:
         return {}
-    return {"forces": found.wrench.tolist()}
+    return {"forces": forces.wrench.tolist()}
 
 
 def with_compliance(case: Json) -> Json:
     """A case of the layer `step` whose pairs have a compliance, COARSER than a run's."""
     posed = posed_case(case)
-    found = np.zeros(posed.step.contacts.n_c)
+    compliances = np.zeros(posed.step.contacts.n_c)
     for group, part in group_steps(posed.step):
-        found[group.contacts] = COARSER * group_compliance(part)
-    own = dict(zip(posed.simulator.layout.names, found.tolist(), strict=True))
-    return {**case, "pairs": [{**p, "compliance": own[p["name"]]} for p in case["pairs"]]}
+        compliances[group.contacts] = COARSER * group_compliance(part)
+    by_pair = dict(zip(posed.simulator.layout.names, compliances.tolist(), strict=True))
+    return {**case, "pairs": [{**p, "compliance": by_pair[p["name"]]} for p in case["pairs"]]}
 
 
 def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:

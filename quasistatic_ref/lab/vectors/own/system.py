@@ -77,12 +77,12 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
     q: list[int] = []
     v: list[int] = []
     units = []
-    for body, own, _ in places(mechanism):
+    for body, slices, _ in places(mechanism):
         if body["joint"] == "fixed":
             continue
         joint = joints[f"t{tree[body['name']]}/{_joint(body, numbers[body['name']])}"]
         if joint.unit:
-            units.append(slice(own.start + joint.lengths, own.stop))
+            units.append(slice(slices.start + joint.lengths, slices.stop))
         q += range(joint.q.start, joint.q.stop)
         v += range(joint.v.start, joint.v.stop)
     links = {name: system.link(f"t{tree[name]}/b{k}") for name, k in numbers.items()}

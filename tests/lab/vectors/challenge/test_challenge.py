@@ -11,7 +11,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.program.layers import LAYERS as PROGRAM
 from quasistatic_ref.lab.program.layers import plain
 from quasistatic_ref.lab.vectors.challenge.fresh import (
-    ASKED,
+    CHALLENGED,
     EASY,
     HARD,
     PLAIN,
@@ -76,7 +76,7 @@ def test_derivatives_have_no_new_cases():
 
 
 @pytest.mark.parametrize("level", [EASY, PLAIN, HARD])
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", CHALLENGED)
 def test_every_fresh_case_is_the_same_again_and_has_an_answer(name, level):
     case, record = fresh_case(name, (5, level), level)
     assert (case, record) == fresh_case(name, (5, level), level)
