@@ -89,20 +89,10 @@ def run(options: argparse.Namespace) -> int:
     scenario = scenario_of(options)
     path = options.out / f"{scenario.path.stem}.npz"
     check_replaceable(path, scenario.steps)
-    writable_folder(options.out)  # known before the work, not after it
-    if options.view:
-        with needing("--view"):
-            from quasistatic_ref.optional.show.figures.viewer import view_written, viewer_package
-        viewer_package()  # so that a missing extra is known before the work, too
-    paths = {"--table": options.table, "--contacts-table": options.contacts_table}
-    tables = {option: path for option, path in paths.items() if path is not None}
-    for option, file in tables.items():
-        with needing(option):
-            from quasistatic_ref.optional.show.table import check_table_path, table_written
-        check_table_path(file, option)
-    if options.strict:
-        with needing("--strict"):
-            from quasistatic_ref.optional.doctor import checks  # noqa: F401 only whether it is there
+    writable_folder(options.out)
+    tables = {"--table": options.table, "--contacts-table": options.contacts_table}
+    tables = {option: file for option, file in tables.items() if file is not None}
+    _check_parts(options, tables)
     failure: RunFailed | None = None
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet)
@@ -115,13 +105,58 @@ def run(options: argparse.Namespace) -> int:
     if failure is not None:
         return shared.failed_run(failure, path)
     trajectory.save(path)
-    view = None
-    if options.view:
-        view = view_written(scenario, path.with_suffix(".html"), trajectory)
+    written = [path]
     for option, file in tables.items():
+        with needing(option):
+            from quasistatic_ref.optional.show.table import table_written
         table_written(trajectory, file, option)
-    milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
-    summary: dict[str, Any] = {
+        written.append(file)
+    summary = summary_record(scenario, trajectory, path)
+    if options.view:
+        with needing("--view"):
+            from quasistatic_ref.optional.show.figures.viewer import view_written
+        view = view_written(scenario, path.with_suffix(".html"), trajectory)
+        summary["view"] = str(view)
+        written.append(view)
+    account = None
+    with if_there():
+        from quasistatic_ref.optional.doctor import telling
+
+        account = trajectory.account(forces=False)
+    if options.json:
+        numbers = {} if account is None else {"account": account.numbers}
+        shared.print_json(summary | numbers)
+    else:
+        _print(summary)
+        if account is not None:
+            print(_artifacts(trajectory.header))
+            for line in telling.lines(account, telling.PRINTED):
+                shared.print_wrapped(line, "    ")
+        times = summary["milliseconds_per_step"].items()
+        print(f"ms per step: {', '.join(f'{stage} {ms:.2f}' for stage, ms in times)}")
+        print(f"wrote {' and '.join(map(str, written))}")
+    return int(options.strict and any(finding.grave for finding in trajectory.findings))
+
+
+def _check_parts(options: argparse.Namespace, tables: Mapping[str, Path]) -> None:
+    """Refuse an option whose part or package is missing: before the work, not after it."""
+    if options.view:
+        with needing("--view"):
+            from quasistatic_ref.optional.show.figures.viewer import viewer_package
+        viewer_package()
+    for option, file in tables.items():
+        with needing(option):
+            from quasistatic_ref.optional.show.table import check_table_path
+        check_table_path(file, option)
+    if options.strict:
+        with needing("--strict"):
+            from quasistatic_ref.optional.doctor import checks  # noqa: F401 only whether it is there
+
+
+def summary_record(scenario: Scenario, trajectory: Trajectory, path: Path) -> dict[str, Any]:
+    """What is said of a run, as plain data."""
+    header = trajectory.header
+    record: dict[str, Any] = {
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
@@ -131,52 +166,34 @@ def run(options: argparse.Namespace) -> int:
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
         "worst_residual": worst_residual(trajectory),
-        "quasi_dynamic_number": trajectory.header["quasi_dynamic_number"],
-        "largest_drag_share": trajectory.header["largest_drag_share"],
-        "largest_boundary_layer": trajectory.header["largest_boundary_layer"],
-        "milliseconds_per_step": milliseconds,
+        "quasi_dynamic_number": header["quasi_dynamic_number"],
+        "largest_drag_share": header["largest_drag_share"],
+        "largest_boundary_layer": header["largest_boundary_layer"],
+        "milliseconds_per_step": {
+            stage: 1e3 * float(seconds.mean()) for stage, seconds in trajectory.seconds.items()
+        },
         "findings": [finding_table(finding) for finding in trajectory.findings],
-        "not_looked_at": trajectory.header.get("not_looked_at", ""),
+        "not_looked_at": header.get("not_looked_at", ""),
     }
     if scenario.law == COULOMB:
-        summary["s_iterations"] = trajectory["s_iterations"].tolist()
-        summary["largest_s_residual"] = float(trajectory["s_residual"].max(initial=0.0))
-    status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
-    if view is not None:
-        summary["view"] = str(view)
-    account = None
-    with if_there():
-        from quasistatic_ref.optional.doctor import telling
+        record["s_iterations"] = trajectory["s_iterations"].tolist()
+        record["largest_s_residual"] = float(trajectory["s_residual"].max(initial=0.0))
+    return record
 
-        account = trajectory.account(forces=False)
-    if options.json:
-        if account is not None:
-            summary["account"] = account.numbers
-        shared.print_json(summary)
-        return status
+
+def _print(summary: Mapping[str, Any]) -> None:
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
-    x = summary["worst_residual"]
-    speed = "fast" if scenario.fast else "plain"
-    worst = "not computed" if x is None else f"{x:.1e} (natural units)"
-    print(
-        f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
-    )
-    if scenario.law == COULOMB and trajectory.steps:
-        solved = trajectory["s_iterations"]
-        off = summary["largest_s_residual"]
+    residual = summary["worst_residual"]
+    worst = "not computed" if residual is None else f"{residual:.1e} (natural units)"
+    speed = "fast" if summary["fast"] else "plain"
+    solved = f"backend {summary['backend']}, {speed} path, worst residual {worst}"
+    print(f"{summary['certified']}; {solved}")
+    iterations = summary.get("s_iterations")
+    if iterations:
         print(
-            f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
-            f"s is its own to within {off:.1e} m"
+            f"Coulomb's law: {np.mean(iterations):.1f} iterations a step, at most "
+            f"{max(iterations)}; s is its own to within {summary['largest_s_residual']:.1e} m"
         )
-    if account is not None:
-        print(_artifacts(trajectory.header))
-        for line in telling.lines(account, telling.PRINTED):
-            shared.print_wrapped(line, "    ")
-    parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
-    print(f"ms per step: {parts}")
-    written = [str(file) for file in (path, *tables.values(), view) if file is not None]
-    print(f"wrote {' and '.join(written)}")
-    return status
 
 
 def check_replaceable(path: Path, steps: int) -> None:

@@ -29,7 +29,7 @@ class TableReader:
 
     Attributes
     ----------
-    given : dict
+    fields : dict
         The table as it was parsed.
     """
 
