@@ -331,17 +331,17 @@ class Mechanism(ABC):
         return self._roots[body]
 
 
-def _taken(x: ArrayLike, own: Indices, lengths: set[int], field: str, name: str) -> Array:
+def _taken(x: ArrayLike, entries: Indices, lengths: set[int], field: str, name: str) -> Array:
     """Entries of the last axis of an array, without that axis if there is one entry."""
     if not isinstance(x, np.ndarray | list | tuple):
         problem = f'must be numbers, of one step or of all of a run, run["{field}"]'
         raise ModelError(problem, field=field, value=x)
     x = checked_numbers(x, field, ModelError)
-    if x.ndim == 0 or x.shape[-1] not in lengths or own.max() >= x.shape[-1]:
+    if x.ndim == 0 or x.shape[-1] not in lengths or entries.max() >= x.shape[-1]:
         wanted = " or ".join(map(str, sorted(lengths)))
         problem = f"cannot hold {name}: the last axis must have {wanted} entries"
         if field == "delta_q" and x.ndim and x.shape[-1] > max(lengths):
             problem += f"; further ones are rises of friction: take delta_q[..., :{wanted}]"
         raise ModelError(problem, field=field, value=x.shape)
-    taken = x.take(own, axis=-1)
-    return taken[..., 0] if len(own) == 1 else taken
+    taken = x.take(entries, axis=-1)
+    return taken[..., 0] if len(entries) == 1 else taken
