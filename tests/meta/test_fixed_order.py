@@ -18,6 +18,9 @@ FUNCTIONS = {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "asin
 UNORDERED = SUMS | REDUCTIONS | FUNCTIONS | {"atan2", "hypot", "exp", "log"}
 """Names of what is called; ``@`` is found as an operator."""
 EXCEPTIONS = {
+    "which candidates are compared: every pair that is alike, in whatever order they are summed": (
+        "contact/distance.py:repeated",
+    ),
     "files, read and checked before a run": (
         "model/urdf/urdf_file.py",
         "model/urdf/urdf_inertia.py",
@@ -40,7 +43,7 @@ EXCEPTIONS = {
         "step/problem.py:StepProblem.set_parameters",
     ),
     "measured of an answer or of a run; the next step does not read it": (
-        "model/system.py:System.mass",
+        "model/mechanism.py:Mechanism.mass",
         "simulate/motions.py:LinkMotion.relative_to",
         "simulate/motions.py:LinkMotion.rotation_since",
         "simulate/motions.py:rotation_angle",
