@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab import run_settings
 from quasistatic_ref.lab.lock import Lock
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
@@ -196,16 +195,6 @@ def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, 
         np.testing.assert_array_equal(found["q"], alone.run(progress=False)["q"])
 
 
-def test_fields_that_are_named_together_have_the_same_values(tmp_path):
-    both = "contacts.rough.mu_v,contacts.smooth.mu_v"
-    argv = ["run", *SLOPE[:3], "--sweep", f"{both}=0.1,0.3", "--jobs", "1", "--quiet"]
-    assert main([*argv, "--out", str(tmp_path)]) == 0
-    for line in table(tmp_path):
-        settings = dict.fromkeys(both.split(","), float(line[both])) | {"steps": 2}
-        alone = load_scenario("block_incline", settings, fast=True).run(progress=False)
-        np.testing.assert_array_equal(trajectory_read(tmp_path / line["run"])["q"], alone["q"])
-
-
 @pytest.mark.parametrize(
     ("text", "values"),
     [
@@ -244,19 +233,11 @@ def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
     assert not (tmp_path / "map").exists()
 
 
-def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, cli):
-    assert "--view: is of one run" in cli("run", *SLOPE, "--view", "--out", tmp_path, status=2).err
-    assert (
-        "contacts.rough.mu_v: is swept twice"
-        in cli("run", *SLOPE, "--sweep", "contacts.rough.mu_v=1", "--out", tmp_path, status=2).err
-    )
-
-
 def test_a_sweep_has_a_column_of_findings(tmp_path):
     """Its records are light: the grip without friction is named all the same."""
     scenes_written(tmp_path)
-    mu_v = {"contacts.grip.mu_v": [0.01, 0.6]}
-    rows = simulate_many(tmp_path / "grasp.toml", mu_v, tmp_path / "map", workers=1, progress=False)
+    varied = {"contacts.grip.mu_v": [0.01, 0.6], "solver.certify": ["off"]}
+    rows = swept(tmp_path / "grasp.toml", tmp_path / "map", **varied)
     assert [row["findings"] for row in rows] == [["lost grip"], []]
     table = list(csv.DictReader((tmp_path / "map" / TABLE).read_text().splitlines()))
     assert [row["findings"] for row in table] == ["lost grip", ""]

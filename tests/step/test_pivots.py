@@ -50,6 +50,11 @@ def test_a_pivot_of_zero_is_none_also_where_rounding_makes_it_positive():
     assert not positive_pivots(S)
 
 
+def test_a_stack_obeys_the_rule_if_each_of_its_matrices_does():
+    assert positive_pivots(np.array([NEAR, np.eye(3)]))
+    assert not positive_pivots(np.array([np.eye(3), -np.eye(3)]))
+
+
 def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
     """L (1, 0, 0) = (1, -1, 1) = g: x = (1/3, 0, 0), and ||H^-1 g|| = 3^-0.5."""
     for lost in (np.linalg.cholesky, np.linalg.inv):

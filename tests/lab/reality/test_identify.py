@@ -1,7 +1,5 @@
 """Friction from loads: planted ratios, Fisher information, and what may not be read."""
 
-import shutil
-
 import numpy as np
 import pytest
 
@@ -86,13 +84,11 @@ GAUGES = {
     "ellipsoid": lambda f, g, t: np.sqrt(f**2 + g**2 + t**2),
     "pyramid": lambda f, g, t: abs(f) + abs(g) + abs(t),
     "product": lambda f, g, t: np.maximum(abs(f) + abs(g), abs(t)),
-    "facets-4": lambda f, g, t: abs(f) + abs(g) + abs(t),
 }
 SUPPORTS = {
     "ellipsoid": lambda u, v, w: np.sqrt(u**2 + v**2 + w**2),
     "pyramid": lambda u, v, w: np.max([abs(u), abs(v), abs(w)], axis=0),
     "product": lambda u, v, w: np.maximum(abs(u), abs(v)) + abs(w),
-    "facets-4": lambda u, v, w: np.max([abs(u), abs(v), abs(w)], axis=0),
 }
 
 
@@ -113,15 +109,9 @@ def test_no_dissipation_is_lost_where_the_motion_is_normal_to_the_surface():
     assert lost_share(slid, RATIO, *limit_surface("pyramid")) == pytest.approx([0.8])
 
 
-def test_ratios_are_the_same_where_there_are_no_pushes(tmp_path):
-    own = reality_folder()
-    for name in ("patches.csv", "shapes.json", "loads.csv"):
-        shutil.copy(own / name, tmp_path / name)
-    ratios = []
-    for folder in (own, tmp_path):
-        (pair,) = pairs_read(folder, ["abs/rect1"])
-        loads = loads_read(folder, [pair])["abs/rect1"]
-        ratios.append(identified_ratio(loads, pair.outline.gyration))
-    assert ratios[0] == ratios[1]
-    # The published ellipsoid was fitted to the same loads by another loss.
-    assert ratios[0].ratio == pytest.approx(pair.published, rel=0.2)
+def test_a_ratio_is_near_the_published_one():
+    """The published ellipsoid was fitted to the same loads by another loss."""
+    (pair,) = pairs_read(reality_folder(), ["abs/rect1"])
+    loads = loads_read(reality_folder(), [pair])["abs/rect1"]
+    ratio = identified_ratio(loads, pair.outline.gyration).ratio
+    assert ratio == pytest.approx(pair.published, rel=0.2)

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.lab.study.claims import HIDDEN, INFEASIBLE, OPTIMAL, claim, exit_codes
 from quasistatic_ref.lab.study.doors import call_of
-from quasistatic_ref.lab.study.promises import RESIDUALS, UNSTATED
+from quasistatic_ref.lab.study.promises import RESIDUALS
 from quasistatic_ref.lab.study.solvers import BY_NAME, SETTINGS, Solver, installed_here, table
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -45,12 +45,3 @@ def test_every_solver_that_takes_an_accuracy_promises_residuals_of_it(way):
     for residual in stated.keys() & set(RESIDUALS):
         if promise[residual] is not None and name != "highs":
             assert {promise[residual]["abs"], promise[residual]["rel"]} <= {0.0, 1e-9}
-
-
-def test_a_promise_is_of_the_defaults_of_a_door_and_of_what_a_study_says_instead():
-    osqp = [Solver("osqp", door, "osqp").promise(SETTINGS[0], {}) for door in BY_NAME]
-    assert [one["dual"]["abs"] for one in osqp] == [1e-3, 1e-5]
-    mine = Solver("mine", "function", "m:f", promised={"high": {"primal": 1e-8, "gap": False}})
-    promise = mine.promise(HIGH, {})
-    assert (promise["primal"]["abs"], promise["gap"]) == (1e-8, None)
-    assert promise["dual"]["rel"] == UNSTATED["rel"]  # of which nothing is said

@@ -7,14 +7,13 @@ import pytest
 
 from quasistatic_ref import InputError
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.page import kept, page, page_written, table_of
+from quasistatic_ref.lab.study.page import page, page_written, table_of
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.store import rows_read
 from quasistatic_ref.lab.study.study_file import solver_study, study_path
 
 ROOT = Path(__file__).parents[3]
 STUDIES = ROOT / "validation" / "studies"
-PAGE = (ROOT / "docs" / "studies.md").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -69,11 +68,3 @@ def test_the_default_study_selects_the_problems_of_the_committed_rows(committed)
     chosen = problems_taken(problems.source, problems.families, problems.most)
     assert len(chosen) == 310
     assert {one.id for one in chosen} == {row.problem for row in committed}
-
-
-def test_the_page_says_which_accuracy_gave_six_digits(table):
-    """In how many families 95 % of the answers that kept their promise have them."""
-    ranges = kept(table)
-    six = ranges[ranges["low"] >= 6].groupby("setting").size().to_dict()
-    assert six == {"high": 11, "tuned": 16}
-    assert "6 digits in all 16 families, at 1e-9 in eleven, and at 1e-6 in none" in PAGE

@@ -18,12 +18,8 @@ HERE = [(door, name) for door in BY_NAME for name in installed_here(door)]
 
 WRONG = [
     ("qpsolvers", "piqp", "eps_absolute", 1e-12),
-    ("qpsolvers", "osqp", "eps_absolute", 1e-12),
     ("qpsolvers", "daqp", "primal_tolerance", 1e-12),
-    ("qpsolvers", "quadprog", "tolerance", 1e-12),
     ("qpsolvers", "highs", "primal_feasibility_tolerance", 1e-12),
-    ("cvxpy", "daqp", "primal_tolerance", 1e-12),
-    ("cvxpy", "proxqp", "eps_primal_inf", 1e-12),
     ("cvxpy", "clarabel", "tol_feasibility", 1e-12),
     ("cvxpy", "scs", "eps_abs", -1.0),
 ]  # fmt: skip
@@ -52,13 +48,6 @@ def test_solvers_take_the_options_of_every_setting(door, name):
             check_options(door, name, solver.settings_of(setting, 2.0))
 
 
-@pytest.mark.parametrize("door", ["qpsolvers", "cvxpy"])
-@pytest.mark.parametrize("setting", SETTINGS, ids=lambda one: one.name)
-def test_highs_is_never_given_a_regularisation(door, setting):
-    options = Solver("highs", door, "highs").settings_of(setting, 2.0)
-    assert options["qp_regularization_value"] == 0.0
-
-
 @pytest.mark.parametrize("name", [name for door, name in HERE if door == "qpsolvers"])
 def test_a_solver_is_called_warm_where_its_door_uses_the_start(members, name):
     """With a start that is the answer, or far off, a solver that uses it returns other bits."""
@@ -82,11 +71,3 @@ def test_a_step_that_was_not_solved_starts_nothing():
     assert not answered(call, Question(form, {}, start=none), None).started
     assert not answered(call, Question(form, {}, goes_on=True), failed).started
     assert answered(call, Question(form, {}, start=form), None).started
-
-
-def test_a_study_whose_options_nobody_takes_measures_nothing(run, small, tmp_path):
-    text = small.replace('function = "solvers.py:honest"',
-                         'qpsolvers = "piqp"\noptions.high = { eps_absolute = 1e-12 }')  # fmt: skip
-    with pytest.raises(InputError, match="eps_absolute: is not an option of qpsolvers:piqp"):
-        run(text)
-    assert not (tmp_path / "store").exists()

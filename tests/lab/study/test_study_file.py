@@ -6,7 +6,6 @@ from quasistatic_ref import InputError
 from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.run import plan
 
-RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
 MINE = '[solvers.mine]\nfunction = "solvers.py:honest"\n'
 
 BAD = {

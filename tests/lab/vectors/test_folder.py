@@ -13,7 +13,7 @@ from quasistatic_ref import InputError, verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
-from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, own_written
+from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder
 from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
 from tests.lab.vectors.committed_cases import (
@@ -28,7 +28,7 @@ from tests.lab.vectors.committed_cases import (
 MEBIBYTES = 25
 """Promised size of the folder."""
 FILE_ALONE = "expected/derivative.json"
-EVERY = {"distance": 48, "qp": 12, "step": 48}
+EVERY = {"distance": 24, "qp": 12, "step": 48}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 
@@ -57,17 +57,6 @@ def test_every_file_is_as_its_schema_says(layer):
         for error in both.iter_errors({"input": given["input"], "output": record["output"]})
     ]
     assert wrong == []
-
-
-def test_the_schemas_refuse_what_is_wrong():
-    case = cases("rows")[0]
-    record = expected_of("rows")[cases("rows")[0].id]
-    for broken in (
-        {"input": {**case.input, "cone": 3}, "output": record["output"]},
-        {"input": case.input, "output": {"A": record["output"]["A"]}},
-        {"input": {**case.input, "more": 1}, "output": record["output"]},
-    ):
-        assert not schema("rows").is_valid(broken)
 
 
 def complaints(folder):
@@ -139,13 +128,6 @@ def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     assert content[0] == content[1]
     assert len(content[0]) == 1 + 3 + 2 * len(LAYERS)
     assert complaints(tmp_path / "b") == []
-
-
-def test_answers_of_the_package_are_files_as_the_schema_says(tmp_path):
-    for path in own_written(VECTORS, tmp_path, ["selection", "wrench"], progress=False):
-        assert [
-            e.message for e in schema("answers").iter_errors(json.loads(path.read_text()))
-        ] == []
 
 
 def test_outputs_are_computed_without_robotics_stack_backends_and_blas(tmp_path):

@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from flint import arb_mat
+from flint import arb, arb_mat
 
-from quasistatic_ref.certify.form import StepForm
-from quasistatic_ref.optional.ellipsoid.enclosure import (
-    checked,
-)
+from quasistatic_ref.certify.form import StepForm, exact_matrix
+from quasistatic_ref.optional.ellipsoid.enclosure import Checked, _net, checked
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_relative
@@ -49,6 +47,14 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
     gap = checked(frame, frame.start(x, lam)).gap / form.h
     assert_relative(float(gap), expected, ROUNDING)
+
+
+def test_net_is_the_impulse_of_the_contact():
+    """H x - g = m x / h - h F."""
+    x = np.array([3e-3, -2e-3, 5e-3])
+    _, form, _ = forms_of()
+    net = _net(form, Checked(exact_matrix(x[:, None]), [], arb(0), arb(1)))
+    assert_relative(net, M * x / H_STEP - H_STEP * FORCE, ROUNDING)
 
 
 def test_what_gives_way_moves_by_the_compliance_times_the_force():

@@ -10,8 +10,6 @@ import pytest
 from quasistatic_ref import InputError, Trajectory, load_scenario, trajectory_read
 from tests.scenes import written_scenario
 
-PUSH, FLOOR = "push(rail/plate#0, ball/ball#0)/0", "floor(floor, ball/ball#0)/0"
-
 
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory):

@@ -21,10 +21,6 @@ def test_what_a_torque_leaves_of_a_cone(cone, area):
     assert_relative(0.5 * abs(x @ np.roll(y, 1) - y @ np.roll(x, 1)), area, ROUNDING)
 
 
-def test_at_its_limit_a_pyramid_s_torque_leaves_no_friction():
-    assert len(limit_at("pyramid", 1.0)) == 0
-
-
 def test_a_load_is_drawn_in_newtons():
     _, (axes,) = panels(4, 4)
     qr.cone_with_load(axes, [1.0, 0.5, 4.0, 0.02], mu_v=0.5, mu_omega=0.01)

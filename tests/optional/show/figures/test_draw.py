@@ -19,7 +19,6 @@ from quasistatic_ref import (
 from quasistatic_ref.optional.show.figures import panels
 from quasistatic_ref.optional.show.figures.animation import animate
 from quasistatic_ref.optional.show.figures.draw import PARTS, draw_scene, draw_scenes
-from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
@@ -102,12 +101,6 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
 
 
-def test_no_cone_hides_the_scene_unless_it_is_named(incline, page):
-    scenario, run = incline
-    draw_scene(page, moment(scenario, run, -1))
-    assert "friction cone" not in [text.get_text() for text in page.get_legend().get_texts()]
-
-
 def test_panels_have_one_view_and_one_scale_of_forces(incline):
     figure, both = panels(6, 3, columns=2)
     draw_scenes(both, [moment(*incline, 0), moment(*incline, -1)])
@@ -144,15 +137,6 @@ def test_the_circle_of_torsion_has_radius_mu_omega():
         np.testing.assert_allclose(np.hypot(x, y), 10.0, atol=1e-3)  # mm; it is lifted by microns
         turned = np.ptp(np.unwrap(np.arctan2(y, x)))
         assert_relative(turned, 2 * np.pi * share, 1e-6)
-    plt.close(figure)
-
-
-@pytest.mark.parametrize("view", ["xz", "xy", CAMERA])
-def test_the_axes_of_a_view_have_their_units(incline, view):
-    figure, (axes,) = panels(4.6, 4.0)
-    draw_scene(axes, moment(*incline, -1), view=view)
-    labels = axes.get_xlabel(), axes.get_ylabel()
-    assert labels == {"xz": ("x [mm]", "z [mm]"), "xy": ("x [mm]", "y [mm]")}.get(view, ("", ""))
     plt.close(figure)
 
 

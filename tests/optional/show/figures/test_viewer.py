@@ -1,6 +1,5 @@
 """What meshcat is told is the trajectory; validation/tools/check_in_browser.py opens the page."""
 
-import json
 import pickle
 import sys
 
@@ -142,12 +141,6 @@ def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, 
     arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
     assert "pip install 'quasistatic-ref[view]'" in cli(*arguments, status=2).err
     assert list(tmp_path.iterdir()) == []  # refused before the run
-
-
-def test_a_run_with_view_says_where_the_page_is(tmp_path, cli):
-    arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
-    assert json.loads(cli(*arguments, "--json").out)["view"] == str(tmp_path / "block_push.html")
-    assert (tmp_path / "block_push.html").is_file()
 
 
 def test_a_run_without_steps_has_nothing_to_show(pushed):
