@@ -108,3 +108,20 @@ def outcomes(step, good, path):
             yield name, "refused", forged
         else:
             yield name, "still true" if truth(forged) else "PASSED", forged
+
+
+def at_random(rng, step, record):
+    """A record with up to three values taken from elsewhere in it, or moved by any power of ten."""
+    leaves = [
+        where for where in places(record) if not isinstance(value_at(record, where), dict | list)
+    ]
+    forged = record
+    for _ in range(int(rng.integers(1, 4))):
+        where = leaves[rng.integers(len(leaves))]
+        value = value_at(record, leaves[rng.integers(len(leaves))])
+        if isinstance(old := value_at(forged, where), float) and rng.random() < 0.7:
+            value = old + (abs(old) + 1e-12) * float(
+                10 ** rng.uniform(-17, 3) * rng.choice([-1, 1])
+            )
+        forged = with_value(forged, where, value)
+    return with_its_wrenches(step, forged) if rng.random() < 0.5 else forged

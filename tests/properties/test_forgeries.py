@@ -4,6 +4,7 @@ import json
 from collections import Counter
 from dataclasses import fields
 
+import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step
@@ -11,12 +12,14 @@ from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from tests.oracles.forged_scenes import between_walls, scenes
-from tests.oracles.forgeries import good_file, is_refused, outcomes
+from tests.oracles.forgeries import at_random, good_file, is_refused, outcomes
 from tests.oracles.records import places
-from tests.oracles.solution_truth import wrenches
+from tests.oracles.solution_truth import truth_of, wrenches
 
 SCENES = scenes()
 PROVES_NOTHING = ("none", "residual in the ellipsoid")
+RANDOM = 40
+"""Random forgeries of each file: 2 s in all."""
 
 
 @pytest.fixture
@@ -45,6 +48,19 @@ def test_no_false_file_passes(path, kind, name):
     assert freely <= ({"farkas"} if kind == "infeasible" else allowed)
     if kind == "exact":
         assert not freely
+
+
+@pytest.mark.parametrize(("kind", "name"), SCENES)
+def test_no_random_forgery_passes(path, kind, name):
+    step = SCENES[kind, name]
+    good = good_file(step, kind)
+    rng = np.random.default_rng(1)
+    truth = truth_of(step, good)
+    tried = 0
+    for forged in (at_random(rng, step, good) for _ in range(RANDOM)):
+        tried += forged != good
+        assert is_refused(step, forged, path) or truth(forged), forged
+    assert tried > RANDOM / 2
 
 
 def test_every_kind_and_every_claim_of_a_certificate_is_forged():

@@ -7,13 +7,27 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import ModelError, ScenarioError, load_scenario
 from quasistatic_ref.model.joints.floating import Floating
-from quasistatic_ref.simulate.target import JointTrack, Targets
+from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
 from quasistatic_ref.simulate.user_functions import AT_ONCE, target_function
 from tests.closeness import assert_close
 from tests.tolerances import DIFFERENCE, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
 VALUES = np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
+BETWEEN = {
+    "before the first": (-3.0, [0.0, 5.0]),
+    "at the first": (1.0, [0.0, 5.0]),
+    "a quarter on": (1.25, [2.5, 5.0]),
+    "at the second": (2.0, [10.0, 5.0]),
+    "half way to the third": (3.0, [0.0, 5.5]),
+    "at the last": (4.0, [-10.0, 6.0]),
+    "after the last": (99.0, [-10.0, 6.0]),
+}
+
+
+@pytest.mark.parametrize(("t", "expected"), BETWEEN.values(), ids=BETWEEN)
+def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
+    assert_close(piecewise_linear(TIMES, VALUES, t), expected, ROUNDING)
 
 
 def test_a_continuous_joint_may_turn_beyond_pi(scene):
@@ -46,8 +60,18 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
 
 
-def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng):
-    joint = Floating("arm/base", True, slice(0, 7), slice(0, 6))
+class OfNumbers(Floating):
+    """A joint of a user's own, which is asked with numbers alone."""
+
+    def moved(self, q, delta_q):
+        """Its entries of q (+) delta_q."""
+        assert {type(x) for x in delta_q} == {float}
+        return super().moved(q, delta_q)
+
+
+@pytest.mark.parametrize("kind", [Floating, OfNumbers])
+def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng, kind):
+    joint = kind("arm/base", True, slice(0, 7), slice(0, 6))
     start = target_at_random(rng)
     end = np.concatenate([rng.normal(size=3), start[3:]])
     way = joint.change(start.tolist(), end.tolist())
@@ -56,6 +80,13 @@ def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng):
     expected = [joint.moved(start.tolist(), [s * x for x in way]) for s in shares.tolist()]
     assert track.over(shares).tolist() == expected
     assert track.over(shares[:2]).tolist() == expected[:2]
+
+
+def test_waypoints_of_a_base_may_be_whole_numbers():
+    joint = Floating("arm/base", True, slice(0, 7), slice(0, 6))
+    ends = np.array([[0, 0, 0, 0, 0, 0, 1], [1, 2, 0, 0, 0, 0, 1]])
+    for t in (np.array([0.25]), np.linspace(0.0, 0.75, 8)):
+        assert JointTrack(joint, np.array([0.0, 1.0]), ends).over(t)[:, 0].tolist() == t.tolist()
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])

@@ -28,6 +28,7 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.friction import frame_jacobian, slip_norms
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import point_on_floor, random_step, sphere_on_floor
+from tests.oracles.planar_steps import planar_contacts, planar_step
 
 M = 0.3
 H = 0.01
@@ -113,25 +114,37 @@ def test_what_is_not_found_is_not_said_not_to_exist():
         simulated_solution(step, solver_for(step), ACCURACY)
 
 
+@pytest.mark.parametrize("kind", ["floor", "anywhere", "wedge"])
+def test_planar_steps_have_coulombs_law(kind):
+    """One to four contacts, friction up to 5, exact ties and normals that face each other."""
+    for seed in range(5):
+        step = planar_step(np.random.default_rng([0, seed]), kind)
+        at_end = coulomb_step(step, "none")
+        assert at_end.converged
+        gap = step.contacts.phi + frame_jacobian(step.contacts, step.contacts.J)[0] @ at_end.delta_q
+        off = 1e-10 * np.abs(at_end.delta_q).max()
+        assert gap.min() >= -off
+        assert not at_end.wrench[gap > off].any()
+        np.testing.assert_allclose(
+            at_end.s, slip_norms(step.contacts, at_end.delta_q, step.cone), atol=off
+        )
+
+
 def test_a_step_whose_convex_step_has_no_solution_needs_a_start():
     """A point so deep in a notch that it leaves it freely, by h^2 F / m = 1 mm.
 
     In the convex model z cos(1) - depth >= mu z sin(1), which no z > 0 satisfies. It does where phi
     is raised by the slip of 1 mm, mu sin(1) mm.
     """
-    up, aside = np.cos(1.0), np.sin(1.0)
-    frames = [[[up, 0.0, -n_x], [0.0, 1.0, 0.0], [n_x, 0.0, up]] for n_x in (-aside, aside)]
-    step = free_step(
-        np.eye(3),
-        [0.0, 0.0, 10.0],
-        contacts_of([-1e-4] * 2, np.array(frames), [np.eye(4, 3)] * 2, 1.0),
-        H,
+    contacts = planar_contacts(
+        [-1e-4] * 2, np.pi / 2 + np.array([1.0, -1.0]), np.zeros((2, 2)), 1.0
     )
+    step = free_step(np.eye(3), [0.0, 10.0, 0.0], contacts, H)
     with pytest.raises(StepInfeasible):
         coulomb_step(step)
     at_end = coulomb_step(step, start=[1e-3 * np.sin(1.0)] * 2)
     assert at_end.converged
-    assert at_end.delta_q == pytest.approx([0.0, 0.0, 1e-3], abs=1e-12)
+    assert at_end.delta_q == pytest.approx([0.0, 1e-3, 0.0], abs=1e-12)
 
 
 def test_what_is_not_usable_is_refused_in_a_sentence():

@@ -90,18 +90,27 @@ def test_a_joint_that_holds_its_place_against_a_load_is_no_error():
 
 
 def test_a_door_that_a_contact_pushes_stops():
-    """The door of models/ ends at its limit of 0.05 rad; without the stop it goes on to 0.08."""
-    text = qr.load_scenario("door", steps=1).system
-    text = text.texts[[body.name for body in text.bodies].index("door")]
+    """The door of models/ with limits of +-0.05 rad ends there; else it goes on to 0.08 rad."""
+    free = qr.load_scenario("door", steps=80)
+    text = free.system.texts[[b.name for b in free.system.bodies].index("door")]
+    assert 'lower="-3" upper="3"' in text.replace("3.0", "3")
     narrow = text.replace('"-3', '"-0.05').replace('"3', '"0.05')
-    settings = {"bodies.door.urdf": narrow, "bodies.door.joint_limits": "urdf"}
-    scenario = qr.load_scenario("door", settings, steps=80)
-    run = scenario.run(progress=False)
-    assert set(run["certificate"].tolist()) == {"exact"}
-    place = scenario.system.named.q("door/hinge")[0]
-    assert run["q"][-1, place] == pytest.approx(0.05, rel=ROUNDING)
-    hinge = run.header["extra"].index("door/hinge at its upper limit")
-    assert run["lam_extra"][-1, hinge] > 0
+    settings = {"bodies.door.urdf": narrow}
+    beyond = qr.load_scenario("door", settings, steps=80).run(progress=False)
+    assert [one.name for one in beyond.findings if one.grave] == ["joint beyond a limit"]
+    limited_by = {**settings, "bodies.door.joint_limits": "urdf"}
+    runs = [
+        qr.load_scenario("door", limited_by, steps=80, fast=fast).run(progress=False)
+        for fast in (False, True)
+    ]
+    hinge = runs[0].header["extra"].index("door/hinge at its upper limit")
+    place = free.system.named.q("door/hinge")[0]
+    for run in runs:
+        assert set(run["certificate"].tolist()) == {"exact"}
+        assert run["q"][-1, place] == pytest.approx(0.05, rel=ROUNDING)
+        assert run["lam_extra"][-1, hinge] > 0
+    assert runs[0]["q"].tolist() == runs[1]["q"].tolist()
+    assert beyond["q"][-1, place] > 0.07
 
 
 @pytest.mark.parametrize(("multiplier", "offset"), [(-2.0, 0.0), (3.0, 0.001), (0.5, -0.0002)])
@@ -163,6 +172,11 @@ def test_bounds_that_are_missing_and_bounds_of_zero(written, expected, note):
     assert system.joints[0].limits == expected
 
 
+def test_a_joint_that_is_held_by_zeros_bears_its_force():
+    run = pushed_drawer(qr.load_scenario(scene(drawer(0, 0))), 4.0, 3)
+    assert abs(run["q"]).max() == 0.0
+
+
 def test_a_follower_that_stands_still_beyond_its_limits_is_refused():
     text = drawer().replace("</robot>", "") + (
         link("e") + joint("f", "cabinet", "e", "prismatic", more=mimic("slide", 0, 5))
@@ -200,3 +214,12 @@ def test_a_users_extension_stands_beside_the_stops():
     run = pushed_drawer(scenario, 0.0, 2, pull)
     assert set(run["certificate"].tolist()) == {"exact"}
     assert run["q"][-1, 0] == 0.002
+
+
+def test_a_written_scenario_keeps_its_stops(tmp_path):
+    scenario = qr.load_scenario(scene(drawer()))
+    path = qr.scenario_written(scenario, tmp_path / "scene.toml")
+    again = qr.load_scenario(path)
+    runs = [pushed_drawer(one, 40.0, 3) for one in (scenario, again)]
+    assert runs[0]["q"].tolist() == runs[1]["q"].tolist()
+    assert runs[1]["q"][-1, 0] == pytest.approx(0.002, rel=ROUNDING)
