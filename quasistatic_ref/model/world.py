@@ -221,7 +221,7 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
         joints.append((base, start))
     for written in urdf.file.joints:
         if written.kind == FIXED or written.mimic is not None:
-            continue
+            continue  # it has no coordinate: its column is added to its leader's (column_map.py)
         joint = JOINTS[written.kind](*_entries(body, written.name, model))
         if isinstance(joint, TwistJoint):
             joints.append((joint, np.array(joint.at(np.zeros(3), np.zeros(3)))))

@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 
 class Prover:
-    """The exact method. Its optimum does not depend on where it starts."""
+    """The exact method. Its optimum does not depend on where it starts.
+
+    What the backend claims is not read: its answer is a guess of the active rows.
+    """
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.

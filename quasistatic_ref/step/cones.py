@@ -9,7 +9,7 @@ only adds, subtracts and multiplies by float64 numbers. Therefore it returns
 - given numbers, the slacks of Eq. :eq:`eq-10`;
 - given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
 - given the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats
-  or in exact numbers;
+  or in exact numbers (``friction_rows`` in step/friction.py);
 - given n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
   :eq:`eq-5`-:eq:`eq-7`.
 

@@ -50,7 +50,10 @@ def gravity(start: Start) -> Iterator[Finding]:
 
 
 def in_the_air(start: Start) -> Iterator[Finding]:
-    """A body that touches nothing where it starts, above what is to bear it."""
+    """A body that touches nothing where it starts, above what is to bear it.
+
+    Its height is the shortest move along gravity until a pair of it touches (``falls.fall``).
+    """
     for name, own in _falling(start):
         pair, gap = min(own, key=lambda x: x[1])
         if np.isfinite(gap):

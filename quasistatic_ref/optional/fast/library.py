@@ -15,7 +15,10 @@ ffi.cdef((SOURCE / "fast.h").read_text("utf-8"))
 
 
 def missing() -> str | None:
-    """Why there is no library, in words; None if there is one."""
+    """Why there is no library, in words; None if there is one.
+
+    The simulator then says so once and takes the plain path, with the same certified bits.
+    """
     loaded = _loaded()
     return loaded if isinstance(loaded, str) else None
 
