@@ -2,8 +2,8 @@
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``. A further interface is
-a :class:`~quasistatic_ref.solve.solver.Solver` in a file of its own, which ``solver_for`` chooses.
+form, in an optional part; and, for DAQP alone, its own, in ``optional/fast``. A further one is a
+:class:`~quasistatic_ref.solve.solver.Solver` in a file of its own, which ``solver_for`` chooses.
 """
 
 from collections.abc import Callable
