@@ -98,7 +98,8 @@ def tied_joints(state: MujocoState, kinds: Collection[str], heavy: Array) -> Tie
         eliminated.append(row)
     dofs = np.setdiff1d(np.arange(model.nv), gone)
     if not len(dofs):
-        raise ModelError("leave no joint that can move", field="equality")
+        last = state.words("equality", int(state.data.efc_id[eliminated[-1]]))
+        raise ModelError("leaves no joint that can move; leave it out", field=last)
     return Tied(dofs, T[:, dofs], tuple(eliminated))
 
 

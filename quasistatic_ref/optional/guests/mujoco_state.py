@@ -177,8 +177,6 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
         If nothing in the model can move, or the state is not of finite numbers.
     """
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
-    if not model.nv:
-        raise ModelError("has no joint that can move", field="model")
     check_finite(data)
     adapted = awake(model)
     adapted.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
@@ -190,7 +188,15 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
     )
     at_rest = copy.copy(data)
     at_rest.qvel[:] = 0.0
-    return MujocoState(mujoco, model, adapted, at_rest)
+    state = MujocoState(mujoco, model, adapted, at_rest)
+    if not model.nv:
+        bodies = [i for i in range(1, model.nbody) if model.body_mocapid[i] < 0]
+        which = (
+            f"put one into {state.words('body', bodies[0])}" if bodies else "add a body with one"
+        )
+        problem = f"has no joint that can move; {which}, such as <freejoint/>"
+        raise ModelError(problem, field="worldbody")
+    return state
 
 
 def terms(state: MujocoState, J: Array, T: Array) -> Array:

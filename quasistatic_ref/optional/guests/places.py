@@ -26,7 +26,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.tolerances import FILLED
+from quasistatic_ref.tolerances import FILLED, REPEATED
 
 if TYPE_CHECKING:
     from mujoco import MjContact, MjModel
@@ -144,6 +144,30 @@ class Places:
         every.beta[at] = middle + half
         every.n[at] = n
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
+
+
+def overlapped_children(state: MujocoState, places: Places) -> tuple[str, ...]:
+    """Sentences on bodies that overlap what joints hold to them, which MuJoCo lets them touch.
+
+    Its filter of parents and children leaves out bodies that are part of the world.
+    """
+    model = state.model
+    phi = places.points(state).phi[places.first]
+    weld, root = model.body_weldid, model.body_rootid
+    depths: dict[int, dict[str, float]] = {}
+    for i in np.flatnonzero(phi < -REPEATED).tolist():
+        still, moving = sorted(model.geom_bodyid[places.geoms[i]].tolist(), key=lambda b: weld[b])
+        holder = model.body_parentid[weld[moving]]
+        if still and not weld[still] and not weld[holder] and root[still] == root[moving]:
+            depth = depths.setdefault(still, {})
+            child = state.words("body", moving)
+            depth[child] = max(depth.get(child, 0.0), -1e3 * float(phi[i]))
+    return tuple(
+        f"{state.words('body', parent)} has no joint, so that MuJoCo lets it touch what joints "
+        f"hold to it, and overlaps {', '.join(sorted(depth))} by up to {max(depth.values()):.3g} "
+        "mm at the start: give it a <freejoint/>, or exclude these pairs (contact/exclude)"
+        for parent, depth in depths.items()
+    )
 
 
 def _places_of(state: MujocoState, a: int, b: int) -> int:

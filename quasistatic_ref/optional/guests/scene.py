@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -16,15 +16,19 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
+from quasistatic_ref.optional.guests.places import overlapped_children
 from quasistatic_ref.optional.guests.settled import numbered
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
+from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.limits import Limits
+from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.extension import ExtensionOfQ
@@ -75,6 +79,16 @@ class MujocoScenario(Scenario):
     def force(self) -> Callable[[float, Array], Array]:
         """The force of motors, (t, q) -> (n_v,) [N, N m]."""
         return self.drive.force
+
+    def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
+        """Simulate the whole scene, as :meth:`.Scenario.run`; a first step that fails has notes."""
+        try:
+            return super().run(progress, observers)
+        except RunFailed as failure:
+            if failure.trajectory.steps or not self.of_mujoco.notes:
+                raise
+            reason = "; ".join([failure.reason, *self.of_mujoco.notes])
+            raise RunFailed(reason, failure.trajectory, failure.step) from failure
 
 
 def mujoco_scenario(
@@ -158,6 +172,8 @@ def mujoco_scenario(
     else:
         rubs = any(pair.mu_v for pair in system.places.pairs)
         cone, system.notes = default_cone(model, rubs, system.rows)
+    overlaps = overlapped_children(system.state(system.q_start), system.places)
+    system.notes = (*system.notes, *overlaps)
     certify = value(solver, SOLVER, "certify")
     drive = drive_of(system, data, steps * h, targets)
     gravity = (

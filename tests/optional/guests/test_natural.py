@@ -198,10 +198,11 @@ TIED = '<body><joint name="j"/><geom size=".1"/></body>'
 @pytest.mark.parametrize(
     ("bodies", "words"),
     [
-        (GEOM, "model: has no joint that can move"),
-        (f"<body>{GEOM}</body>", "model: has no joint that can move"),
-        (f'<body mocap="true">{GEOM}</body>', "model: has no joint that can move"),
-        (TIED, "equality: leave no joint that can move"),
+        (GEOM, "worldbody: has no joint that can move; add a body with one"),
+        (f'<body name="b">{GEOM}</body>', r"worldbody: .*; put one into body\[b\]"),
+        (f'<body mocap="true">{GEOM}</body>', "worldbody: .*; add a body with one"),
+        (f'<body mocap="true">{GEOM}</body><body/>', r"worldbody: .*; put one into body\[2\]"),
+        (TIED, r"equality\[0\]: leaves no joint that can move"),
     ],
 )
 def test_a_model_in_which_nothing_can_move_is_refused(bodies, words):

@@ -156,3 +156,20 @@ def test_a_geom_of_many_pairs_has_one_shape(monkeypatch):
     monkeypatch.setattr(places, "placed", lambda state, g: counts.append(g) or placed(state, g))
     scene(*many(5))
     assert sorted(counts) == [*range(10)]
+
+
+@pytest.mark.parametrize("between", [False, True])
+def test_a_body_without_a_joint_that_overlaps_its_children_is_named(between):
+    """A torso as files have it whose root joint a program adds; without, the leg cannot go out."""
+    hinge = '<joint type="hinge" axis="0 1 0" limited="true" range="-0.1 0.1"/>'
+    ball = '<geom size="0.1" mass="1" pos="0.05 0 0"/>'  # 158.1 mm from the torso's of 100 mm
+    leg = f'<body name="leg" pos="0 0 -0.15">{hinge}{ball}</body>'
+    leg = f'<body name="hip">{leg}</body>' if between else leg
+    torso = '<body name="torso" pos="0 0 1">{}<geom size="0.1" mass="1"/>{}</body>'
+    words = r"no solution: .*; body\[torso\] has no joint.*overlaps body\[leg\] by up to 41.9 mm"
+    with pytest.raises(qr.RunFailed, match=words):
+        scene(torso.format("", leg), steps=1).run(progress=False)
+    free = scene(torso.format("<freejoint/>", leg), steps=1)
+    assert free.system.notes == ()
+    if not between:  # MuJoCo leaves out parents and children, of what is not part of the world
+        free.run(progress=False)
