@@ -33,7 +33,7 @@ def point_cloud(path: str | Path) -> PointCloud:
         ``.xyz``, ``.csv``, ``.txt``, ``.pts``: three numbers a line, and further columns, separated
         by spaces, commas, semicolons or tabs; ``#`` starts a comment. A header may name columns x,
         y and z among others; a first line of one whole number is the number of points.
-        ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z.
+        ``.ply``, ``.off``, ``.obj``: the vertices. ``.pcd``: the fields x, y and z, with pypcd4.
         ``.las``: scaled, with laspy. ``.npy``: an
         array of shape (N, 3); ``.npz``: its one array, or the one named ``points``.
 
@@ -114,6 +114,7 @@ def _of_text(path: Path) -> Array:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
         with about_field(f"line {number}"):
             points.append([number_or_nan(words[c]) for c in columns])
+    check_points(len(points))
     return np.array(points, dtype=np.float64).reshape(-1, 3)
 
 
@@ -127,7 +128,7 @@ def _column(header: list[str], name: str, number: int) -> int:
 def _of_mesh(path: Path) -> Array:
     """Vertices of a mesh file."""
     points = loaded_mesh(path, finite=False).vertices
-    check_points(len(points), "points")
+    check_points(len(points))
     return points
 
 
@@ -146,5 +147,5 @@ def _points(path: Path, kind: str) -> Array:
     if kind in VERTICES:
         return _of_mesh(path)
     with needing(f"a {kind} cloud"):
-        from quasistatic_ref.optional.readers.points import POINTS
-    return POINTS[kind](path)
+        from quasistatic_ref.optional.readers.points import file_points
+    return file_points(path)

@@ -7,7 +7,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import LARGEST_TEXT
 
 MOST_POINTS = 1_000_000
-"""Most points of a cloud, and most lines of a text of points."""
+"""Most points of a cloud; its text has at most twice as many lines, with comments and a header."""
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
@@ -42,11 +42,13 @@ def point_lines(text: str) -> list[str]:
     if len(text) > LARGEST_TEXT:
         raise ModelError(f"is a text of more than {LARGEST_TEXT / 2**20:g} MiB; thin it out")
     lines = text.splitlines()
-    check_points(len(lines), "lines")
+    if len(lines) > 2 * MOST_POINTS:
+        problem = f"holds more than {2 * MOST_POINTS} lines; thin it out"
+        raise ModelError(problem, value=len(lines))
     return lines
 
 
-def check_points(count: int, what: str) -> None:
-    """ModelError if these are more points, or lines, than a cloud may have."""
+def check_points(count: int) -> None:
+    """ModelError if these are more points than a cloud may have."""
     if count > MOST_POINTS:
-        raise ModelError(f"holds more than {MOST_POINTS} {what}; thin it out", value=count)
+        raise ModelError(f"holds more than {MOST_POINTS} points; thin it out", value=count)

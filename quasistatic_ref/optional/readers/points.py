@@ -1,4 +1,4 @@
-"""Points of clouds in further formats, by the extensions of their files."""
+"""Points of clouds in further formats, each by a library: trimesh, pypcd4, laspy."""
 
 import io
 import re
@@ -9,72 +9,93 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import ModelError, about_file
+from quasistatic_ref.errors import InputError, ModelError, about_file
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh
 from quasistatic_ref.model.readers.text import check_points
-from quasistatic_ref.optional.readers.pcd import pcd_points
-from quasistatic_ref.optional.readers.ply import ply_points
-from quasistatic_ref.optional.readers.point_table import LARGEST_HEADER
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.arrays import Array
+
+LARGEST_HEADER = 2**20
+"""Bytes in which the number of a file's points must stand."""
+
+
+def file_points(path: Path) -> Array:
+    """The points of a file of one of the KINDS, shape (N, 3) [m].
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or holds fewer points than it says, or more than a cloud may have.
+    """
+    kind = path.suffix.lower()
+    with about_file(path):
+        try:
+            points = KINDS[kind](path)
+        except InputError:
+            raise
+        except Exception as error:  # each library raises its own kinds
+            reason = " ".join(str(error).split()) or type(error).__name__
+            raise ModelError(f"cannot be read as {kind[1:].upper()}: {reason}") from None
+        if points.dtype.kind not in "fiu" or points.ndim != 2 or points.shape[1] != 3:
+            shape = f"{points.dtype} of shape {points.shape}"
+            raise ModelError("must contain numbers of shape (N, 3)", field="points", value=shape)
+        check_points(len(points))
+        return points.astype(np.float64)
+
+
+def _counted(points: Array, content: bytes, line: bytes) -> Array:
+    """The points, if they are as many as a line of the file's header says."""
+    said = re.search(line + rb"[ \t]+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
+    if said is not None and int(said[1]) != len(points):
+        raise ModelError(f"must be {int(said[1])}", field="points", value=len(points))
+    return points
 
 
 def _ply(path: Path) -> Array:
     content = bytes_read(path, ModelError)
-    points = ply_points(content)
-    if points is None:
-        points = loaded_mesh(path, finite=False).vertices
-        check_points(len(points), "points")
-        count = re.search(rb"^element\s+vertex\s+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
-        if count is None or int(count[1]) != len(points):
-            problem = f"must contain {int(count[1]) if count else 'some'} vertices"
-            raise ModelError(problem, field="body", value=len(points))
-    return points
+    return _counted(loaded_mesh(path, finite=False).vertices, content, rb"^element[ \t]+vertex")
+
+
+def _pcd(path: Path) -> Array:
+    pypcd4 = needed_package("pypcd4", "pcd", "a .pcd cloud")
+    content = bytes_read(path, ModelError)
+    fields = re.search(rb"^FIELDS(.*)$", content[:LARGEST_HEADER], re.MULTILINE)
+    if fields is not None and b"\nCOUNT" not in content[:LARGEST_HEADER]:  # each is one number then
+        ones = b"\nCOUNT" + b" 1" * len(fields[1].split()) + b"\nDATA"
+        content = content.replace(b"\nDATA", ones, 1)
+    cloud = pypcd4.PointCloud.from_fileobj(io.BytesIO(content))
+    return _counted(cloud.numpy(("x", "y", "z")), content, rb"^POINTS")
 
 
 def _las(path: Path) -> Array:
     laspy = needed_package("laspy", "las", "a .las cloud")
-    with about_file(path):
-        try:
-            with laspy.open(path) as reader:
-                check_points(reader.header.point_count, "points")
-                points = reader.read().xyz
-        except (laspy.errors.LaspyException, ValueError, OSError, OverflowError) as error:
-            raise ModelError(f"cannot be read as LAS: {error}") from None
-    return np.asarray(points, dtype=np.float64)
+    with laspy.open(path) as reader:
+        check_points(reader.header.point_count)
+        return np.asarray(reader.read().xyz)
 
 
-def _npz(path: Path) -> Array:
+def _npz(path: Path) -> NDArray[Any]:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
     if name != "points" and len(arrays) != 1:
         problem = "must contain one array, or one that is named points"
         raise ModelError(problem, field="its arrays", value=list(arrays))
-    return _of_array(arrays[name], name)
+    return arrays[name]
 
 
-def _npy(path: Path) -> Array:
+def _npy(path: Path) -> NDArray[Any]:
     with readable(path, "is not an array of NumPy"):
         content = bytes_read(path)
-        array = array_of(io.BytesIO(content), len(content), "it")
-    return _of_array(array, "its array")
+        return array_of(io.BytesIO(content), len(content), "it")
 
 
-def _of_array(array: NDArray[Any], name: str) -> Array:
-    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
-        given = f"{array.dtype} of shape {array.shape}"
-        raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
-    check_points(len(array), "points")
-    return array.astype(np.float64)
-
-
-POINTS: Final[dict[str, Callable[[Path], Array]]] = {
+KINDS: Final[dict[str, Callable[[Path], NDArray[Any]]]] = {
     ".ply": _ply,
-    ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
+    ".pcd": _pcd,
     ".las": _las,
     ".npy": _npy,
     ".npz": _npz,
 }
-"""Extension -> the points of such a file, shape (N, 3) [m]."""
+"""Extension -> the points of such a file."""

@@ -10,7 +10,6 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.readers import text
 from quasistatic_ref.model.readers.clouds import point_cloud, seen_points
-from quasistatic_ref.optional.readers.pcd import unpacked
 from tests.tolerances import FILE_FLOAT32
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
@@ -18,9 +17,9 @@ PLY_ASCII = """ply
 format ascii 1.0
 comment made by hand
 element vertex 2
-property float x
-property float y
-property float z
+property double x
+property double y
+property double z
 property uchar red
 element face 1
 property list uchar int vertex_indices
@@ -89,18 +88,12 @@ GOOD = {
     "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
     "ascii ply": (".ply", PLY_ASCII.encode()),
     "binary ply in float64": (".ply", binary_ply("double", "d")),
-    "ply of edges with properties": (
-        ".ply",
-        PLY_ASCII.replace("property list uchar int vertex_indices", "property int a").encode(),
-    ),
     "ascii pcd": (".pcd", pcd("ascii", PCD_BODY)),
     "pcd with an empty line": (".pcd", pcd("ascii", PCD_BODY, f"\n{PCD_HEADER}")),
     "pcd with a number of 18 digits": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", f"WIDTH {2:018}")),
     ),
-    "pcd without POINTS": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("POINTS 2\n", ""))),
-    "pcd without WIDTH": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2\n", ""))),
     "pcd without COUNT": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT 1 1 1 1\n", "")),
@@ -132,37 +125,28 @@ def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
 
 NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD = {
-    "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
-    "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
-    "pcd that contradicts itself": (
-        ".pcd",
-        pcd("binary", b"", PCD_HEADER.replace("TH 2", "TH 3")),
-        "POINTS: must be given",
-    ),
+    "pcd without an end": (".pcd", PCD_HEADER.encode(), "cannot be read as PCD"),
+    "pcd of other words": (".pcd", b"solid thing\n", "cannot be read as PCD"),
+    "pcd without its body": (".pcd", pcd("binary", b""), "points: must be 2 .got 0"),
     "pcd of an odd type": (
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
-        "an unknown SIZE and",
+        "cannot be read as PCD",
     ),
     "pcd without z": (
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
-        "FIELDS: must name z once",
+        "cannot be read as PCD: no field of name z",
     ),
     "ascii pcd with a short line": (
         ".pcd",
         pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0\n"),
-        "line 14: must be 4 numbers .got '0 1.0'",
-    ),
-    "pcd with a line twice": (
-        ".pcd",
-        pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT", "SIZE 1 4 4 4\nCOUNT")),
-        "line 6: must begin with one of",
+        "cannot be read as PCD: .* at row 2",
     ),
     "pcd with a width of nothing": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", "WIDTH")),
-        "WIDTH: must be a whole number",
+        "cannot be read as PCD: .*width",
     ),
     "npy of a pickle": (
         ".npy",
@@ -192,41 +176,41 @@ BAD = {
     "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
     "no column z": (".csv", b"x,y,u\n1,2,3\n", "line 1: must name the column z once"),
     "obj without z": (".obj", b"v 1 2\n", "cannot be read as a mesh"),
-    "not ply": (".ply", b"hello\n", "line 1: must be the word ply.*'hello'"),
+    "not ply": (".ply", b"hello\n", "cannot be read as a mesh: Not a ply file"),
     "short ascii ply": (
         ".ply",
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
-        r"body: must contain 2 vertices \(got 1\)",
+        r"points: must be 2 \(got 1\)",
     ),
     "ascii ply with a short line": (
         ".ply",
         PLY_ASCII.replace(" -0.5 0", "").encode(),
-        "line 13: must be 4 numbers .got '1.0 2e-3'",
+        "cannot be read as a mesh",
     ),
     "a count beyond 64 bits": (
         ".ply",
         PLY_ASCII.replace("vertex 2", "vertex 9999999999999999999").encode(),
-        "line 4: is not understood",
+        "points: must be 9999999999999999999",
     ),
     "no property z": (
         ".ply",
-        PLY_ASCII.replace("property float z\n", "").encode(),
-        "element vertex: must have one property z",
+        PLY_ASCII.replace("property double z\n", "").encode(),
+        "cannot be read as a mesh: 'z'",
     ),
     "a property before any element": (
         ".ply",
         PLY_ASCII.replace("element vertex", "property double w\nelement vertex").encode(),
-        "line 4: is not understood",
+        "cannot be read as a mesh: Property defined before",
     ),
     "faces first": (
         ".ply",
         b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
-        "points: must contain at least one|body: must contain|cannot be read",
+        "points: must contain at least one",
     ),
     "impossible count": (
         ".ply",
         binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),
-        r"body: must contain 999999999999999999 vertices \(got 2\)",
+        "cannot be read as a mesh",
     ),
 }
 
@@ -252,11 +236,8 @@ def npy_of_bytes():
 @pytest.mark.parametrize(
     ("name", "content", "says"),
     [
-        ("c.xyz", b"\n" * 1_000_001, "holds more than 1000000 lines"),
+        ("c.xyz", b"\n" * 2_000_001, "holds more than 2000000 lines"),
         ("c.xyz", b" " * (64 * 2**20 + 1), "is a text of more than 64 MiB"),
-        ("c.ply", PLY_ASCII.encode() + b"\n" * 1_000_001, "holds more than 1000000 lines"),
-        ("c.pcd", pcd("ascii", b"\n" * 1_000_001), "holds more than 1000000 lines"),
-        ("c.ply", b"ply\n" + b"\n" * 2**20, "header: must end with end_header, within 1 MiB"),
         (
             "c.ply",
             f"ply\nformat binary_little_endian 1.0\n{POINTS_OF_BYTES}end_header\n".encode()
@@ -273,30 +254,32 @@ def test_more_points_or_text_than_a_cloud_may_have_are_refused(tmp_path, name, c
         point_cloud(path)
 
 
-def test_coordinates_and_columns_may_reach_their_limits(tmp_path, monkeypatch):
+def test_coordinates_may_reach_their_limit(tmp_path, monkeypatch):
     far = tmp_path / "far.xyz"
     far.write_text("2 0 0\n0 -2 0\n")
-    four = tmp_path / "four.pcd"
-    four.write_bytes(pcd("ascii", PCD_BODY))
-    for path, limit, most in (
-        (far, "model.readers.clouds.LARGE", 2.0),
-        (four, "optional.readers.pcd.MOST_COLUMNS", 4),
-    ):
-        monkeypatch.setattr(f"quasistatic_ref.{limit}", most)
-        assert len(point_cloud(path).points) == 2
-        monkeypatch.setattr(f"quasistatic_ref.{limit}", most - 1)
-        with pytest.raises(ModelError):
-            point_cloud(path)
+    monkeypatch.setattr("quasistatic_ref.model.readers.clouds.LARGE", 2.0)
+    assert len(point_cloud(far).points) == 2
+    monkeypatch.setattr("quasistatic_ref.model.readers.clouds.LARGE", 1.0)
+    with pytest.raises(ModelError, match="must be at most 1 m"):
+        point_cloud(far)
 
 
-def test_a_text_of_points_has_at_most_so_many_letters_and_lines(monkeypatch):
-    for name, value in (("LARGEST_TEXT", 8), ("MOST_POINTS", 4)):
+def test_a_text_of_points_has_at_most_so_many_letters_lines_and_points(tmp_path, monkeypatch):
+    for name, value in (("LARGEST_TEXT", 40), ("MOST_POINTS", 4)):
         monkeypatch.setattr(text, name, value)
-    assert text.point_lines("1\n2\n3\n4\n") == ["1", "2", "3", "4"]
-    with pytest.raises(ModelError, match="is a text of more than"):
-        text.point_lines("1\n2\n3\n4 \n")
-    with pytest.raises(ModelError, match="holds more than 4 lines"):
-        text.point_lines("\n" * 5)
+    path = tmp_path / "a.csv"
+    path.write_text("# of a camera\nx,y,z\n" + "0,0,1\n" * 3)
+    assert len(point_cloud(path).points) == 1  # the same point
+    path.write_text("x,y,z\n" + "0,0,1\n" * 4)  # as many points as may be, and a header
+    assert len(seen_points(path)[0]) == 4
+    for content, words in (
+        ("x,y,z\n" + "0,0,1\n" * 5, "holds more than 4 points"),
+        ("0,0,1\n" + "\n" * 8, "holds more than 8 lines"),
+        ("0,0,1\n" * 7, "is a text of more than"),
+    ):
+        path.write_text(content)
+        with pytest.raises(ModelError, match=words):
+            point_cloud(path)
 
 
 EIGHT = np.array(np.meshgrid([0, 0.05], [0, 0.04], [0, 0.03], indexing="ij")).reshape(3, 8).T
@@ -325,7 +308,7 @@ def packed(content):
 def compressed(points):
     content = points.T.astype("<f4").tobytes()
     n = len(points)
-    header = f"VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH {n}\nHEIGHT 1\n"
+    header = f"VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH {n}\nHEIGHT 1\nPOINTS {n}\n"
     sizes = np.array([len(packed(content)), len(content)], "<u4").tobytes()
     return f"{header}DATA binary_compressed\n".encode() + sizes + packed(content)
 
@@ -374,27 +357,18 @@ def test_points_alone_that_were_not_seen_are_no_cloud(tmp_path):
         point_cloud(path)
 
 
-def test_what_lzf_packed_is_unpacked():
-    for content in (b"", b"abc", b"a" * 1000, bytes(range(256)) * 9, b"ab" + b"\0" * 300 + b"c"):
-        assert unpacked(packed(content), len(content)) == content
-    assert unpacked(b"\x01ab\x20\x01\xe0\x03\x01", 17) == b"ab" + b"aba" + b"ba" * 6
-    for spoilt in (b"\x01ab\x20\x05", b"\x20", b"\x05ab", b"\xe0"):
-        with pytest.raises(ModelError, match="cannot be unpacked"):
-            unpacked(spoilt, 17)
-
-
-def test_a_compressed_pcd_of_another_size_is_refused(tmp_path):
+def test_a_compressed_pcd_that_is_cut_off_or_of_another_number_is_refused(tmp_path):
     path = tmp_path / "a.pcd"
-    for content in (compressed(EIGHT)[:-3], compressed(EIGHT).replace(b"WIDTH 8", b"WIDTH 9")):
+    for content in (compressed(EIGHT)[:-3], compressed(EIGHT).replace(b"POINTS 8", b"POINTS 9")):
         path.write_bytes(content)
-        with pytest.raises(ModelError, match="bytes, when unpacked"):
+        with pytest.raises(ModelError, match="cannot be read as PCD"):
             point_cloud(path)
 
 
 def test_vertices_that_a_ply_lacks_are_missed(tmp_path):
     path = tmp_path / "a.ply"
     path.write_text(OTHERS["list.ply"].replace("vertex 8", "vertex 9") + "\n")
-    with pytest.raises(ModelError, match=r"body: must contain 9 vertices|cannot be read"):
+    with pytest.raises(ModelError, match=r"points: must be 9|cannot be read"):
         point_cloud(path)
 
 
