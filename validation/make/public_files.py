@@ -50,8 +50,8 @@ SOURCES = ("pypcd4==1.5.1", "laspy==2.7.0")
 MESHES = (".stl", ".obj", ".dae", ".glb", ".3mf", ".off", ".ply")
 CLOSE = 1e-6
 """Relative difference of numbers that are the same."""
-SECONDS = 100
-"""Longest time in which a file is read and, if it is a scene, a step of it is taken."""
+SECONDS = 60
+"""Longest time of the processor in which a file is read, and a step taken of a scene."""
 
 
 @dataclass(frozen=True)
@@ -195,21 +195,27 @@ def kind_of(path: Path) -> str:
     return "mesh" if suffix in MESHES else kinds.get(suffix, "")
 
 
+class TooLong(BaseException):
+    """A reader takes longer than SECONDS; no error that one of its parts may catch."""
+
+
 def too_long(signum: int, frame: object) -> None:
-    """Ends a reader that takes longer than SECONDS."""
-    raise TimeoutError(f"takes longer than {SECONDS} s")
+    """End a reader."""
+    raise TooLong
 
 
 def tried(reader: Reader, path: Path) -> tuple[dict[str, float], str]:
     """What a reader makes of a file, or why it makes nothing."""
-    signal.signal(signal.SIGALRM, too_long)
-    signal.alarm(SECONDS)
+    signal.signal(signal.SIGPROF, too_long)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
     try:
         return reader(path), ""
+    except TooLong:
+        return {}, f"takes longer than {SECONDS} s"
     except Exception as error:  # each package raises its own kinds of errors
         return {}, sentence(error)
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 def outcome(package: str, name: str, path: Path, kind: str) -> Outcome:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import trimesh
 
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import text_written
@@ -13,7 +14,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.clouds import seen_points
 from quasistatic_ref.model.readers.mesh_files import MESHES, loaded_mesh
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.optional.scans.closed import solid_of_mesh
+from quasistatic_ref.optional.scans.closed import closed_mesh
 from quasistatic_ref.optional.scans.cloud import spacing, stray, thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
 from quasistatic_ref.optional.scans.solid import MOST, Solid, solid_of_points
@@ -221,13 +222,13 @@ def _surface_and_solid(
             raise InputError("is empty: the file holds no vertices", field="vertices")
     if len(triangles):
         vertices = vertices * _metres(vertices, unit)
-        solid = solid_of_mesh(vertices, triangles, notes)
-        on_surface = _points_on(vertices, triangles)
-        if solid is not None:
+        surface = closed_mesh(vertices, triangles, notes)
+        if surface is not None:
             notes.append(f"a closed mesh of {len(triangles)} triangles")
-            return on_surface, solid
+            return _points_on(*surface), Solid.of_mesh(*surface)
         notes.append("the mesh is not closed: its surface is taken as points")
-        return on_surface, _enclosed(on_surface, notes)
+        points = _points_on(vertices, triangles)
+        return points, _enclosed(points, notes)
     written, unseen = seen_points(path)
     written = np.unique(written, axis=0) if len(written) else written
     points = written * _metres(written, unit)
@@ -288,11 +289,6 @@ def _metres(points: Array, unit: str | None) -> float:
 
 def _points_on(vertices: Array, triangles: Indices) -> Array:
     """Points on a mesh: its corners, and others uniform over its area, shape (N, 3) [m]."""
-    rng = np.random.default_rng(0)
-    a, b, c = np.moveaxis(vertices[triangles], 1, 0)
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    of = rng.choice(len(areas), ON_MESH, p=areas / areas.sum())
-    u, v = rng.random((2, ON_MESH, 1))
-    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
-    inside = a[of] + u * (b - a)[of] + v * (c - a)[of]
-    return np.unique(np.concatenate([vertices, inside]), axis=0)
+    mesh = trimesh.Trimesh(vertices, triangles, process=False)
+    points, _ = trimesh.sample.sample_surface(mesh, ON_MESH, seed=0)
+    return np.unique(np.concatenate([vertices, points]), axis=0)

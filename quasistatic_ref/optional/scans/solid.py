@@ -74,12 +74,6 @@ class Solid(Plain):
         tops = np.full((len(triangles), 1, 3), middle)
         return cls.of_tetrahedra(np.concatenate([tops, vertices[triangles]], axis=1))
 
-    @staticmethod
-    def volume_of_mesh(vertices: Array, triangles: Indices) -> float:
-        """Volume inside of a closed mesh [m^3], negative if it is wound inwards."""
-        a, b, c = np.moveaxis(vertices[triangles] - vertices[triangles[0, 0]], 1, 0)
-        return float(np.vecdot(a, np.cross(b, c)).sum()) / 6
-
 
 def solid_of_points(points: Array) -> Solid | None:
     """The solid whose surface points were scanned, shape (N, 3) [m]; None if they enclose none.
@@ -100,12 +94,13 @@ def solid_of_points(points: Array) -> Solid | None:
     corners = points[mesh.simplices]
     ways = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
     corners[ways] = corners[ways][:, [1, 0, 2, 3]]  # each volume positive
+    volumes = abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
     radii = _circumscribed(points[mesh.simplices[:, FACES]])
     gap = PROBE * apart
     extent = float(np.ptp(points, axis=0).max())
     before: Solid | None = None
     while gap < 2 * extent:
-        one = _largest(mesh.neighbors, _unreached(mesh.neighbors, radii > gap), corners)
+        one = _largest_unreached(mesh.neighbors, radii > gap, volumes)
         solid = None
         if len(np.unique(mesh.simplices[one])) >= HELD * len(points):
             solid = Solid.of_tetrahedra(corners[one], gap)
@@ -116,26 +111,30 @@ def solid_of_points(points: Array) -> Solid | None:
     return before
 
 
-def _unreached(neighbours: Indices, passable: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which tetrahedra no way through passable faces joins with the outside, shape (T,)."""
-    n = len(neighbours)
-    of, face = np.nonzero(passable)
-    to = neighbours[of, face]
-    to = np.where(to < 0, n, to)  # the outside is number n
-    ways = coo_matrix((np.ones(len(of)), (of, to)), shape=(n + 1, n + 1))
-    _, group = connected_components(ways, directed=False)
-    return np.asarray(group[:n] != group[n])
+def _largest_unreached(neighbours: Indices, passable: NDArray[np.bool_], volumes: Array) -> Indices:
+    """Numbers of the tetrahedra of the largest part that no way leads to from outside.
+
+    Parameters
+    ----------
+    neighbours : ndarray of int, shape (T, 4)
+        -1 is the outside.
+    passable : ndarray of bool, shape (T, 4)
+        Faces that ways lead through.
+    volumes : ndarray, shape (T,)
+    """
+    group = _joined(neighbours, passable)
+    inside = np.append(group[:-1] != group[-1], False)
+    part = _joined(neighbours, inside[:-1, None] & inside[neighbours])[:-1]
+    inside = inside[:-1]
+    return np.flatnonzero(inside & (part == np.bincount(part, volumes * inside).argmax()))
 
 
-def _largest(neighbours: Indices, inside: NDArray[np.bool_], corners: Array) -> Indices:
-    """Numbers of the tetrahedra of the largest connected part of those inside."""
+def _joined(neighbours: Indices, through: NDArray[np.bool_]) -> Indices:
+    """Number of the part of each tetrahedron, and last of the outside, joined through faces."""
     n = len(neighbours)
-    of, face = np.nonzero(inside[:, None] & (neighbours >= 0) & inside[neighbours])
-    to = neighbours[of, face]
-    links = coo_matrix((np.ones(len(of)), (of, to)), shape=(n, n))
-    _, group = connected_components(links, directed=False)
-    volumes = abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) * inside
-    return np.flatnonzero(inside & (group == np.bincount(group, volumes).argmax()))
+    of, face = np.nonzero(through)
+    links = coo_matrix((np.ones(len(of)), (of, neighbours[of, face] % (n + 1))), (n + 1, n + 1))
+    return np.asarray(connected_components(links, directed=False)[1])
 
 
 def _circumscribed(faces: Array) -> Array:

@@ -5,7 +5,8 @@ import pytest
 import trimesh
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.scans.closed import solid_of_mesh
+from quasistatic_ref.optional.scans.closed import closed_mesh
+from quasistatic_ref.optional.scans.solid import Solid
 from tests.closeness import assert_relative, assert_within
 
 BOX = trimesh.creation.box((1.0, 2.0, 4.0))
@@ -15,10 +16,10 @@ V, F = np.array(BOX.vertices), np.array(BOX.faces)
 def solid(vertices, faces, *words):
     """The solid of a mesh, of which these words are noted."""
     notes = []
-    made = solid_of_mesh(vertices, faces, notes)
+    surface = closed_mesh(vertices, faces, notes)
     assert len(notes) == len(words)
     assert all(word in note for word, note in zip(words, notes, strict=True))
-    return made
+    return surface and Solid.of_mesh(*surface)
 
 
 def joined(*meshes):
@@ -84,13 +85,18 @@ def test_parts_apart_and_parts_that_touch_are_a_sum():
         assert_within(made.centre, np.array([away / 2, 0, 0]), 1e-12)
 
 
-@pytest.mark.parametrize("other", ["corner", "crossing", "flush"])
-def test_parts_that_overlap_are_refused(other):
-    bars = {
-        "corner": V + 0.4,
-        "crossing": V[:, [2, 1, 0]] * [1, 0.5, 0.2],  # no corner of one is within the other
-        "flush": V + np.array([0.0, 0.0, 2.0]),
-    }
-    faces = F[:, ::-1] if other == "crossing" else F
-    with pytest.raises(InputError, match="2 closed shells of the mesh overlap"):
-        solid(*joined((V, F), (bars[other], faces)))
+OVERLAP = {
+    # The corner's common part is 0.6 x 1.6 x 3.6; the bars cross in 1 x 1 x 0.8; a half is common.
+    "corner": (V + 0.4, 16 - 0.6 * 1.6 * 3.6),
+    "crossing": (V[:, [2, 1, 0]] * [1, 0.5, 0.2], 8 + 4 * 1 * 0.2 - 1 * 1 * 0.2),
+    "flush": (V + np.array([0.0, 0.0, 2.0]), 12.0),
+}
+
+
+@pytest.mark.parametrize(("other", "volume"), OVERLAP.values(), ids=OVERLAP)
+def test_parts_that_overlap_are_what_they_fill_together(other, volume):
+    faces = F[:, ::-1] if other is OVERLAP["crossing"][0] else F  # whose axes are swapped
+    made = solid(*joined((V, F), (other, faces)), "2 closed shells of the mesh overlap")
+    assert_relative(made.volume, volume, 1e-9)
+    with pytest.raises(InputError, match="overlap that are wound different ways"):
+        solid(*joined((V, F), (other, faces[:, ::-1])))
