@@ -81,7 +81,13 @@ class MujocoScenario(Scenario):
         return self.drive.force
 
     def run(self, progress: bool = True, observers: Sequence[Observer] = ()) -> Trajectory:
-        """Simulate the whole scene, as :meth:`.Scenario.run`; a first step that fails has notes."""
+        """Simulate the whole scene, as :meth:`.Scenario.run`.
+
+        Raises
+        ------
+        RunFailed
+            If a step fails; of the first one the scene's notes say more.
+        """
         try:
             return super().run(progress, observers)
         except RunFailed as failure:

@@ -26,7 +26,7 @@ def file_points(path: Path) -> Array:
 
     Raises
     ------
-    InputError
+    ModelError
         If it cannot be read, or holds fewer points than it says, or more than a cloud may have.
     """
     kind = path.suffix.lower()
