@@ -77,11 +77,12 @@ class Outcome:
     differs: str
 
 
-def sentence(error: Exception) -> str:
-    """An error as one line, without folders."""
+def sentence(error: Exception, package: str) -> str:
+    """An error as one line, without the folder of its package."""
     if isinstance(error, ModelError | InputError):
         error.file = None
-    return " ".join(str(error).split())[:160].replace("|", "/") or type(error).__name__
+    line = " ".join(str(error).split()).replace(package, "").replace("|", "/")
+    return line[:240] or type(error).__name__
 
 
 def of_urdf(path: Path) -> dict[str, float]:
@@ -204,7 +205,7 @@ def too_long(signum: int, frame: object) -> None:
     raise TooLong
 
 
-def tried(reader: Reader, path: Path) -> tuple[dict[str, float], str]:
+def tried(reader: Reader, path: Path, package: str) -> tuple[dict[str, float], str]:
     """What a reader makes of a file, or why it makes nothing."""
     signal.signal(signal.SIGPROF, too_long)
     signal.setitimer(signal.ITIMER_PROF, SECONDS)
@@ -213,14 +214,15 @@ def tried(reader: Reader, path: Path) -> tuple[dict[str, float], str]:
     except TooLong:
         return {}, f"takes longer than {SECONDS} s"
     except Exception as error:  # each package raises its own kinds of errors
-        return {}, sentence(error)
+        return {}, sentence(error, package)
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 def outcome(package: str, name: str, path: Path, kind: str) -> Outcome:
     """One file, here and elsewhere."""
-    (here, refused), (there, peer) = (tried(reader, path) for reader in READERS[kind])
+    folder = str(path).removesuffix(name)
+    (here, refused), (there, peer) = (tried(reader, path, folder) for reader in READERS[kind])
     differ = [
         f"{key}: {here[key]:.9g}, {there[key]:.9g}"
         for key in here.keys() & there.keys()
