@@ -1,6 +1,9 @@
 """Meshes become convex hulls, from files that are where they may be."""
 
+import io
 import os
+import re
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -165,6 +168,17 @@ def test_the_unit_of_a_collada_mesh_is_applied(tmp_path, asset, metres):
         path = urdf_of_text(tmp_path, text.replace("Z_UP", up), "a.dae")
         hull = mesh_hull(path, np.ones(3))
         assert_within(hull.vertices, metres * CORNERS, 1e-15)
+
+
+@pytest.mark.parametrize(("unit", "metres"), [("millimeter", 0.001), ("inch", 0.0254)])
+def test_the_unit_of_a_3mf_mesh_is_applied(tmp_path, unit, metres):
+    file = io.BytesIO(trimesh.creation.box((1, 2, 4)).export(file_type="3mf"))
+    path = tmp_path / "a.3mf"
+    with ZipFile(file) as written, ZipFile(path, "w") as changed:
+        for name in written.namelist():
+            text = written.read(name)
+            changed.writestr(name, re.sub(rb'unit="\w+"', f'unit="{unit}"'.encode(), text))
+    assert_within(mesh_hull(path, np.ones(3)).volume, 8 * metres**3, 1e-12)
 
 
 CORNERS = np.array([[0, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0]])

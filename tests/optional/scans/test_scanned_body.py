@@ -184,6 +184,26 @@ def test_a_box_has_four_contacts_and_lies_on_its_largest_face(tmp_path, cli):
     assert not [one for one in run.findings if one.grave]
 
 
+def test_a_mesh_is_weighed_where_and_as_large_as_its_file_places_it(tmp_path):
+    placed = np.diag([2.0, 2.0, 2.0, 1.0])
+    placed[:3, 3] = [0.5, 0.0, 0.1]
+    scene = trimesh.Scene()
+    scene.add_geometry(trimesh.creation.box((0.04, 0.2, 0.1)), transform=placed)
+    (tmp_path / "box.glb").write_bytes(scene.export(file_type="glb"))
+    made = qr.scanned_body(tmp_path / "box.glb", density=1000.0)
+    assert made.mass == pytest.approx(8 * 0.8, rel=1e-6)
+    assert_within(made.centre, np.array([0.5, 0.0, 0.1]), 1e-7)
+
+
+def test_points_of_parts_that_overlap_are_on_what_they_fill_together(tmp_path):
+    bars = [trimesh.creation.box(size) for size in ((0.2, 0.04, 0.04), (0.04, 0.2, 0.04))]
+    trimesh.util.concatenate(bars).export(tmp_path / "cross.stl")
+    made = qr.scanned_body(tmp_path / "cross.stl", density=1000.0)
+    assert made.mass == pytest.approx(1000 * 0.04 * 0.04 * (0.2 + 0.2 - 0.04), rel=1e-6)
+    within = (abs(made.points) < 0.0199).all(axis=1)
+    assert not within.any()
+
+
 def test_a_cloud_on_a_coarse_grid_is_told_so(tmp_path):
     points = on_block(np.random.default_rng(8), 4000, (0.06, 0.06, 0.06))
     assert not [note for note in body(tmp_path, points).notes if "grid" in note]
