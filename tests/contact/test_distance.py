@@ -9,10 +9,9 @@ from quasistatic_ref.contact.distance import (
     ClosestPoints,
     closest_points,
     joined_contacts,
-    repeated,
 )
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.tolerances import FILLED, REPEATED
+from quasistatic_ref.tolerances import FILLED
 from tests.closeness import assert_within
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 from tests.tolerances import EXACT, SIGNED_DISTANCE
@@ -88,12 +87,6 @@ def candidates_at(phi, x, number):
     alpha = np.outer(x, X)
     n = np.tile(Z, (len(phi), 1))
     return ClosestPoints(phi, alpha, alpha + phi[:, None] * n, n, number, 0 * number)
-
-
-def test_a_candidate_that_repeats_an_earlier_one_ranks_last():
-    x = np.array([0.0, REPEATED, 3 * REPEATED, 1.0])
-    found = repeated(candidates_at(np.zeros(4), x, np.arange(4)))
-    assert found.tolist() == [False, True, False, False]
 
 
 def test_zero_is_never_minus_zero():

@@ -140,7 +140,8 @@ def scene(body, xyz, rpy, k, steps):
             "contacts": {
                 "floor": {"alpha": "floor", "beta": "box", "mu_v": 0.5, "rows": 4, "k": k}
             },
-        }
+        },
+        fast=True,
     )
 
 

@@ -9,6 +9,7 @@ from quasistatic_ref.contact.separations import (
     BISECTOR,
     UNIQUE_NORMAL,
     pair_normal,
+    rounding,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from tests.closeness import assert_within
@@ -77,3 +78,14 @@ def test_cores_that_are_apart_have_one_normal_however_near_another_gap_is(shape)
 def test_cores_that_are_apart_by_rounding_are_refused_in_an_edge():
     with pytest.raises(ContactError, match=r"as deep in each other along \[.*\], 0.25 m: "):
         pair_normal("p", at(CUBE), at(CAPSULE, [2 + 1e-13, 1 + 1e-13, 0.0], TO_X))
+
+
+def test_capsules_whose_axes_are_apart_by_rounding_are_tied_where_their_two_gaps_are_equal():
+    """Axes d apart along z: gaps of d - 0.5 along z and -d - 0.5 the other way."""
+    within = rounding(at(CAPSULE), at(CAPSULE))
+    a, b, c = (at(CAPSULE, t, R) for t, R in (
+        (ORIGIN, TO_X), (0.75 * within * Z, TO_Y), (0.25 * within * Z, TO_Y)
+    ))  # fmt: skip
+    assert pair_normal("p", a, b)[1] == UNIQUE_NORMAL
+    with pytest.raises(ContactError, match="as deep in each other"):
+        pair_normal("p", a, c)

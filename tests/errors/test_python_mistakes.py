@@ -157,21 +157,6 @@ def test_a_target_by_names_holds_all_other_joints():
     assert named["q"].tobytes() == run(target=goal)["q"].tobytes() == returned["q"].tobytes()
 
 
-def test_findings_of_a_step_that_starts_deep_or_that_nothing_holds():
-    deep = SYSTEM.placed({"block": {"xyz": (0, 0, -0.01)}})
-    assert [one.name for one in SIMULATOR.findings(deep)] == ["initial penetration"]
-    assert SIMULATOR.findings() == ()
-    assert "unsupported body" in [one.name for one in scene(contacts={}).findings()]
-
-
-def test_stiffness_in_each_form_is_the_same_matrix():
-    diagonal = [1e3, 1e3, 1e3, 10.0, 10.0, 10.0]
-    forms = np.diag(diagonal), diagonal, {"finger": diagonal}, {"finger/base": np.diag(diagonal)}
-    for form in forms:
-        np.testing.assert_array_equal(simulator(K_q=form).K_q, np.diag(diagonal))
-    np.testing.assert_array_equal(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))
-
-
 def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):
     head, _, rest = PUSH.replace('base = "floating"\n', "").partition("[[bodies.ball")
     path = written_scenario(tmp_path, head + rest[rest.index("[shapes.floor]") :])
@@ -198,3 +183,18 @@ def test_a_collision_keeps_its_name_and_contacts_may_use_it(tmp_path):
     for taken in ("mug", "a#b"):
         text = robot(mug.replace('name="handle"', f'name="{taken}"'))
         assert qr.System([qr.Body("mug", text)]).shapes[1].name == "mug/mug#1"
+
+
+def test_findings_of_a_step_that_starts_deep_or_that_nothing_holds():
+    deep = SYSTEM.placed({"block": {"xyz": (0, 0, -0.01)}})
+    assert [one.name for one in SIMULATOR.findings(deep)] == ["initial penetration"]
+    assert SIMULATOR.findings() == ()
+    assert "unsupported body" in [one.name for one in scene(contacts={}).findings()]
+
+
+def test_stiffness_in_each_form_is_the_same_matrix():
+    diagonal = [1e3, 1e3, 1e3, 10.0, 10.0, 10.0]
+    forms = np.diag(diagonal), diagonal, {"finger": diagonal}, {"finger/base": np.diag(diagonal)}
+    for form in forms:
+        np.testing.assert_array_equal(simulator(K_q=form).K_q, np.diag(diagonal))
+    np.testing.assert_array_equal(simulator(K_q=7.0).K_q, 7.0 * np.eye(6))

@@ -34,9 +34,6 @@ EXCEPTIONS = {
         "step/contacts.py:Contacts._check_frames",
         "step/pivots.py:_surely_positive",
     ),
-    "which candidates are compared; no pair within the tolerance is left out by rounding": (
-        "contact/distance.py:repeated",
-    ),
     "what the backend is given; the proof forms its own, without rounding": (
         "step/friction.py:slip_norms",
         "step/problem.py:StepProblem.__init__",

@@ -71,7 +71,7 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 @pytest.mark.parametrize("name", ["bunny_grasp", "block_push"])
 def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
     """In all arrays, notes and findings, also of targets that are evaluated one by one."""
-    scene = load_scenario(name, steps=30, record="full", fast=True)
+    scene = load_scenario(name, steps=16, record="full", fast=True)
     of_whole = Witness(every_step=False)
     whole = scene.run(progress=False, observers=[of_whole])
     witness = Witness(every_step=True)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extension, InputError, StepNotSolved, standard_form
+from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import (
     _symbols,
     extended_solution,
@@ -92,3 +93,10 @@ def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
         InputError, match=r'extension: holds nonlinear .* which law = "coulomb" does'
     ):
         simulated_solution(own, step, LOOSE)
+
+
+def test_an_answer_with_a_residual_beyond_the_limit_is_not_believed(monkeypatch):
+    cost = Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
+    monkeypatch.setattr(extended, "RESIDUAL_LIMIT", 0.0)
+    with pytest.raises(StepNotSolved):
+        extended_solution(point_on_floor(), cost, "clarabel", 1e-10, "residual")

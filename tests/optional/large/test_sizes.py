@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_matrix
 
 from quasistatic_ref.optional.large import sizes as of
 from quasistatic_ref.optional.large.float_bound import FloatBound
@@ -22,6 +23,7 @@ from quasistatic_ref.optional.large.sizes import (
     rounding,
     row_sizes,
     step_sizes,
+    term_sizes,
 )
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_function, cone_matrix
@@ -176,3 +178,9 @@ def test_numbers_beyond_the_largest_are_not_usable():
     ):  # fmt: skip
         units = Units(S * one.coordinate, length, size)
         assert not step_sizes(step, A, units).usable
+
+
+def test_a_sum_in_g_may_have_more_terms_than_a_column_of_A():
+    sizes = term_sizes(csc_matrix([[1.0, 0.0, 2.0], [0.0, 0.0, 3.0]]), np.zeros(3))
+    assert (sizes.row_terms, sizes.column_terms) == (2, 2)
+    assert term_sizes(sizes.A, np.zeros(3), 5).column_terms == 5
