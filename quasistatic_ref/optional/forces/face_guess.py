@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
+from quasistatic_ref.optional.forces.faces import Rows, face
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
@@ -161,7 +161,7 @@ class _Energy:
         for z_j, count, rows in zip(z, self.step.counts.tolist(), near.faces, strict=True):
             conditions = _floats(self.step.cone, count, rows)[:-4] @ z_j
             if (conditions < -ROUNDING * np.abs(z_j).max()).any():
-                rows = nearest_rows(rows_of(self.step.cone, count), z_j)
+                rows = nearest_rows(self.step.cone, count, z_j)
             faces.append(rows)
         return near._replace(faces=tuple(faces))
 
@@ -180,32 +180,34 @@ def _floats(name: str, count: int, rows: Rows) -> Array:
     return np.array(numbers).reshape(-1, 4) / exact.denominator
 
 
-def nearest_rows(C: Array, z: Array) -> Rows:
+def nearest_rows(name: str, count: int, z: Array) -> Rows:
     """The rows of the face on which the point nearest to -z lies: the method of Lawson and Hanson.
 
-    Of numbers lam >= 0 with the least length of C' lam + z, they are
-    the rows with lam > 0.
+    The row whose condition is missed most joins the others; of rows whose multipliers are negative
+    the most negative leaves.
 
     Parameters
     ----------
-    C : ndarray, shape (m, 4)
-        The rows of a contact's cone [-].
+    name : str
+        A polyhedral cone.
+    count : int
+        Rows of the contact.
     z : ndarray, shape (4,)
         Its lengths [m, or times any positive number].
     """
-    lam = np.zeros(len(C))
-    positive = np.zeros(len(C), dtype=bool)
-    for _ in range(3 * len(C)):
-        descent = np.where(positive, 0.0, -C @ (C.T @ lam + z))
-        steepest = int(np.argmax(descent))
-        if descent[steepest] <= ROUNDING * np.abs(z).max():
+    rows: Rows = ()
+    least = -ROUNDING * np.abs(z).max()
+    for _ in range(3 * count):
+        slacks = _floats(name, count, rows)[:-4] @ z
+        slacks[list(rows)] = 0.0
+        missed = int(slacks.argmin())
+        if slacks[missed] >= least:
             break
-        positive[steepest] = True
-        while True:
-            lam = np.zeros(len(C))
-            lam[positive] = np.linalg.lstsq(C[positive].T, -z)[0]
-            falling = positive & (lam <= 0)
-            if not falling.any():
+        rows = tuple(sorted((*rows, missed)))
+        while rows:
+            multipliers = (_floats(name, count, rows)[:-4] @ z)[list(rows)]
+            lowest = int(multipliers.argmin())
+            if multipliers[lowest] > 0:
                 break
-            positive[np.argmin(np.where(falling, lam, np.inf))] = False
-    return tuple(np.flatnonzero(positive).tolist())
+            rows = rows[:lowest] + rows[lowest + 1 :]
+    return rows
