@@ -20,6 +20,7 @@ PAGES = [
     "artifacts.md",
     "cones.md",
     "coulomb.md",
+    "derivations.md",
     "distances.md",
     "findings.md",
     "guides/check_your_implementation.md",
