@@ -230,7 +230,8 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])
             bounded = lower <= upper and written.bounded
-            joint = replace(joint, limits=(lower, upper) if bounded else None)
+            effort = float(model.effortLimit[joint.v.start]) or np.inf
+            joint = replace(joint, limits=(lower, upper) if bounded else None, effort=effort)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
 

@@ -54,7 +54,7 @@ class Trajectory(Plain, HasPage):
         ``"coulomb"``;
         ``findings``, see :attr:`findings`; ``not_looked_at``, where there is anything, what they
         leave out and why; ``scene``, see
-        :func:`~quasistatic_ref.optional.doctor.scene_notes.scene_notes`; and ``failed``: the
+        :func:`~quasistatic_ref.optional.doctor.account.scene_notes`; and ``failed``: the
         reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the

@@ -1,5 +1,6 @@
 """What every kind of joint knows of itself; nothing else asks which kind a joint is."""
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
@@ -46,6 +47,9 @@ class Joint(Plain, ABC):
         Least and greatest position that its URDF allows [m, rad], which the model ignores. None
         where the URDF gives none, both are 0 or the lower is above the upper one, and for bases and
         joints whose position is no number.
+    effort : float
+        Largest force that its URDF allows [N, N m], which the model ignores; infinity where the
+        URDF gives none or 0.
 
     Attributes
     ----------
@@ -66,6 +70,7 @@ class Joint(Plain, ABC):
     q: slice
     v: slice
     limits: tuple[float, float] | None = None
+    effort: float = math.inf
 
     lengths: ClassVar[int]
     unit: ClassVar[str | None] = None

@@ -1,18 +1,25 @@
-"""The account of a run, from its file alone: what each pair, body and joint did."""
+"""The account of a run, from its file alone: what each pair, body and joint did.
+
+What it needs of a scene stands in the header of the file, as :func:`scene_notes` writes it.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.certify.solution import UNKNOWN
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
-from quasistatic_ref.optional.doctor.gauges import gauge
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.doctor.telling import telling_numbers
+from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.account import (
     Account,
     Drive,
@@ -21,10 +28,49 @@ from quasistatic_ref.simulate.account import (
     PairAccount,
     Stop,
 )
+from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, SPINS, TOUCHES
+
+
+def scene_notes(recorder: Recorder) -> dict[str, Any]:
+    """Names and constants that the arrays of a trajectory do not hold.
+
+    Returns
+    -------
+    dict
+        ``pairs`` (of each its name, what alpha is and what beta is: a link, or a shape of the
+        world), ``waypoints`` (times [s] by joint), ``stiffness`` (the diagonal of K_q, empty where
+        K_q has other entries) and ``gravity`` [m/s^2].
+    """
+    return {
+        "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
+        "waypoints": {track.joint.name: track.times.tolist() for track in recorder.tracks},
+        "stiffness": stiffness(recorder.simulator.K_q).tolist(),
+        "gravity": recorder.simulator.gravity.tolist(),
+    }
+
+
+def sides(system: System, pair: ContactPair) -> list[str]:
+    """A pair's name, and the names of what touches."""
+    return [pair.name, side(system, pair.alpha), side(system, pair.beta)]
+
+
+def side(system: System, placed: PlacedShape) -> str:
+    """The link that a shape is fixed to, its body's name if they share it; or the world's shape."""
+    link = system.links[placed.link]
+    body, _, own = link.partition("/")
+    if not placed.link:
+        return placed.name
+    return body if own == body else link
+
+
+def stiffness(K_q: Array) -> Array:
+    """The diagonal of K_q, shape (n_a,) [N/m, N m/rad]; empty where K_q has other entries."""
+    diagonal = np.diag(K_q)
+    return diagonal if np.array_equal(K_q, np.diag(diagonal)) else np.zeros(0)
 
 
 def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
@@ -43,7 +89,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
     """
     header = trajectory.header
     scene = _scene(header)
-    stiffness = np.array(scene.sequence("stiffness"), dtype=np.float64)
+    K = np.array(scene.sequence("stiffness"), dtype=np.float64)
     joints = list(joints_of(header["positions"], header["n_a"]))
     missing: list[str] = []
     pairs: list[PairAccount] = []
@@ -58,7 +104,7 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
         wrench = _forces(trajectory, forces, missing)
         gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
         pairs = pair_accounts(trajectory, scene.sequence("pairs"), gravity, motion, wrench)
-        drives = [_drive(joint, trajectory, stiffness) for joint in joints if joint.actuated]
+        drives = [drive(joint, trajectory, K) for joint in joints if joint.actuated]
     hands = [joint for joint in joints if joint.actuated and joint.free]
     motions = [_motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated]
     stops = list(_stops(trajectory, {joint.name for joint in joints}))
@@ -205,6 +251,42 @@ def _loads(run: Trajectory, wrench: Array, own: Mask, up: Array) -> Loads:
     )
 
 
+def gauge(name: str, wrench: Array, mu_v: Array, mu_omega: Array) -> Array:
+    """The normal force that contacts need for their friction and torsion, shape (..., n_c) [N].
+
+    It is the gauge of the cone's base: in the pyramid (|f_1| + |f_2|) / mu_v + |tau| / mu_omega, in
+    the ellipsoid the length of these three, in other polyhedral cones the least sum of multipliers.
+    Terms whose coefficient is 0 are left out.
+
+    Parameters
+    ----------
+    name : str
+        Of the cone.
+    wrench : ndarray, shape (..., n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) [N, N m].
+    mu_v, mu_omega : ndarray, shape (n_c,)
+        [-] and [m].
+    """
+    mu = np.stack([mu_v, mu_v, mu_omega], axis=-1)
+    parts = wrench[..., [0, 1, 3]]
+    needs = np.divide(parts, mu, out=np.zeros_like(parts), where=mu > 0)
+    if not cone(name).polyhedral:
+        return np.asarray(np.linalg.norm(needs, axis=-1))
+    return np.asarray((needs @ _facets(name).T).max(axis=-1, initial=0.0))
+
+
+@cache
+def _facets(name: str) -> Array:
+    """Of the hull of a cone's directions the facets a, shape (F, 3), where it is a . x <= 1."""
+    from scipy.spatial import ConvexHull  # takes as long as a short run
+
+    directions = cone(name).matrix[:, 1:]
+    if not directions.any():
+        return np.zeros((0, 3))
+    equations = ConvexHull(directions).equations
+    return np.asarray(equations[:, :3] / -equations[:, 3:])
+
+
 def _motion_of_contacts(run: Trajectory) -> Array | None:
     """J delta_q, shape (steps, n_c, 4) [m, m, m, rad], of a record that has it."""
     if "motion" in run.arrays:
@@ -277,13 +359,14 @@ def _stops(run: Trajectory, joints: set[str]) -> Iterator[Stop]:
                 yield Stop(name, force)
 
 
-def _drive(joint: Joint, run: Trajectory, stiffness: Array) -> Drive:
+def drive(joint: Joint, run: Trajectory, K: Array) -> Drive:
+    """What an actuated joint of a run did; K is :func:`stiffness`."""
     target = run["q_bar_a"]
     n = target.shape[1]
     error = _distance(joint, run["q"][1:, :n], target)
     way = float(_distance(joint, np.broadcast_to(run["q"][0, :n], target.shape), target).max())
     scalar = joint.v.stop == joint.v.start + 1
-    spring = error * stiffness[joint.v.start] if scalar and stiffness.size else None
+    spring = error * K[joint.v.start] if scalar and K.size else None
     return Drive(joint, "m" if joint.lengths else "rad", error, way, spring)
 
 

@@ -36,7 +36,7 @@ def density(start: Start) -> Iterator[Finding]:
     hollow, and what is between its shapes may be filled. Of feet neither says anything.
     """
     for link, name, shapes in start.free_links:
-        hull = _hull(shapes)
+        hull = hull_of(shapes)
         if hull is None or _are_feet(shapes, hull):
             continue
         mass = float(start.system.masses[link])
@@ -57,9 +57,9 @@ def density(start: Start) -> Iterator[Finding]:
                 )
 
 
-def _hull(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:
+def hull_of(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:
     """Convex hull of a link's shapes, in its frame; None if they are flat."""
-    points = [_points(placed) for placed in shapes]
+    points = [farthest_points(placed) for placed in shapes]
     for placed in shapes:
         corners, radius = placed.shape.corners(WAYS[0])
         if not radius:
@@ -85,7 +85,7 @@ def inertia(start: Start) -> Iterator[Finding]:
     for link, name, shapes in start.free_links:
         mass = float(start.system.masses[link])
         moment = start.system.inertias[link]
-        points = np.concatenate([_points(placed) for placed in shapes])
+        points = np.concatenate([farthest_points(placed) for placed in shapes])
         radius = float(np.linalg.norm(points - start.system.centres[link], axis=1).max())
         largest = float(np.linalg.eigvalsh(moment).max())
         share = largest / (mass * radius**2) if radius > 0 else 1.0
@@ -106,7 +106,7 @@ def centre(start: Start) -> Iterator[Finding]:
     The body that stands on feet is above them, by their distance at most.
     """
     for link, name, shapes in start.free_links:
-        hull = _hull(shapes)
+        hull = hull_of(shapes)
         if hull is None:
             continue
         at = start.system.centres[link]
@@ -145,6 +145,7 @@ def sizes_apart(start: Start) -> Iterator[Finding]:
         )
 
 
-def _points(placed: PlacedShape) -> Array:
+def farthest_points(placed: PlacedShape) -> Array:
+    """The points of a shape that are farthest in the WAYS, in the frame of its link, (n, 3) [m]."""
     farthest = np.array([placed.shape.support_point(way) for way in WAYS])
     return farthest @ placed.R.T + placed.t

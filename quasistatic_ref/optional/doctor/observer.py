@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
     drags,
@@ -21,7 +22,6 @@ from quasistatic_ref.optional.doctor.checks import (
     not_looked_at,
 )
 from quasistatic_ref.optional.doctor.run import Run, largest
-from quasistatic_ref.optional.doctor.scene_notes import scene_notes
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import finding_table
 from quasistatic_ref.simulate.observer import Observer

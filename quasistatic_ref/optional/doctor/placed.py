@@ -9,7 +9,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.borne import borne
-from quasistatic_ref.optional.doctor.falls import fall, held
+from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.start import (
     Start,
     bodies,
@@ -20,6 +20,8 @@ from quasistatic_ref.optional.doctor.start import (
     slices,
     table,
 )
+from quasistatic_ref.optional.doctor.unsupported import fall, held
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import NEAR, SAME_NORMAL, SUNK
 
@@ -50,34 +52,38 @@ def gravity(start: Start) -> Iterator[Finding]:
 
 
 def in_the_air(start: Start) -> Iterator[Finding]:
-    """A body that touches nothing where it starts, above what is to bear it.
+    """A body that touches nothing where it starts: how far it is above what is to bear it.
 
-    Its height is the shortest move along gravity until a pair of it touches (``falls.fall``).
+    Its height is the shortest move along gravity until a pair of it touches (``unsupported.fall``).
     """
-    for name, own in _falling(start):
-        pair, gap = min(own, key=lambda x: x[1])
-        if np.isfinite(gap):
-            yield Finding(
-                "starts in the air",
-                True,
-                f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
-                f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it ({pair.name})",
-                {"gap_mm": 1e3 * gap},
-            )
-
-
-def nothing_below(start: Start) -> Iterator[Finding]:
-    """A body that touches nothing where it starts, and of whose tables none is of what is below."""
-    for name, own in _falling(start):
-        if all(gap == np.inf for _, gap in own):
-            yield Finding(
-                "unsupported body",
-                True,
-                joining(start, f"{name} and what should bear it"),
-                f"nothing that may touch {name} is below it: it falls past "
-                f"{listed(sorted({pair.name for pair, _ in own}))}",
-                {"pairs": len(own)},
-            )
+    loose = {
+        name: own
+        for name, own in _contacts(start)
+        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
+    }
+    holds = held(start, loose)
+    for name in [x for x in loose if x not in holds]:
+        with suppress(ContactError):  # of a pose that no step has
+            falls = [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
+            pair, gap = min(falls, key=lambda x: x[1])
+            if np.isfinite(gap):
+                yield Finding(
+                    "starts in the air",
+                    True,
+                    f"lower {name} by {1e3 * gap:.4g} mm, or check its origin",
+                    f"it starts in the air, {1e3 * gap:.4g} mm above what may bear it "
+                    f"({pair.name})",
+                    {"gap_mm": 1e3 * gap},
+                )
+            else:
+                yield Finding(
+                    "unsupported body",
+                    True,
+                    joining(start, f"{name} and what should bear it"),
+                    f"nothing that may touch {name} is below it: it falls past "
+                    f"{listed(sorted({pair.name for pair, _ in falls}))}",
+                    {"pairs": len(falls)},
+                )
 
 
 def penetration(start: Start) -> Iterator[Finding]:
@@ -101,17 +107,35 @@ def penetration(start: Start) -> Iterator[Finding]:
     yield from deepest.values()
 
 
-def _falling(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float]]]]:
-    """Bodies that touch nothing and that nothing holds: their pairs, and how far they fall [m]."""
-    loose = {
-        name: own
-        for name, own in _contacts(start)
-        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
+def inside(start: Start) -> Iterator[Finding]:
+    """What is driven and starts between the points or shapes of something free, touching none."""
+    if start.points is None:
+        return
+    touching = {
+        frozenset((pair.alpha.link, pair.beta.link))
+        for pair, own in slices(start.pairs)
+        if start.points.phi[own].min() <= SUNK * least(pair)
     }
-    borne = held(start, loose)
-    for name in [x for x in loose if x not in borne]:
-        with suppress(ContactError):  # of a pose that no step has
-            yield name, [(pair, fall(start, pair, name)) for pair, *_ in loose[name]]
+    solids = [side for side in start.sides if not isinstance(side.shape, PointCloud)]
+    clouds = {side.link for side in start.sides} - {side.link for side in solids}
+    driven = {side.link: side for side in solids if start.driven[side.link]}
+    R, t = start.kinematics.R, start.kinematics.t
+    for link, name, shapes in start.free_links:
+        hull = hull_of(shapes) if link in clouds or len(shapes) > 1 else None
+        for other, side in driven.items():
+            if hull is None or frozenset((link, other)) in touching:
+                continue
+            middle = R[other] @ farthest_points(side).mean(axis=0) + t[other]
+            depth = -float(hull.signed_distance((middle - t[link])[None] @ R[link])[0][0])
+            if depth > 0:
+                yield Finding(
+                    "starts inside",
+                    False,
+                    f"start {side.name} outside of {name}",
+                    f"its middle is {1e3 * depth:.3g} mm inside of the hull of {name}, none of "
+                    "which it touches: what is between the points or shapes of a body is empty",
+                    {"depth_mm": 1e3 * depth},
+                )
 
 
 def _clamped(start: Start, name: str) -> bool:

@@ -12,9 +12,8 @@ from quasistatic_ref.certify.contact_forces import (
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.optional.doctor.account import pair_accounts
+from quasistatic_ref.optional.doctor.account import pair_accounts, sides
 from quasistatic_ref.optional.doctor.compared import Compared
-from quasistatic_ref.optional.doctor.scene_notes import sides
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.parts import if_there
 from quasistatic_ref.simulate.account import PairAccount

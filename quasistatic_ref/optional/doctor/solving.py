@@ -1,16 +1,20 @@
-"""How the steps of a run were solved: where the backend failed, and what their proofs cost."""
+"""How the steps of a run were solved: failing backends, uncertain forces, and time of proofs."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from math import log10
 
 import numpy as np
 
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
+from quasistatic_ref.tolerances import BORNE, SURE
 
 WORTH = 10.0
 """Least time of a run whose proofs are named [s]."""
@@ -39,18 +43,32 @@ def backend_failures(run: Run) -> Iterator[Finding]:
     first = int(np.flatnonzero(missed)[0])
     exact = (run["certificate"][missed] == "exact").all()
     other = "the exact method" if exact else "another backend or the exact method"
-    able = ("clarabel", "daqp") if cone(simulator.cone).polyhedral else ("clarabel", "scs")
-    others = [name for name in able if name != simulator.backend.removeprefix(QPSOLVERS)]
+    others = ("clarabel", "daqp") if cone(simulator.cone).polyhedral else ("clarabel", "scs")
+    able = [name for name in others if _solves(run, name, first, asked)]
+    remedy = f"choose another backend than {simulator.backend}, such as {' or '.join(able)}"
+    if not able:
+        remedy = "check masses, lengths and stiffness, or leave the steps to the exact method"
     said = f"failed in {failed} of {run.steps} steps" if failed else ""
     fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
     yield Finding(
         "failing backend",
         True,
-        f"choose another backend than {simulator.backend}, such as {' or '.join(others)}",
+        remedy,
         f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
         f"{first}; {other} solved them",
         {"failed": failed, "short": short, "step": first},
     )
+
+
+def _solves(run: Run, name: str, k: int, digits: float) -> bool:
+    """Whether a backend is not the run's, and has some digits of step k if that may be solved."""
+    failed = run.simulator.backend.removeprefix(QPSOLVERS)
+    if name == failed or not run.searched:
+        return name != failed
+    with suppress(QuasistaticError):
+        solved = solve_step(run.step_data(k), name, accuracy=run.simulator.accuracy).statistics
+        return solved.digits is not None and solved.digits >= digits
+    return False
 
 
 def proofs(trajectory: Trajectory) -> Iterator[Finding]:
@@ -67,4 +85,35 @@ def proofs(trajectory: Trajectory) -> Iterator[Finding]:
             'take certify = "residual", which bounds the error of each step in less time',
             f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
             {"proof_s": proof, "total_s": total},
+        )
+
+
+def unborne(run: Run) -> Iterator[Finding]:
+    """What forces leave, and what rounding decides of them, where contacts press most.
+
+    What a last bit of the places of contacts may change in forces is that of the same step: next to
+    a load that is rounding, any change is large.
+    """
+    k = int(run["wrench"][:, :, 2].sum(axis=1).argmax())
+    compliant = run.compliant(k)
+    if compliant is None:
+        return
+    if compliant.imbalance > BORNE:
+        yield Finding(
+            "uncertain forces",
+            False,
+            "read wrench in the place of forces, or raise mu_v or mu_omega",
+            f"forces of single contacts leave {compliant.imbalance:.1e} of the load",
+            {"left": compliant.imbalance},
+        )
+    bit = float(np.spacing(np.abs(run["beta"][k]).max(initial=0.0)))
+    noise = compliant.sensitivity * bit
+    if noise > SURE:
+        yield Finding(
+            "uncertain forces",
+            False,
+            "read the sum of forces of each pair in the place of single ones, or take a softer K_q",
+            f"rounding of a gap, by {bit:.1e} m, may change forces of single contacts by "
+            f"{noise:.1e} of the load of their group",
+            {"noise": noise},
         )

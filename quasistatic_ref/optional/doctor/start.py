@@ -16,8 +16,8 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.extension import NO_RISES
+from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.extension import Extension
 
 HULL = "hull of its points"
 SEARCHED = 200_000
@@ -63,17 +63,37 @@ class Start:
         return self.simulator.geometry.contacts(self.points, self.kinematics)
 
     @cached_property
+    def extension(self) -> Extension:
+        """What is added to the step at the start, which may be nothing."""
+        extension = self.simulator.extension
+        return Extension() if extension is None else extension(self.q_start)
+
+    @property
     def raised(self) -> Indices:
         """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
-        extension = self.simulator.extension
-        return NO_RISES.contacts if extension is None else extension(self.q_start).rises.contacts
+        return self.extension.rises.contacts
 
     @cached_property
     def bounded(self) -> Indices:
         """Entries of delta_q that rows of an extension bound, such as stops of joints."""
-        extension = self.simulator.extension
-        rows = None if extension is None else extension(self.q_start).rows
+        rows = self.extension.rows
         return np.zeros(0, dtype=np.int64) if rows is None else np.flatnonzero(rows.A.any(axis=0))
+
+    @cached_property
+    def moves(self) -> Mask:
+        """Which links each entry of delta_q moves, shape (L, n_v)."""
+        column_map = self.system.column_map
+        return np.asarray(column_map.of_coordinates(column_map.moves)[:, 0] != 0)
+
+    @cached_property
+    def driven(self) -> Mask:
+        """Which links something actuated moves, shape (L,)."""
+        return np.asarray(self.moves[:, : self.system.n_a].any(axis=1))
+
+    @cached_property
+    def free(self) -> Mask:
+        """Which links move, and nothing actuated moves them, shape (L,)."""
+        return np.asarray(self.moves[:, self.system.n_a :].any(axis=1) & ~self.driven)
 
     @cached_property
     def free_links(self) -> list[tuple[int, str, list[PlacedShape]]]:
@@ -169,3 +189,10 @@ def free_bases(system: System) -> dict[str, Joint]:
     """The floating bases that nothing actuates, by their bodies."""
     bases = [j for j in system.joints if j.free and not j.actuated]
     return {base.name.removesuffix("/base"): base for base in bases}
+
+
+def centre(system: System, kinematics: Kinematics, name: str) -> Array:
+    """Centre of mass of a body, shape (3,) [m]."""
+    mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
+    places = kinematics.t + np.einsum("lij,lj->li", kinematics.R, system.centres)
+    return np.asarray(mass @ places / mass.sum())

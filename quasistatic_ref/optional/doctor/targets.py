@@ -1,14 +1,20 @@
-"""Targets and joints beyond the limits of a URDF."""
+"""Targets, joints and forces beyond the limits of a URDF, and columns of targets without effect."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 from quasistatic_ref.model.joints.joint import Joint
+from quasistatic_ref.optional.doctor.account import drive, stiffness
 from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEYOND, IN_METRES
+
+GROSS = 100.0
+"""Force over effort that is grave [-]; an effort of 1, which many URDFs have for want of a number,
+is asked no sooner."""
 
 
 def beyond_limits(run: Run) -> Iterator[Finding]:
@@ -60,6 +66,30 @@ def joints_beyond(run: Run) -> Iterator[Finding]:
                 f"{limit:.3g} {unit}, which the model ignores",
                 {f"position_{unit}": position, f"limit_{unit}": limit, "step": k},
             )
+
+
+def beyond_effort(run: Run) -> Iterator[Finding]:
+    """Joints whose springs push with more than their motors can."""
+    K = stiffness(np.zeros((0, 0)) if run.extension.without_stiffness else run.simulator.K_q)
+    for joint in run.system.joints:
+        if not (joint.actuated and joint.effort < np.inf) or joint.v.start in run.bounded:
+            continue
+        did = drive(joint, run.trajectory, K)
+        most = joint.effort * (GROSS if joint.effort == 1 else 1.0)
+        if did.spring is None or (did.spring <= most).all():
+            continue
+        k = int(did.spring.argmax())
+        unit = "N" if did.unit == "m" else "N m"
+        yield Finding(
+            "force beyond a limit",
+            bool(did.spring[k] > GROSS * joint.effort),
+            f"lower K_q of {joint.name} to {joint.effort / did.error[k]:.2g} {unit}/{did.unit}, "
+            "move its target nearer, or correct its effort in the URDF",
+            f"its spring pushes with {did.spring[k]:.3g} {unit} at step {k}, "
+            f"{amount(did.error[k], did.unit)} from its target, and its motor with "
+            f"{joint.effort:.3g} {unit} at most, which the model ignores",
+            {"force": float(did.spring[k]), "effort": joint.effort, "step": k},
+        )
 
 
 def _limited(run: Run) -> Iterator[tuple[Joint, str]]:

@@ -1,4 +1,4 @@
-"""Lengths that look like millimetres: of meshes and clouds, of mu_omega, and of targets."""
+"""Numbers that look like another unit, or like nothing that is meant, and a run of no steps."""
 
 from collections.abc import Iterator
 
@@ -9,7 +9,25 @@ from quasistatic_ref.optional.doctor.start import Start, least, table
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.tolerances import IN_METRES
+from quasistatic_ref.tolerances import IN_METRES, ROUGH
+
+MANY = 10
+"""Times as many contacts as a pair has candidates [-] that no one means by k."""
+LONGEST = 1.0
+"""Time step [s] above which milliseconds are meant: what hands move goes its whole way in it."""
+
+
+def long_step(start: Start) -> Iterator[Finding]:
+    """A time step of more than a second."""
+    if start.h > LONGEST:
+        yield Finding(
+            "unit of h",
+            True,
+            "check the unit of h",
+            f"times are in seconds, and a step of {start.h:g} s is one straight motion between "
+            f"contacts that do not change; {start.h:g} ms are h = {start.h / 1e3:g}",
+            {"h_s": start.h},
+        )
 
 
 def long_shapes(start: Start) -> Iterator[Finding]:
@@ -59,3 +77,51 @@ def far_targets(run: Run) -> Iterator[Finding]:
                     f"lengths are in metres, and that of step {k} is {length[k]:.3g} m",
                     {"length_m": float(length[k]), "step": k},
                 )
+
+
+def friction(start: Start) -> Iterator[Finding]:
+    """A mu_v beyond that of anything, once for each table."""
+    rough = {table(start, pair): pair.mu_v for pair in start.pairs if pair.mu_v > ROUGH}
+    for name, mu_v in rough.items():
+        yield Finding(
+            "no friction coefficient",
+            True,
+            f"check mu_v of {name}",
+            f"a friction coefficient is the ratio of two forces, of rubber on asphalt 1, and this "
+            f"is {mu_v:g}",
+            {"mu_v": mu_v},
+        )
+
+
+def angle(start: Start) -> Iterator[Finding]:
+    """An rpy beyond a whole turn."""
+    for body in start.system.bodies:
+        largest = float(np.abs(body.rpy).max())
+        if largest > 2 * np.pi:
+            yield Finding(
+                "no angle",
+                True,
+                f"check the unit of rpy of {body.name}",
+                f"angles are in radians, {largest:g} rad are {np.degrees(largest):.4g} degrees, "
+                f"and {largest:g} degrees are {np.radians(largest):.4g} rad",
+                {"angle_rad": largest},
+            )
+
+
+def count(start: Start) -> Iterator[Finding]:
+    """A k far beyond the points of its pairs, once for each table."""
+    beyond = {table(start, pair): pair for pair in start.pairs if pair.k > MANY * pair.candidates}
+    for name, pair in beyond.items():
+        yield Finding(
+            "no count",
+            True,
+            f"lower k of {name}",
+            f"it is {pair.k}, and {pair.name} has {pair.candidates} points, all of which are "
+            "contacts of every step",
+            {"k": pair.k, "points": pair.candidates},
+        )
+
+
+def no_steps(start: Start) -> Iterator[Finding]:
+    """A run of no steps."""
+    yield Finding("no motion", True, "raise steps", "it is 0, and nothing happens", {"steps": 0})

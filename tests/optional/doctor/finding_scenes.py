@@ -85,6 +85,8 @@ TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""
 FACE = [(x, y, -0.05) for x in np.linspace(-0.05, 0.05, 10) for y in np.linspace(-0.05, 0.05, 10)]
 """A hundred points on the lower face of a box."""
+SHELL = [*FACE, *((x, y, -z) for x, y, z in FACE)]
+"""As many on its upper face."""
 TIN = Body.of_shape("tin", Cylinder(0.04, 0.05), 0.4, xyz=(0, 0, 0.05))
 DRAWER = Body("drawer", joint("prismatic", "1 0 0"))
 RAIL = ("rail", Box(size=(2, 0.04, 0.04)), (0, 0, -0.07))
@@ -100,6 +102,7 @@ def findings(
     steps=3,
     mu_omega=0.0,
     K_q=500.0,
+    h=0.01,
     seconds=None,
     **more,
 ):
@@ -125,9 +128,7 @@ def findings(
         for x in shapes[a]
         for y in shapes[b]
     ]
-    simulator = FastSimulator(
-        Simulator(system, pairs, h=0.01, K_q=K_q * np.eye(system.n_a), **more)
-    )
+    simulator = FastSimulator(Simulator(system, pairs, h=h, K_q=K_q * np.eye(system.n_a), **more))
     force = (
         None
         if push is None
@@ -307,6 +308,18 @@ found = findings([box()], mu_omega=3.0)
 
 # %% unit of a target: 50 was meant as 50 mm
 found = findings([motor("finger")], [], target=[50.0])
+
+# %% unit of h: 10 was meant as 10 ms
+found = findings([box()], h=10.0)
+
+# %% starts inside: a finger in the middle of a hollow box
+finger = motor("finger", size=TIP, xyz=(0, 0, 0.05))
+found = findings([box(), finger], [*STANDS, ("finger", "box", 0.5, 4)], cloud={"box": SHELL})
+
+# %% force beyond a limit: a spring presses with 5 N, and its motor has 2 N
+weak = joint("prismatic", "0 0 1").replace('effort="1"', 'effort="2"')
+press = Body("press", weak, actuated="all", xyz=(0, 0, 0.15))
+found = findings([box(), press], [*STANDS, ("box", "press", 0.5, 4)], target=[-0.01])
 
 # %% target without effect: the group of the actuator is switched off
 found = of_mujoco('<option actuatorgroupdisable="3"/>', '<position joint="j" kp="9" group="3"/>')

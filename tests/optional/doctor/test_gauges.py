@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.optional.doctor.account import account_of
-from quasistatic_ref.optional.doctor.gauges import gauge
+from quasistatic_ref.optional.doctor.account import account_of, gauge
 from quasistatic_ref.step.cones import cone
 
 MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
@@ -105,23 +104,11 @@ FINGERS = (
 )
 
 
-@pytest.mark.parametrize(
-    ("aside", "mu_v", "mu_omega", "cone", "remedies"),
-    [
-        (0.04, 0.5, 0.02, "pyramid", ["raise mu_omega of contacts.grip"]),
-        (0.0, 0.2, 0.02, "pyramid", ["raise mu_v of contacts.grip"]),
-        (0.04, 2.0, 0.005, "pyramid", ["raise mu_omega of contacts.grip"]),  # turns, hardly slips
-        (0.04, 2.0, 0.005, "ellipsoid", ["raise mu_omega of contacts.grip"]),
-        (0.0, 2.0, 0.005, "pyramid", []),
-        (0.04, 2.0, 0.05, "pyramid", []),
-    ],
-)
-def test_a_grip_that_is_lost_says_which_limit_was_reached(aside, mu_v, mu_omega, cone, remedies):
-    """Two fingers press with 3 N each on a bar of 0.2 kg, beside its middle or too loosely.
-
-    Beside its middle it asks for 0.0785 N m, and mu_omega bears 6 N of it.
-    """
-    made = qr.load_scenario(
+def grip(aside, mu_v, mu_omega, cone="pyramid", rows=6):
+    """A run in which two fingers press with 3 N each on a bar of 0.2 kg, beside its middle."""
+    bar = urdf(0.2, '<box size="0.2 0.02 0.03"/>', "5e-4")
+    table = {"alpha": "gripper/*", "beta": "bar", "mu_v": mu_v, "mu_omega": mu_omega}
+    return qr.load_scenario(
         {
             "h": 0.01,
             "steps": 100,
@@ -135,26 +122,49 @@ def test_a_grip_that_is_lost_says_which_limit_was_reached(aside, mu_v, mu_omega,
                     "targets": [{"t": 0.0, "jl": 0.003, "jr": 0.003}],
                     "pose": {"xyz": [0, 0, 0.3]},
                 },
-                "bar": {
-                    "urdf": urdf(0.2, '<box size="0.2 0.02 0.03"/>', "5e-4"),
-                    "base": "floating",
-                    "pose": {"xyz": [aside, 0, 0.3]},
-                },
+                "bar": {"urdf": bar, "base": "floating", "pose": {"xyz": [aside, 0, 0.3]}},
             },
-            "contacts": {
-                "grip": {
-                    "alpha": "gripper/*",
-                    "beta": "bar",
-                    "mu_v": mu_v,
-                    "mu_omega": mu_omega,
-                    "rows": 6,
-                    "k": 1,
-                }
-            },
+            "contacts": {"grip": table | {"rows": rows, "k": 1}},
         }
-    )
-    said = [one for one in made.run(progress=False).findings if one.name == "lost grip"]
-    assert [one.remedy.partition(",")[0] for one in said] == remedies
+    ).run(progress=False)
+
+
+@pytest.mark.parametrize(
+    ("aside", "mu_v", "mu_omega", "cone", "remedy", "limit"),
+    [
+        (0.04, 0.5, 0.02, "pyramid", "raise mu_omega", "the weight leaves too little"),
+        (0.0, 0.2, 0.02, "pyramid", "raise mu_v", "its friction bears"),
+        (0.04, 2.0, 0.005, "pyramid", "raise mu_omega", "mu_omega bears 0.03"),  # hardly slips
+        (0.04, 2.0, 0.005, "ellipsoid", "raise mu_omega", "mu_omega bears 0.03"),
+        (0.0, 2.0, 0.005, "pyramid", None, ""),
+        (0.04, 2.0, 0.05, "pyramid", None, ""),
+    ],
+)
+def test_a_grip_that_is_lost_says_which_limit_was_reached(
+    aside, mu_v, mu_omega, cone, remedy, limit
+):
+    """40 mm beside its middle the bar asks for 0.0785 N m, and mu_omega bears 6 N of it."""
+    said = [x for x in grip(aside, mu_v, mu_omega, cone).findings if x.name == "lost grip"]
+    assert [one.remedy.partition(" of ")[0] for one in said] == ([remedy] if remedy else [])
+    for one in said:
+        assert limit in one.cause
+        assert not aside or "40 mm beside the grip, asks for 0.078" in one.cause
+        assert "its friction bears" not in one.cause or aside == 0
+
+
+def test_a_grip_without_torsion_is_lost_by_turning():
+    """By four rows it has none, and mu_v, which bears three times the weight, is not to blame."""
+    (found,) = [x for x in grip(0.04, 1.0, 0.0, rows=4).findings if x.name == "lost grip"]
+    assert found.remedy.startswith("raise mu_omega of contacts.grip (rows = 6), or hold bar")
+    assert "mu_omega bears 0 N m" in found.cause
+
+
+def test_a_bar_that_turns_and_slips_is_at_its_whole_limit():
+    """Friction and torsion share the cone: neither is at its own limit, both together are."""
+    for pair in account_of(grip(0.04, 0.5, 0.02)).pairs:
+        assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
+        assert (pair.loads.torque < 0.9 * 0.02 * pair.loads.normal).all()
+        assert pair.spins.any()
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,9 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.optional.doctor.account import account_of
-from quasistatic_ref.optional.doctor.falls import fall
 from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.unsupported import fall
+from tests.optional.doctor.urdfs import slides
 
 LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <site name="hook" pos="0 0 {hook}"/>
@@ -100,7 +101,7 @@ def test_a_filler_is_no_distance(at, distance):
     assert numbers.get("least_distance_m") == distance
 
 
-def scene(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
+def fields(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
     shapes = "".join(
         f'<collision name="s{i}"><origin xyz="{x} {y} {h}" rpy="0 0 {yaw}"/>'
         f"<geometry>{kind}</geometry></collision>"
@@ -112,24 +113,26 @@ def scene(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
         f'<mass value="{mass}"/><inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" '
         f'ixy="0" ixz="0" iyz="0"/></inertial>{shapes}</link></robot>'
     )
-    return qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": 1,
-            "gravity": [0, 0, -9.81],
-            "bodies": {"b": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, z]}}},
-            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-            "contacts": {
-                "floor": {
-                    "alpha": "floor",
-                    "beta": [f"b/s{i}" for i in range(len(collisions))],
-                    "mu_v": 0.5,
-                    "rows": 4,
-                    "k": 4,
-                }
-            },
-        }
-    )
+    return {
+        "h": 0.01,
+        "steps": 1,
+        "gravity": [0, 0, -9.81],
+        "bodies": {"b": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, z]}}},
+        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+        "contacts": {
+            "floor": {
+                "alpha": "floor",
+                "beta": [f"b/s{i}" for i in range(len(collisions))],
+                "mu_v": 0.5,
+                "rows": 4,
+                "k": 4,
+            }
+        },
+    }
+
+
+def found(*body):
+    return qr.load_scenario(fields(*body)).run(progress=False).findings
 
 
 def sphere(radius):
@@ -185,7 +188,7 @@ HOLLOW = {
 
 @pytest.mark.parametrize("body", HOLLOW.values(), ids=HOLLOW)
 def test_what_is_between_the_shapes_of_a_body_is_its_own(body):
-    assert [one.sentence for one in scene(*body).run(progress=False).findings] == []
+    assert [one.sentence for one in found(*body)] == []
 
 
 def test_masses_and_centres_that_no_body_of_such_shapes_has_are_still_said():
@@ -195,8 +198,7 @@ def test_masses_and_centres_that_no_body_of_such_shapes_has_are_still_said():
         (1e-4, (0, 0, 0), "density"),
         (0.5, (0.3, 0, 0), "centre of mass"),
     ):
-        run = scene(four, mass, 2e-3 * mass, centre).run(progress=False)
-        assert name in [one.name for one in run.findings]
+        assert name in [one.name for one in found(four, mass, 2e-3 * mass, centre)]
 
 
 def gripper(finger, can):
@@ -238,3 +240,14 @@ def test_a_fall_past_a_ball_is_endless_and_onto_one_ends_on_it():
     start = Start(made.simulator(), made.system.integrate(made.system.q_start, shift))
     # 30 mm across, 60 mm at touch: sqrt(60^2 - 30^2) mm above the other
     assert fall(start, grip, "can") == pytest.approx(0.16 - np.sqrt(0.06**2 - 0.03**2), abs=1e-8)
+
+
+@pytest.mark.parametrize(("at", "inside"), [((0, 0, 0.05), True), ((0.2, 0, 0.05), False)])
+def test_a_finger_that_starts_inside_of_a_mug_is_told_to_start_outside(at, inside):
+    """Of eight boxes, between which a finger touches none."""
+    mug = fields(*HOLLOW["a mug of boxes"])
+    tip = {"urdf": slides("x", sphere(0.01)), "actuated": "all", "K_q": {"x": 100.0}}
+    mug["bodies"]["finger"] = tip | {"pose": {"xyz": list(at)}}
+    mug["contacts"]["push"] = mug["contacts"]["floor"] | {"alpha": "finger/tip", "k": 1}
+    said = [x for x in qr.load_scenario(mug).findings() if x.name == "starts inside"]
+    assert [one.remedy for one in said] == ["start finger/shape outside of b/b"] * inside

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Trajectory, load_scenario, trajectory_read
-from quasistatic_ref.optional.doctor.sunk import sunk
+from quasistatic_ref.optional.doctor.steps import sunk
 from quasistatic_ref.tolerances import SUNK
 from tests.scenes import written_scenario
 

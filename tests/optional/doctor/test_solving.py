@@ -31,11 +31,22 @@ def failing(monkeypatch):
     monkeypatch.setattr(CvxpySolver, "answer", sometimes)
 
 
-@pytest.mark.parametrize(("accused", "other"), [("clarabel", "daqp"), ("daqp", "clarabel")])
-def test_the_remedy_never_names_the_accused(failing, accused, other):
-    scenario = qr.load_scenario("block_push", {"solver.backend": accused}, steps=STEPS)
+@pytest.mark.parametrize(
+    ("accused", "fails", "remedy"),
+    [
+        ("clarabel", {"clarabel"}, "choose another backend than clarabel, such as daqp: "),
+        ("daqp", {"daqp"}, "choose another backend than daqp, such as clarabel: "),
+        ("daqp", {"daqp", "clarabel", "scs"}, "check masses, lengths and stiffness, "),
+    ],
+)
+def test_the_remedy_names_what_solves_the_step_and_never_the_accused(
+    monkeypatch, accused, fails, remedy
+):
+    own = CvxpySolver.answer
+    monkeypatch.setattr(CvxpySolver, "answer", failing_method(own, lambda name: name in fails))
+    scenario = qr.load_scenario("block_push", {"solver.backend": accused}, steps=3)
     (finding,) = scenario.run(progress=False).findings
-    assert finding.sentence.startswith(f"choose another backend than {accused}, such as {other}: ")
+    assert finding.sentence.startswith(remedy)
 
 
 def test_failures_are_in_the_summary_and_in_the_findings(failing, tmp_path, cli):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests import places
 from quasistatic_ref.optional.guests.compiler import compiled_model
 from quasistatic_ref.optional.guests.places import placed
@@ -73,6 +73,19 @@ def test_what_a_mocap_body_carries_is_borne():
     run = scene(table + box, steps=3).run(progress=False)
     assert not run.findings
     assert np.abs(run["q"][-1] - run["q"][0]).max() < 1e-9
+
+
+@pytest.mark.parametrize("up", ["0 0 0", "0 0 0.05"])
+def test_keyframes_that_move_a_mocap_body_are_refused_by_name(up):
+    table = '<body name="table" mocap="true"><geom type="box" size="1 1 0.1"/></body>'
+    slide = '<body pos="3 0 0"><joint name="a" type="slide"/><geom size="0.1"/></body>'
+    rest = '<actuator><position joint="a"/></actuator><keyframe><key name="down" ctrl="0"/>'
+    rest += f'<key name="up" ctrl="0.1" mpos="{up}"/></keyframe>'
+    if up == "0 0 0":
+        assert scene(table + slide, rest, targets=["down", "up"]).steps
+        return
+    with pytest.raises(InputError, match="keyframe up: moves bodies with mocap away from where"):
+        scene(table + slide, rest, targets=["down", "up"])
 
 
 def test_what_nothing_may_touch_is_told_in_words_of_mjcf():

@@ -1,4 +1,4 @@
-"""Contacts that a step finds deep and the step before did not predict."""
+"""Steps that are too long for their first order, and contacts that they did not predict."""
 
 from collections.abc import Iterator
 
@@ -7,10 +7,65 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
+from quasistatic_ref.optional.doctor.start import least, more_points, sizes, slices, table
+from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import FILLED, SUNK
+from quasistatic_ref.tolerances import BEYOND, FILLED, LEAP, SUNK
+
+JUMP = 0.1
+"""Motion in the first step towards a waypoint that is elsewhere than the start, of the size of what
+moves [-], or turn [rad], from which on it counts as a leap."""
+
+
+def leaps(run: Run) -> Iterator[Finding]:
+    """The first step that moves a body of a pair by much of its size, or turns it by much.
+
+    A joint that does not start where its first waypoint is gets there in one step.
+    How far a body moves that is not in equilibrium says nothing: it has a finding of its own.
+    """
+    sides = run.sides
+    jumps = {
+        track.joint.name: abs(float(track.values[0, 0] - run.q_start[track.joint.q][0]))
+        for track in run.recorder.tracks
+        if track.joint.q.stop - track.joint.q.start == 1
+    }
+    links = np.array([side.link for side in sides], dtype=np.int64)
+    found: list[tuple[int, float, Finding]] = []
+    for joint in run.system.joints:
+        if joint.name.partition("/")[0] in run.compared.unbalanced:
+            continue
+        moved = [sides[i] for i in np.flatnonzero(run.moves[links, joint.v].any(axis=1))]
+        motion = run["delta_q"][:, joint.v]
+        lengths = joint.lengths
+        size = max(sizes(moved), default=np.inf)
+        length = np.linalg.norm(motion[:, :lengths], axis=1)
+        angle = np.linalg.norm(motion[:, lengths:], axis=1)
+        share = np.maximum(length / size, angle)
+        jump = jumps.get(joint.name, 0.0) if share[0] > JUMP else 0.0
+        long = share > (JUMP if jump > BEYOND else LEAP)
+        if not (moved and long.any()):
+            continue
+        k = int(long.argmax())
+        how = f"turns by {np.degrees(angle[k]):.3g} degrees"
+        if length[k] / size > angle[k]:
+            how = f"moves by {1e3 * length[k]:.3g} mm, {share[k]:.2g} of the {size:.3g} m it moves"
+        remedy = "take a smaller h, move slower, or start nearer to the first target"
+        why = "and a step is right to first order only"
+        if jump > BEYOND:
+            remedy = f"start {joint.name} where its first waypoint is, or add one where it starts"
+            why = f"towards a first target {amount(jump, joint.coordinates[0].unit)} from its start"
+        said = Finding(
+            "leap",
+            True,
+            remedy,
+            f"{joint.name} {how}, in step {k}, {why}",
+            {"length_m": float(length[k]), "angle_rad": float(angle[k]), "step": k},
+        )
+        found.append((k, -float(share[k]), said))
+    if found:
+        _, _, said = min(found, key=lambda leap: leap[:2])
+        yield said
 
 
 def sunk(run: Run) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""Faces that rest on fewer points than hold them."""
+"""Faces that rest on fewer points than hold them, and points of a cloud that are no part of it."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,13 +13,16 @@ from quasistatic_ref.optional.doctor.start import (
     Start,
     bodies,
     body,
+    centre,
     free_bases,
     least,
     more_points,
     slices,
 )
+from quasistatic_ref.parts import if_there
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
 UPWARDS = 0.5
@@ -28,6 +31,9 @@ MOST = 1000
 """Candidates of a pair that are looked at."""
 ROUNDING = 1e-6
 """Angle [rad] by which a centre of mass is over an edge."""
+FEWEST, MANY = 50, 200_000
+"""Points of a cloud that is looked at: fewer have no surface, more take a second."""
+SHOWN = 3
 
 
 def few_points(start: Start) -> Iterator[Finding]:
@@ -41,9 +47,9 @@ def few_points(start: Start) -> Iterator[Finding]:
             continue
         each = [(pair, points.chosen(np.r_[at])) for pair, at in own]
         kept = [_bearing(start, pair, name, nearest) for pair, nearest in each]
-        centre = _centre(start, name)
+        middle = centre(start.system, start.kinematics, name)
         of_kept = np.concatenate(kept)
-        if _around(of_kept - centre, start):
+        if _around(of_kept - middle, start):
             continue
         every = []
         for pair, _ in own:
@@ -54,7 +60,7 @@ def few_points(start: Start) -> Iterator[Finding]:
                 return  # of a point that no step keeps
             every.append(_bearing(start, pair, name, found))
         of_all = np.concatenate(every)
-        if _around(of_all - centre, start):
+        if _around(of_all - middle, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
             lacks = int(np.argmax(more))
             yield Finding(
@@ -80,15 +86,6 @@ def _bearing(start: Start, pair: ContactPair, name: str, points: ClosestPoints) 
     return np.asarray(points.beta[level & (above * (points.n @ up) > UPWARDS)])
 
 
-def _centre(start: Start, name: str) -> Array:
-    """Centre of mass of a body [m]."""
-    system = start.system
-    at = start.kinematics
-    mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
-    places = at.t + np.einsum("lij,lj->li", at.R, system.centres)
-    return np.asarray(mass @ places / mass.sum())
-
-
 def _around(points: Array, start: Start) -> bool:
     """Whether points, seen along gravity, lie around the origin."""
     d1, d2 = (axis[0] for axis in tangents(start.gravity[None] / start.g))
@@ -97,3 +94,35 @@ def _around(points: Array, start: Start) -> bool:
         return False
     gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
     return bool(gaps.max() < np.pi - ROUNDING)
+
+
+def strays(start: Start) -> Iterator[Finding]:
+    """Clouds with points that no gap of a few spacings joins to the others."""
+    clouds = {
+        id(p.shape): (p.shape, body(start.system, p.link))
+        for p in start.sides
+        if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
+    }
+    for shape, name in clouds.values():
+        found = shape.points[_stray(shape.points)]
+        if len(found):
+            places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
+            more = ["..."] if len(found) > SHOWN else []
+            yield Finding(
+                "stray points",
+                False,
+                f"leave {len(found)} stray points out of the cloud of {name}, or make it by "
+                "quasistatic-ref body",
+                f"they lie at {', '.join(places + more)} mm, apart from the {len(shape.points)} "
+                "points of its surface",
+                {"strays": len(found)},
+            )
+
+
+def _stray(points: Array) -> Mask:
+    """Which points, shape (N, 3) [m], no gap of a few spacings joins to the others."""
+    with if_there():
+        from quasistatic_ref.optional.scans.cloud import stray  # it loads SciPy: a second
+
+        return stray(points)
+    return np.zeros(len(points), dtype=bool)

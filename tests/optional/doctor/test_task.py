@@ -1,0 +1,110 @@
+"""Fingers led astray, fillers in the sentence of idle contacts, and runs without targets."""
+
+import mujoco
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.simulate.target import JointTrack, Targets
+from tests.optional.doctor.urdfs import block, collision
+
+GRIPPER = """<robot name="g"><link name="hand"/>{left}{right}
+<joint name="left" type="{kind}"><parent link="hand"/><child link="l"/><origin xyz="{x} 0.05 0"/>
+<axis xyz="{axis}"/><limit lower="-1" upper="1" effort="20" velocity="1"/></joint>
+<joint name="right" type="prismatic"><parent link="hand"/><child link="r"/><origin xyz="0 -0.05 0"/>
+<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="20" velocity="1"/></joint></robot>"""
+
+
+def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
+    """What is found where two fingers close by 10 mm on a block that stands between them.
+
+    The left one slides, or is a lever of 0.1 m that turns by 0.15 rad.
+    """
+    tip = '<box size="0.02 0.02 0.02"/>'
+    turns = kind == "revolute"
+    left = f'<link name="l">{collision(tip, (0.1 * turns, 0, 0))}</link>'
+    right = f'<link name="r">{collision(tip)}</link>'
+    x = -0.1 if turns else 0.0
+    urdf = GRIPPER.format(left=left, right=right, kind=kind, axis=axis, x=x)
+    closed = {"left": 0.15 if turns else 0.015, "right": 0.015}
+    table = {"beta": "block", "mu_v": 0.5, "rows": 4, "k": 4}
+    scene = {
+        "h": 0.02,
+        "steps": 50,
+        "gravity": [0, 0, -9.81],
+        "bodies": {
+            "gripper": {
+                "urdf": urdf,
+                "actuated": "all",
+                "K_q": {"left": 5.0 if turns else 500.0, "right": 500.0},
+                "pose": {"xyz": [0, 0, 0.03]},
+                "targets": [{"t": 0.0, "left": 0.0, "right": 0.0}, {"t": 1.0, **closed}],
+            },
+            "block": {
+                "urdf": block(0.3, (0.06, 0.06, 0.06)),
+                "base": "floating",
+                "pose": {"xyz": [at, 0, 0.03]},
+            },
+        },
+        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
+        "contacts": {
+            "floor": {"alpha": "floor", **table},
+            "grip": {"alpha": ["gripper/l", "gripper/r"], **table},
+        },
+    }
+    return qr.load_scenario(scene, fast=True).run(progress=False).findings
+
+
+@pytest.mark.parametrize(("kind", "right", "wrong"), [
+    ("prismatic", "0 -1 0", "0 1 0"),
+    ("revolute", "0 0 -1", "0 0 1"),
+])  # fmt: skip
+def test_a_finger_whose_axis_is_reversed_is_named(kind, right, wrong):
+    assert not any(one.grave for one in grasp(kind, right))
+    said = [one for one in grasp(kind, wrong) if one.grave]
+    assert [one.name for one in said] == ["idle contacts"]
+    assert said[0].remedy == "check the axis of gripper/left, or the sign of its targets"
+    assert said[0].numbers["away_mm"] == pytest.approx(
+        15.0, rel=0.11
+    )  # a lever's corner, to first order
+
+
+def test_a_finger_that_comes_near_is_not_led_astray():
+    """The block is beside both fingers."""
+    (found,) = [one for one in grasp(at=0.2) if one.name == "idle contacts"]
+    assert found.remedy.startswith("check where block/link stands")
+
+
+HAND = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
+<body name="finger" pos="{at} 0 0.05"><joint name="slide" type="slide" axis="1 0 0"/>
+<geom name="tip" type="box" size="0.02 0.02 0.02" mass="0.1"/></body>
+<body name="box" pos="0 0 0.05"><freejoint/>
+<geom name="box" type="box" size="0.05 0.05 0.05" mass="1"/></body></worldbody>
+<actuator><position name="slide" joint="slide" kp="100"/></actuator></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("at", "words"),
+    [(-0.4, "none comes near enough to have a distance"), (-0.1, "is 28.2 mm apart")],
+    ids=["beyond the margin", "within it"],
+)
+def test_a_filler_is_no_distance_of_idle_contacts(at, words):
+    model = mujoco.MjModel.from_xml_string(HAND.format(at=at))
+    scene = qr.mujoco_scenario(model, h=0.01, margin=0.1)
+    (joint,) = [one for one in scene.system.joints if one.actuated]
+    start = scene.system.q_start
+    track = JointTrack(joint, np.array([0.0, 0.1]), np.array([[0.0], [0.002]]))
+    targets = Targets(start[: scene.system.n_q_a], [track])
+    run = qr.rollout(scene.simulator(), start, targets, 10, progress=False)
+    (found,) = [one for one in run.findings if one.name == "idle contacts"]
+    assert words in found.cause
+    assert "e+0" not in found.sentence
+
+
+def test_a_mujoco_scene_may_be_run_without_targets():
+    """To see how it stands: what is missing is said, and is no grave mistake."""
+    run = qr.mujoco_scenario(mujoco.MjModel.from_xml_string(HAND.format(at=-0.4)), steps=3)
+    (found,) = run.run(progress=False).findings
+    assert (found.name, found.grave) == ("no motion", False)
+    assert "--targets" in found.remedy
+    assert "contacts." not in found.sentence
