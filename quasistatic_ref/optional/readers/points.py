@@ -60,12 +60,17 @@ def _ply(path: Path) -> Array:
 
 def _pcd(path: Path) -> Array:
     pypcd4 = needed_package("pypcd4", "pcd", "a .pcd cloud")
+    pydantic = needed_package("pydantic", "pcd", "a .pcd cloud")  # which pypcd4 has errors of
     content = bytes_read(path, ModelError)
     fields = re.search(rb"^FIELDS(.*)$", content[:LARGEST_HEADER], re.MULTILINE)
     if fields is not None and b"\nCOUNT" not in content[:LARGEST_HEADER]:  # each is one number then
         ones = b"\nCOUNT" + b" 1" * len(fields[1].split()) + b"\nDATA"
         content = content.replace(b"\nDATA", ones, 1)
-    cloud = pypcd4.PointCloud.from_fileobj(io.BytesIO(content))
+    try:
+        cloud = pypcd4.PointCloud.from_fileobj(io.BytesIO(content))
+    except pydantic.ValidationError as error:
+        names = ", ".join(str(one["loc"][0]).upper() for one in error.errors())
+        raise ModelError("lacks or misstates these lines", field="header", value=names) from None
     return _counted(cloud.numpy(("x", "y", "z")), content, rb"^POINTS")
 
 

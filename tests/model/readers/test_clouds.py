@@ -126,7 +126,11 @@ def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
 NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD = {
     "pcd without an end": (".pcd", PCD_HEADER.encode(), "cannot be read as PCD"),
-    "pcd of other words": (".pcd", b"solid thing\n", "cannot be read as PCD"),
+    "pcd of other words": (
+        ".pcd",
+        b"solid thing\n",
+        "header: lacks or misstates .* .got 'FIELDS, SIZE",
+    ),
     "pcd without its body": (".pcd", pcd("binary", b""), "points: must be 2 .got 0"),
     "pcd of an odd type": (
         ".pcd",
@@ -146,7 +150,7 @@ BAD = {
     "pcd with a width of nothing": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", "WIDTH")),
-        "cannot be read as PCD: .*width",
+        "header: lacks or misstates these lines .got 'WIDTH'",
     ),
     "npy of a pickle": (
         ".npy",
