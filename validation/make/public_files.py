@@ -81,7 +81,7 @@ def sentence(error: Exception, package: str) -> str:
     """An error as one line, without the folder of its package."""
     if isinstance(error, ModelError | InputError):
         error.file = None
-    line = " ".join(str(error).split()).replace(package, "").replace("|", "/")
+    line = " ".join(str(error).split()).replace(package, "").replace("|", "/").replace("<", "&lt;")
     return line[:240] or type(error).__name__
 
 
