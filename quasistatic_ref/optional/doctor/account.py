@@ -61,10 +61,10 @@ def sides(system: System, pair: ContactPair) -> list[str]:
 def side(system: System, placed: PlacedShape) -> str:
     """The link that a shape is fixed to, its body's name if they share it; or the world's shape."""
     link = system.links[placed.link]
-    body, _, own = link.partition("/")
+    body, _, link_name = link.partition("/")
     if not placed.link:
         return placed.name
-    return body if own == body else link
+    return body if link_name == body else link
 
 
 def stiffness(K_q: Array) -> Array:
@@ -204,13 +204,13 @@ def pair_accounts(
         slip = np.hypot(*(np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")))
     accounts = []
     for name, alpha, beta in named:
-        own = slots == name
-        if not own.any():
+        of_pair = slots == name
+        if not of_pair.any():
             continue
-        on = touch[:, own]
+        on = touch[:, of_pair]
         touches = np.asarray(on.any(axis=1))
-        slid = None if slip is None else _mean(slip[:, own], on)
-        turned = None if turn is None else _mean(turn[:, own], on)
+        slid = None if slip is None else _mean(slip[:, of_pair], on)
+        turned = None if turn is None else _mean(turn[:, of_pair], on)
         never = np.zeros(run.steps, dtype=bool)
         accounts.append(
             PairAccount(
@@ -218,13 +218,13 @@ def pair_accounts(
                 alpha=alpha,
                 beta=beta,
                 table=name.partition("(")[0],
-                phi=run["phi"][:, own].min(axis=1),
+                phi=run["phi"][:, of_pair].min(axis=1),
                 touches=touches,
                 slip=slid,
                 turn=turned,
                 slides=never if slid is None else slid > SLIDES * h,
                 spins=never if turned is None else turned > SPINS * h,
-                loads=None if wrench is None else _loads(run, wrench[:, own], own, up),
+                loads=None if wrench is None else _loads(run, wrench[:, of_pair], of_pair, up),
             )
         )
     return accounts
@@ -236,12 +236,12 @@ def _mean(values: Array, on: Mask) -> Array:
     return np.asarray(total / np.maximum(on.sum(axis=1), 1))
 
 
-def _loads(run: Trajectory, wrench: Array, own: Mask, up: Array) -> Loads:
+def _loads(run: Trajectory, wrench: Array, of_pair: Mask, up: Array) -> Loads:
     """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
     normal = wrench[:, :, 2].sum(axis=1)
-    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[own]
-    needs = gauge(run.header["cone"], wrench, run["mu_v"][own], mu_omega).sum(axis=1)
-    ways = np.stack([run[axis][:, own] @ up for axis in ("d1", "d2", "n")], axis=2)
+    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[of_pair]
+    needs = gauge(run.header["cone"], wrench, run["mu_v"][of_pair], mu_omega).sum(axis=1)
+    ways = np.stack([run[axis][:, of_pair] @ up for axis in ("d1", "d2", "n")], axis=2)
     return Loads(
         normal=normal,
         friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),

@@ -80,18 +80,18 @@ def drags(
         momentum = np.array([step.momentum(v)[:end] for step, v in each])  # no private rises
     presses = _loads(wrench)
     rubs = first.contacts.mu_v * presses
-    found = []
+    body_drags = []
     for body, base in bases.items():
         x = base.v.start
-        own = moved(first.contacts, x)
+        of_body = moved(first.contacts, x)
         drag = _quotient(_lengths(momentum[:, x - first.n_a : x - first.n_a + 3]), first.h**2)
-        friction = _sums(rubs[:, own])
+        friction = _sums(rubs[:, of_body])
         weight = system.mass(body) * g
-        rubbed = (friction > BEARS * drag) & (_sums(presses[:, own]) >= BORNE * weight)
+        rubbed = (friction > BEARS * drag) & (_sums(presses[:, of_body]) >= BORNE * weight)
         bears = np.where(rubbed, friction, weight)
-        touched = _sums(presses[:, own]) > BEARS * drag
-        found.append(Drag(body, drag, bears, touched, rubbed))
-    return found
+        touched = _sums(presses[:, of_body]) > BEARS * drag
+        body_drags.append(Drag(body, drag, bears, touched, rubbed))
+    return body_drags
 
 
 def largest_share(shares: Iterable[Array], steps: int) -> Array:
@@ -106,8 +106,8 @@ def _quotient(over: ArrayLike, under: ArrayLike) -> Array:
     by it overflows.
     """
     with np.errstate(all="ignore"):
-        found = np.divide(over, under)
-    return np.where(np.isfinite(found), found, np.nan)
+        quotients = np.divide(over, under)
+    return np.where(np.isfinite(quotients), quotients, np.nan)
 
 
 def _lengths(vectors: Array) -> Array:

@@ -119,7 +119,7 @@ def findings(checks: Iterable[Check], of: Start | Trajectory) -> list[Finding]:
     of : Start, Run or Trajectory
         The scene at its start, the run at its end, or the trajectory of a run that has steps.
     """
-    return [found for check in checks if not check.unless(of) for found in check.findings(of)]
+    return [finding for check in checks if not check.unless(of) for finding in check.findings(of)]
 
 
 def not_looked_at(checks: Iterable[Check], of: Start) -> str:

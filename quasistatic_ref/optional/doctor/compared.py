@@ -218,17 +218,17 @@ class LookedAt:
         actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
         at_most = np.where(actuated, np.maximum(self.forces[:, 2], 0.0), np.inf)
         missing = missing_force(step, self._touching, at_most, masses)
-        found = {}
+        unbalanced = {}
         for name in free_bases(system):
-            own = np.flatnonzero([other == name for other in names])
-            amount = float(np.linalg.norm(missing[own]))
+            coordinates = np.flatnonzero([other == name for other in names])
+            amount = float(np.linalg.norm(missing[coordinates]))
             if amount > self.light:
-                force, turn = np.split(missing[own], [3])
-                gyration = np.linalg.cholesky(step.inertia(own))[3:, 3:]
-                torque = gyration @ turn / np.sqrt(masses[own[0]])
+                force, turn = np.split(missing[coordinates], [3])
+                gyration = np.linalg.cholesky(step.inertia(coordinates))[3:, 3:]
+                torque = gyration @ turn / np.sqrt(masses[coordinates[0]])
                 lengths = float(np.linalg.norm(force)), float(np.linalg.norm(torque))
-                found[name] = Missing(amount, *lengths, self.k)
-        return found
+                unbalanced[name] = Missing(amount, *lengths, self.k)
+        return unbalanced
 
     @property
     def _touching(self) -> Mask:
@@ -241,8 +241,8 @@ class LookedAt:
         touching = self._touching
         return {
             name
-            for pair, own in slices(self.run.pairs)
-            if touching[own].any()
+            for pair, of_pair in slices(self.run.pairs)
+            if touching[of_pair].any()
             for name in bodies(self.run.system, pair)
         }
 
@@ -326,8 +326,12 @@ class LookedAt:
         slip = np.where(presses, np.vecdot(motion[:, None, :3], self._tangents), 0.0)
         spin = np.where(presses[:, 0], np.abs(motion[:, 3]), 0.0)
         return [
-            PairMotion(float(forces[own, 2].sum()), slip[own], float(spin[own].max(initial=0.0)))
-            for _, own in slices(self.run.pairs)
+            PairMotion(
+                float(forces[i, 2].sum()),
+                slip[i],
+                float(spin[i].max(initial=0.0)),
+            )
+            for _, i in slices(self.run.pairs)
         ]
 
 
@@ -352,7 +356,7 @@ def documented_steps(run: Run) -> list[int]:
     if not motion.any():
         length = np.linalg.norm(run.noted("moved")[:, :, :3], axis=2)
         motion = np.where(presses, length, 0.0).max(axis=1, initial=0.0)
-    of_pairs = [presses[:, own].any(axis=1) for _, own in slices(run.pairs)]
+    of_pairs = [presses[:, of_pair].any(axis=1) for _, of_pair in slices(run.pairs)]
     changes = np.any([np.diff(pair) for pair in of_pairs], axis=0)
     chosen = {int(motion.argmax()), run.steps - 1}
     if changes.any():
@@ -375,21 +379,21 @@ class Compared:
     @cached_property
     def held_in_ellipsoid(self) -> dict[str, int]:
         """Bodies that fall out of balance or slip in the corners of the pyramid alone: the step."""
-        found: dict[str, int] = {}
+        held: dict[str, int] = {}
         for at in self.steps:
             if not at.slips_inside:
                 continue
             for name in at.unbalanced:
                 if name not in at.unbalanced_in_ellipsoid:
-                    found.setdefault(name, at.k)
-        return found
+                    held.setdefault(name, at.k)
+        return held
 
     @cached_property
     def unbalanced(self) -> dict[str, Missing]:
         """Bodies that are not in equilibrium, each where most is missing."""
-        found: dict[str, Missing] = {}
+        worst: dict[str, Missing] = {}
         for at in self.steps:
             for name, missing in at.unbalanced.items():
                 if name not in self.held_in_ellipsoid:
-                    found[name] = max(found.get(name, missing), missing)
-        return found
+                    worst[name] = max(worst.get(name, missing), missing)
+        return worst

@@ -125,11 +125,11 @@ def centre(start: Start) -> Iterator[Finding]:
 
 def sizes_apart(start: Start) -> Iterator[Finding]:
     """A body or shape that is a thousand times as long as another."""
-    found: dict[str, float] = {}
+    largest: dict[str, float] = {}
     for placed in start.sides:
         name = body(start.system, placed.link) if placed.link else placed.name
-        found[name] = max([found.get(name, 0.0), *sizes([placed])])
-    extents = {name: size for name, size in found.items() if size > 0}
+        largest[name] = max([largest.get(name, 0.0), *sizes([placed])])
+    extents = {name: size for name, size in largest.items() if size > 0}
     if not extents:
         return
     small = min(extents, key=extents.__getitem__)

@@ -34,13 +34,13 @@ def lost(run: Run) -> Iterator[Finding]:
         way = ways[worst]
         slipped = way > SLIPPED * least(pair)
         k = int(np.where(on, slips[worst], 0.0).argmax() if slipped else on.argmax())
-        own = task.contacts(pairs)
-        pressed = float(run.forces(k)[own, 2].sum())
+        contacts = task.contacts(pairs)
+        pressed = float(run.forces(k)[contacts, 2].sum())
         bears = pair.mu_v * pressed
         torsion = pair.mu_omega * pressed if pair.rows == 6 else 0.0
         body = name.partition("/")[0]
         weight = run.system.mass(body) * run.g
-        arm = _arm(run, body, own, k)
+        arm = _arm(run, body, contacts, k)
         torque = weight * arm
         turn = _turn(task, worst, on)
         turns = turn > TURNED and torque > TWISTED * torsion and weight < bears
@@ -81,9 +81,9 @@ def _turn(task: Task, i: int, on: Mask) -> float:
     return float(Rotation.from_matrix(seen[1] @ seen[0].T).magnitude())
 
 
-def _arm(run: Run, name: str, own: Indices, k: int) -> float:
+def _arm(run: Run, name: str, contacts: Indices, k: int) -> float:
     """Lever arm of a free body's weight about the normal of a grip in step k [m]; else 0."""
-    pressing = own[run["wrench"][k, own, 2] > 0]
+    pressing = contacts[run["wrench"][k, contacts, 2] > 0]
     if name not in free_bases(run.system) or not run.g or not pressing.size:
         return 0.0
     away = centre(run.system, run.system.kinematics(run["q"][k]), name)

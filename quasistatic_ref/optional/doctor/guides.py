@@ -80,15 +80,15 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     n = np.where(standing[:, :1], contacts.n, -contacts.n)
     for link in np.unique(body[near & ~fixed]).tolist():
         for sides, w in _between(n, np.flatnonzero(near & ~fixed & (body == link))):
-            own = np.concatenate(sides)
-            reach = np.hypot(J_t, J_n)[own].max(axis=0)  # of each coordinate
+            of_guide = np.concatenate(sides)
+            reach = np.hypot(J_t, J_n)[of_guide].max(axis=0)  # of each coordinate
             share = _squeeze(
-                signed[0, own] / np.where(reach > 0, reach, 1.0), sides, w, clearance[own]
+                signed[0, of_guide] / np.where(reach > 0, reach, 1.0), sides, w, clearance[of_guide]
             )
             if share is None:
                 continue
-            together = float(share @ clearance[own]), float(share @ mu_v[own])
-            yield Guide(tuple(own.tolist()), slides[own].any(axis=0), *together, False)
+            together = float(share @ clearance[of_guide]), float(share @ mu_v[of_guide])
+            yield Guide(tuple(of_guide.tolist()), slides[of_guide].any(axis=0), *together, False)
 
 
 def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...], Array]]:
@@ -134,16 +134,16 @@ def guided(start: Start) -> Iterator[Finding]:
     if start.points is None:
         return
     contacts = start.contacts_at_start
-    said: set[tuple[str, ...]] = set()
+    reported: set[tuple[str, ...]] = set()
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)
         names = sorted({start.simulator.layout.names[j] for j in guide.contacts})
         joints = _joints(start, guide)
         key = (*names, *joints)
         under_coulomb = start.simulator.law == COULOMB
-        if fastest >= CRAWL or key in said or (under_coulomb and guide.clearance):
+        if fastest >= CRAWL or key in reported or (under_coulomb and guide.clearance):
             continue
-        said.add(key)
+        reported.add(key)
         if _holds(start, guide, start.q_start, contacts, squeezed=False):
             continue  # by its lever arms, and not because it is locked
         unit = "rad" if guide.turns else "m"
@@ -226,13 +226,13 @@ def locked(run: Run) -> Iterator[Finding]:
         return
     k = int(rubbing.argmax())
     contacts = run.contacts(k)
-    found = list(guides(run, contacts))
-    if not found:
+    every = list(guides(run, contacts))
+    if not every:
         return
     wrench = run.forces(k)
     bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
-    found = [x for x in found if bears[list(x.contacts)].any()]
-    if not found:
+    every = [x for x in every if bears[list(x.contacts)].any()]
+    if not every:
         return
     step = run.step_data(k)
     nothing = np.zeros(contacts.n_c)
@@ -248,12 +248,12 @@ def locked(run: Run) -> Iterator[Finding]:
     beyond = np.abs(force) - could
     moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia
     stuck = (np.arange(step.n_v) >= step.n_a) & (np.abs(force) > 2 * could) & ~moves
-    said: set[str] = set()
-    for guide in found:
+    reported: set[str] = set()
+    for guide in every:
         held = np.flatnonzero(guide.moved & stuck)
-        if not held.size or (joint := run.system.coordinates[held[0]].joint) in said:
+        if not held.size or (joint := run.system.coordinates[held[0]].joint) in reported:
             continue
-        said.add(joint)
+        reported.add(joint)
         i = int(held[beyond[held].argmax()])
         j = max(guide.contacts, key=lambda j: float(wrench[j, 2]))
         name = run.simulator.layout.names[j]

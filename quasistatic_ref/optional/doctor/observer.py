@@ -63,13 +63,13 @@ class Doctor(Observer):
             delta_q = [result.solution.delta_q for result in results]
         g = float(np.linalg.norm(simulator.gravity))
         gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
-        found = drags(system, steps, delta_q, arrays["wrench"], g)
-        touched = [np.where(x.touched, x.share, np.nan) for x in found]
+        body_drags = drags(system, steps, delta_q, arrays["wrench"], g)
+        touched = [np.where(x.touched, x.share, np.nan) for x in body_drags]
         return {
             "gap": gap,
             "moved": arrays["motion"],
             "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
-            "drag": largest_share([x.share for x in found], len(delta_q)),
+            "drag": largest_share([x.share for x in body_drags], len(delta_q)),
             "pushed": largest_share(touched, len(delta_q)),
             "layer": boundary_layer(gap, arrays["wrench"]),
         }

@@ -31,8 +31,8 @@ BEARING = 0.1
 
 def gravity(start: Start) -> Iterator[Finding]:
     """A body that starts on the world where neither gravity presses nor friction holds it."""
-    for name, own in _contacts(start):
-        near = [x for x in own if x[1] <= SUNK * least(x[0])]
+    for name, of_body in _contacts(start):
+        near = [x for x in of_body if x[1] <= SUNK * least(x[0])]
         world = [x for x in near if "world" in bodies(start.system, x[0])]
         if not world or len(world) < len(near) or max(up for *_, up in near) >= BEARING:
             continue
@@ -57,9 +57,9 @@ def in_the_air(start: Start) -> Iterator[Finding]:
     Its height is the shortest move along gravity until a pair of it touches (``unsupported.fall``).
     """
     loose = {
-        name: own
-        for name, own in _contacts(start)
-        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in own)
+        name: of_body
+        for name, of_body in _contacts(start)
+        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in of_body)
     }
     holds = held(start, loose)
     for name in [x for x in loose if x not in holds]:
@@ -91,8 +91,8 @@ def penetration(start: Start) -> Iterator[Finding]:
     deepest: dict[str, Finding] = {}
     if start.points is None:
         return
-    for pair, own in slices(start.pairs):
-        depth = -float(start.points.phi[own].min(initial=0.0))
+    for pair, of_pair in slices(start.pairs):
+        depth = -float(start.points.phi[of_pair].min(initial=0.0))
         name = table(start, pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
@@ -113,8 +113,8 @@ def inside(start: Start) -> Iterator[Finding]:
         return
     touching = {
         frozenset((pair.alpha.link, pair.beta.link))
-        for pair, own in slices(start.pairs)
-        if start.points.phi[own].min() <= SUNK * least(pair)
+        for pair, of_pair in slices(start.pairs)
+        if start.points.phi[of_pair].min() <= SUNK * least(pair)
     }
     solids = [side for side in start.sides if not isinstance(side.shape, PointCloud)]
     clouds = {side.link for side in start.sides} - {side.link for side in solids}
@@ -163,11 +163,11 @@ def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float
         return
     up = -start.gravity / start.g
     for name in free_bases(start.system):
-        own = []
+        of_body = []
         for pair, at in slices(start.pairs):
             if name in bodies(start.system, pair):
                 sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
                 j = at.start + int(np.argmin(points.phi[at]))
-                own.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
-        if own:
-            yield name, own
+                of_body.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))
+        if of_body:
+            yield name, of_body

@@ -42,23 +42,23 @@ def few_points(start: Start) -> Iterator[Finding]:
     if not start.g or points is None:
         return
     for name in free_bases(start.system):
-        own = [(p, at) for p, at in slices(start.pairs) if name in bodies(start.system, p)]
-        if all(pair.n_c == pair.candidates for pair, _ in own):
+        of_body = [(p, at) for p, at in slices(start.pairs) if name in bodies(start.system, p)]
+        if all(pair.n_c == pair.candidates for pair, _ in of_body):
             continue
-        each = [(pair, points.chosen(np.r_[at])) for pair, at in own]
+        each = [(pair, points.chosen(np.r_[at])) for pair, at in of_body]
         kept = [_bearing(start, pair, name, nearest) for pair, nearest in each]
         middle = centre(start.system, start.kinematics, name)
         of_kept = np.concatenate(kept)
         if _around(of_kept - middle, start):
             continue
         every = []
-        for pair, _ in own:
+        for pair, _ in of_body:
             wider = replace(pair, k=max(pair.k, MOST))
             try:
-                found = closest_points([wider], start.kinematics)
+                all_points = closest_points([wider], start.kinematics)
             except ContactError:
                 return  # of a point that no step keeps
-            every.append(_bearing(start, pair, name, found))
+            every.append(_bearing(start, pair, name, all_points))
         of_all = np.concatenate(every)
         if _around(of_all - middle, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
@@ -66,7 +66,7 @@ def few_points(start: Start) -> Iterator[Finding]:
             yield Finding(
                 "too few points",
                 True,
-                more_points(start, own[lacks][0], len(every[lacks])),
+                more_points(start, of_body[lacks][0], len(every[lacks])),
                 f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
                 "its centre of mass is not over these: it tips",
                 {"points": len(of_all), "kept": len(of_kept)},
@@ -104,18 +104,18 @@ def strays(start: Start) -> Iterator[Finding]:
         if isinstance(p.shape, PointCloud) and FEWEST <= len(p.shape.points) <= MANY
     }
     for shape, name in clouds.values():
-        found = shape.points[_stray(shape.points)]
-        if len(found):
-            places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * found[:SHOWN]]
-            more = ["..."] if len(found) > SHOWN else []
+        points = shape.points[_stray(shape.points)]
+        if len(points):
+            places = ["({:.4g}, {:.4g}, {:.4g})".format(*point) for point in 1e3 * points[:SHOWN]]
+            more = ["..."] if len(points) > SHOWN else []
             yield Finding(
                 "stray points",
                 False,
-                f"leave {len(found)} stray points out of the cloud of {name}, or make it by "
+                f"leave {len(points)} stray points out of the cloud of {name}, or make it by "
                 "quasistatic-ref body",
                 f"they lie at {', '.join(places + more)} mm, apart from the {len(shape.points)} "
                 "points of its surface",
-                {"strays": len(found)},
+                {"strays": len(points)},
             )
 
 

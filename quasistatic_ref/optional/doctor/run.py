@@ -76,8 +76,8 @@ class Run(Start):
 
     def points_of(self, k: int) -> ClosestPoints:
         """The contacts that step k has recorded, but for their ties."""
-        found = {name: self[name][k] for name in POINTS}
-        return ClosestPoints(**found, tie=np.zeros_like(found["point"]))
+        fields = {name: self[name][k] for name in POINTS}
+        return ClosestPoints(**fields, tie=np.zeros_like(fields["point"]))
 
     @property
     def searched(self) -> bool:
@@ -106,9 +106,9 @@ class Run(Start):
 
         It is that of the run if its answers are accurate without a proof, else the default.
         """
-        own = self.simulator.solver
-        if own is not None and own.name in ACCURATE and own.fits(step):
-            return own
+        last = self.simulator.solver
+        if last is not None and last.name in ACCURATE and last.fits(step):
+            return last
         fast = self.simulator.fast and cone(step.cone).polyhedral
         if step.cone not in self._solvers or not self._solvers[step.cone].fits(step):
             self._solvers[step.cone] = solver_for(step, fast=fast)

@@ -32,30 +32,30 @@ def backend_failures(run: Run) -> Iterator[Finding]:
     digits = run["digits"]  # NaN without an answer, or where the optimum is not known
     unanswered = np.zeros(run.steps, dtype=bool)
     unanswered[run.trajectory.header.get("unanswered", [])] = True
-    asked = -log10(simulator.accuracy) / 2
+    wanted = -log10(simulator.accuracy) / 2
     if not cone(simulator.cone).polyhedral:
-        asked = 0.0  # an enclosure may be no nearer than the answer
+        wanted = 0.0  # an enclosure may be no nearer than the answer
     failed = int(unanswered.sum())
-    short = int((digits < asked).sum())
+    short = int((digits < wanted).sum())
     if simulator.backend == NONE or not failed + short:
         return
-    missed = unanswered | (digits < asked)
+    missed = unanswered | (digits < wanted)
     first = int(np.flatnonzero(missed)[0])
     exact = (run["certificate"][missed] == "exact").all()
     other = "the exact method" if exact else "another backend or the exact method"
     others = ("clarabel", "daqp") if cone(simulator.cone).polyhedral else ("clarabel", "scs")
-    able = [name for name in others if _solves(run, name, first, asked)]
+    able = [name for name in others if _solves(run, name, first, wanted)]
     remedy = f"choose another backend than {simulator.backend}, such as {' or '.join(able)}"
     if not able:
         remedy = "check masses, lengths and stiffness, or leave the steps to the exact method"
-    said = f"failed in {failed} of {run.steps} steps" if failed else ""
-    fewer = f"had fewer than the {asked:g} digits that were asked for in {short}" if short else ""
+    errors = f"failed in {failed} of {run.steps} steps" if failed else ""
+    fewer = f"had fewer than the {wanted:g} digits that were asked for in {short}" if short else ""
     yield Finding(
         "failing backend",
         True,
         remedy,
-        f"{simulator.backend} {' and '.join(filter(None, (said, fewer)))}, the first of them step "
-        f"{first}; {other} solved them",
+        f"{simulator.backend} {' and '.join(filter(None, (errors, fewer)))}, the first of them "
+        f"step {first}; {other} solved them",
         {"failed": failed, "short": short, "step": first},
     )
 

@@ -104,13 +104,13 @@ class Start:
         system = self.system
         free = np.flatnonzero(system.column_map.owner >= system.n_a)
         moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
-        found = []
+        links = []
         for link in np.flatnonzero(moved & (system.masses > 0)).tolist():
             shapes = [placed for placed in system.shapes if placed.link == link]
             shapes = shapes or [*self._hulls(link)]
             if shapes:
-                found.append((link, system.links[link], shapes))
-        return found
+                links.append((link, system.links[link], shapes))
+        return links
 
     def _hulls(self, link: int) -> Iterator[PlacedShape]:
         """Convex hulls of the clouds of a link."""

@@ -31,7 +31,7 @@ def leaps(run: Run) -> Iterator[Finding]:
         if track.joint.q.stop - track.joint.q.start == 1
     }
     links = np.array([side.link for side in sides], dtype=np.int64)
-    found: list[tuple[int, float, Finding]] = []
+    leaps_of_pairs: list[tuple[int, float, Finding]] = []
     for joint in run.system.joints:
         if joint.name.partition("/")[0] in run.compared.unbalanced:
             continue
@@ -55,28 +55,28 @@ def leaps(run: Run) -> Iterator[Finding]:
         if jump > BEYOND:
             remedy = f"start {joint.name} where its first waypoint is, or add one where it starts"
             why = f"towards a first target {amount(jump, joint.coordinates[0].unit)} from its start"
-        said = Finding(
+        finding = Finding(
             "leap",
             True,
             remedy,
             f"{joint.name} {how}, in step {k}, {why}",
             {"length_m": float(length[k]), "angle_rad": float(angle[k]), "step": k},
         )
-        found.append((k, -float(share[k]), said))
-    if found:
-        _, _, said = min(found, key=lambda leap: leap[:2])
-        yield said
+        leaps_of_pairs.append((k, -float(share[k]), finding))
+    if leaps_of_pairs:
+        _, _, finding = min(leaps_of_pairs, key=lambda leap: leap[:2])
+        yield finding
 
 
 def sunk(run: Run) -> Iterator[Finding]:
     """Of each table of contacts the first that is found."""
     first: dict[str, Finding] = {}
     gap = run.noted("gap")
-    for pair, own in slices(run.pairs):
-        said = _surprise(run, pair, run["phi"][:, own], run["point"][:, own], gap[:, own])
+    for pair, slots in slices(run.pairs):
+        finding = _surprise(run, pair, run["phi"][:, slots], run["point"][:, slots], gap[:, slots])
         name = table(run, pair)
-        if said and (name not in first or said.numbers["step"] < first[name].numbers["step"]):
-            first[name] = said
+        if finding and (name not in first or finding.numbers["step"] < first[name].numbers["step"]):
+            first[name] = finding
     yield from first.values()
 
 

@@ -58,12 +58,12 @@ class Task:
     @cached_property
     def tables(self) -> dict[str, list[int]]:
         """The pairs by which something driven acts on something free, by their tables."""
-        found: dict[str, list[int]] = {}
+        by_table: dict[str, list[int]] = {}
         for i, pair in enumerate(self.run.pairs):
             links = [pair.alpha.link, pair.beta.link]
             if self.run.driven[links].any() and self.run.free[links].any():
-                found.setdefault(self.accounts[i].table, []).append(i)
-        return found
+                by_table.setdefault(self.accounts[i].table, []).append(i)
+        return by_table
 
     def touched(self, pairs: list[int]) -> bool:
         """Whether one of some pairs ever touched."""
@@ -76,12 +76,12 @@ class Task:
 
     def grips(self, pairs: list[int]) -> Mask:
         """Whether two contacts of some pairs that touch face each other, shape (steps,)."""
-        own = self.contacts(pairs)
+        contacts = self.contacts(pairs)
         of = {self.accounts[i].name: i for i in pairs}
-        each = [of[self.run.trajectory.pair_names[j]] for j in own]
+        each = [of[self.run.trajectory.pair_names[j]] for j in contacts]
         on = np.stack([self.accounts[i].touches for i in each], axis=1)
         sign = np.where(self.run.free[[self.run.pairs[i].alpha.link for i in each]], -1.0, 1.0)
-        n = self.run["n"][:, own] * np.where(on, sign, 0.0)[:, :, None]
+        n = self.run["n"][:, contacts] * np.where(on, sign, 0.0)[:, :, None]
         return np.asarray(np.einsum("kix,kjx->kij", n, n).min(axis=(1, 2), initial=0.0) < OPPOSITE)
 
     def held(self, i: int) -> str:
@@ -161,13 +161,13 @@ def through(run: Run) -> Iterator[Finding]:
     steps = np.unique(np.linspace(0, run.steps, 1 + LOOKED).round().astype(int)).tolist()
     depths = np.array([_depths(run, k, apart) for k in steps])
     sizes = np.array([least(pair) for pair in apart])
-    said: dict[frozenset[str], Finding] = {}
+    deepest: dict[frozenset[str], Finding] = {}
     for i, j in np.argwhere((depths[0] <= 0) & (depths > SUNK * sizes)).tolist():
         depth = float(depths[i, j])
         names = [side(system, shape) for shape in (apart[j].alpha, apart[j].beta)]
         key = frozenset(name.partition("/")[0] for name in names)
-        if key not in said or said[key].numbers["depth_mm"] < 1e3 * depth:
-            said[key] = Finding(
+        if key not in deepest or deepest[key].numbers["depth_mm"] < 1e3 * depth:
+            deepest[key] = Finding(
                 "passes through",
                 True,
                 joining(run, listed(names)) + ", or keep them apart",
@@ -175,7 +175,7 @@ def through(run: Run) -> Iterator[Finding]:
                 f"at {steps[i] * run.h:.2f} s",
                 {"depth_mm": 1e3 * depth, "step": steps[i] - 1},
             )
-    yield from said.values()
+    yield from deepest.values()
 
 
 def _who(placed: PlacedShape) -> str | int:
@@ -211,24 +211,24 @@ def idle(run: Run) -> Iterator[Finding]:
         fingers: dict[str, list[int]] = {}
         for i in pairs:
             fingers.setdefault(task.holder(i), []).append(i)
-        idle = {name: own for name, own in fingers.items() if not task.touched(own)}
-        said = False
-        for name, own in idle.items():
+        idle = {name: touch for name, touch in fingers.items() if not task.touched(touch)}
+        named = False
+        for name, touch in idle.items():
             touching = [i for i in pairs if task.holder(i) not in idle]
-            astray = _astray(task, own, touching)
+            astray = _astray(task, touch, touching)
             if astray is None:
                 continue
             joint, way = astray
-            said = True
+            named = True
             yield Finding(
                 "idle contacts",
                 True,
                 f"check the axis of {joint.name}, or the sign of its targets",
-                f"it leads {name} away from {task.held(own[0])}, by {length(way)}, and no pair of "
-                f"contacts.{table} that {name} is in ever touches",
+                f"it leads {name} away from {task.held(touch[0])}, by {length(way)}, and no pair "
+                f"of contacts.{table} that {name} is in ever touches",
                 {"away_mm": 1e3 * way},
             )
-        if said or len(idle) < len(fingers):
+        if named or len(idle) < len(fingers):
             continue
         i = min(pairs, key=lambda i: float(task.accounts[i].phi.min()))
         near = task.accounts[i]
@@ -249,13 +249,13 @@ def idle(run: Run) -> Iterator[Finding]:
         )
 
 
-def _astray(task: Task, own: list[int], others: list[int]) -> tuple[Joint, float] | None:
+def _astray(task: Task, pairs: list[int], others: list[int]) -> tuple[Joint, float] | None:
     """The joint that leads a finger away from what it is to touch, and how far [m]; or None.
 
     Joints that move the fingers of `others` as well are those of an arm.
     """
     run = task.run
-    i = min(own, key=lambda i: float(task.accounts[i].phi[0]))
+    i = min(pairs, key=lambda i: float(task.accounts[i].phi[0]))
     phi = task.accounts[i].phi
     if phi[0] >= FILLED or phi.min() < phi[0] / 2:
         return None

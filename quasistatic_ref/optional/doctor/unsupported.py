@@ -64,7 +64,7 @@ def falling(run: Run) -> Iterator[Finding]:
         yield Finding(
             "free fall",
             True,
-            _remedy(fall.own, run, fall.first),
+            _remedy(fall.contacts, run, fall.first),
             f"nothing bears {name} from step {fall.first} to the end, and it falls by "
             f"{1e3 * fall.way:.3g} mm, h^2 g = {1e3 * most:.3g} mm a step",
             {"first_step": fall.first, "fallen_mm": 1e3 * fall.way},
@@ -80,13 +80,13 @@ class Fall(NamedTuple):
         The first step in which nothing bears it.
     way : float
         From there [m].
-    own : ndarray of bool, shape (n_c,)
+    contacts : ndarray of bool, shape (n_c,)
         Its contacts.
     """
 
     first: int
     way: float
-    own: Mask
+    contacts: Mask
 
 
 def falls(run: Run) -> dict[str, Fall]:
@@ -102,25 +102,25 @@ def falls(run: Run) -> dict[str, Fall]:
     touched = [bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
     sinking = {}
     for name, base in free_bases(system).items():
-        own = np.array([name in names for names in touched], dtype=bool)
-        force = np.abs(run["wrench"][:, own, 2]).max(axis=1, initial=0.0)
+        of_body = np.array([name in names for names in touched], dtype=bool)
+        force = np.abs(run["wrench"][:, of_body, 2]).max(axis=1, initial=0.0)
         drop = np.diff(run["q"][:, base.q][:, :3] @ down)
         free = (force <= LIGHT * system.mass(name) * run.g) & (drop > most / 2)
         if free[-1]:
             first = int(len(free) - np.argmin(free[::-1])) if not free.all() else 0
-            sinking[name] = Fall(first, float(drop[first:].sum()), own)
+            sinking[name] = Fall(first, float(drop[first:].sum()), of_body)
     others = alone(run) | held(run, sinking)
     return {name: fall for name, fall in sinking.items() if name not in others}
 
 
-def _remedy(own: Mask, run: Run, first: int) -> str:
+def _remedy(of_body: Mask, run: Run, first: int) -> str:
     if first:
         return "hold it more firmly or longer, or put something below it"
-    gaps = run["phi"][0, own]
+    gaps = run["phi"][0, of_body]
     if not gaps.size:  # it is only joined to one that touches
         return "start it on what should bear it"
     k = int(np.abs(gaps).argmin())
-    pair = [pair for pair in run.pairs for _ in range(pair.n_c)][int(np.flatnonzero(own)[k])]
+    pair = [pair for pair in run.pairs for _ in range(pair.n_c)][int(np.flatnonzero(of_body)[k])]
     if gaps[k] <= SHORT * min(least(pair), FARTHEST):
         return f"let what touches it at the start, {pair.name}, bear it"
     beyond = gaps[k] >= FILLED  # farther away than what has a distance

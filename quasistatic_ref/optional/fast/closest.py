@@ -90,33 +90,33 @@ class Closest:
         for pair in pairs:
             start = end
             end += pair.n_c
-            own = ClosestPoints._make(field[start:end] for field in written)
+            out = ClosestPoints._make(field[start:end] for field in written)
             size = solid_size(pair)
             if size is None:
-                self._by_core.append((pair, own))
+                self._by_core.append((pair, out))
             else:
                 names: dict[str, Array | Indices] = {
-                    "phi": own.phi,
-                    "n": own.n,
-                    "alpha": own.alpha,
-                    "beta": own.beta,
-                    "index": own.point,
+                    "phi": out.phi,
+                    "n": out.n,
+                    "alpha": out.alpha,
+                    "beta": out.beta,
+                    "index": out.point,
                 }
-                self._by_c.append((cloud(pair, size, poses, names), pair, own))
+                self._by_c.append((cloud(pair, size, poses, names), pair, out))
 
     def write(self) -> None:
         """Write the contacts at the poses; ContactError as of ``closest_points``."""
         left = self._by_core
         compiled = library().closest_of_cloud
-        for structure, pair, own in self._by_c:
+        for structure, pair, out in self._by_c:
             if compiled(structure.pointer):
-                own.tie[:] = UNIQUE_NORMAL
+                out.tie[:] = UNIQUE_NORMAL
             else:
-                left = [*left, (pair, own)]
+                left = [*left, (pair, out)]
         if left:
             kinematics = self._poses.kinematics()
             check_finite(kinematics.R, kinematics.t)
-            for pair, own in left:
+            for pair, out in left:
                 contacts = pair_closest_points(pair, kinematics.R, kinematics.t)
-                for field, values in zip(own, contacts, strict=True):
-                    field[:] = values + 0.0 if field is own.phi or field is own.n else values
+                for field, values in zip(out, contacts, strict=True):
+                    field[:] = values + 0.0 if field is out.phi or field is out.n else values

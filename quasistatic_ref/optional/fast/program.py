@@ -67,9 +67,9 @@ class Program:
         for i, group in enumerate(self.groups):
             group_of[group.coordinates] = i
             of_row[group.rows] = i
-        own_H = group_of[:, None] == group_of
-        own_A = of_row[:, None] == group_of
-        return not (natural.H[~own_H].any() or natural.A[~own_A].any())
+        within_H = group_of[:, None] == group_of
+        within_A = of_row[:, None] == group_of
+        return not (natural.H[~within_H].any() or natural.A[~within_A].any())
 
     def write(self, natural: StandardForm) -> None:
         """Write the program of a step from its matrices in natural units."""
@@ -168,7 +168,7 @@ class Workspaces:
         """The block of each group of H in natural units."""
         H = hessian.natural_H
         every = [group.coordinates for group in self.program.groups]
-        return [np.ascontiguousarray(H[np.ix_(own, own)]) for own in every]
+        return [np.ascontiguousarray(H[np.ix_(i, i)]) for i in every]
 
     def reply(self, hessian: HessianInBothUnits) -> Reply:
         """Solve the program as it stands, with that H."""
@@ -207,11 +207,11 @@ class NaturalProgram:
             for c in group.contacts.tolist():
                 row = int(layout.offsets[c])
                 within = int(np.searchsorted(group.rows, row))
-                own = kept.coordinate[c, : kept.kept[c]]
+                columns = kept.coordinate[c, : kept.kept[c]]
                 fields["first_entry"][c] = start + within * width
                 fields["first_row"][c] = row_place[row] if layout.counts[c] else 0
                 fields["width"][c] = width
-                column[c, : kept.kept[c]] = np.searchsorted(group.coordinates, own)
+                column[c, : kept.kept[c]] = np.searchsorted(group.coordinates, columns)
         self._of_hessian = {
             "unit": np.zeros(n),
             "squared": np.zeros(n),

@@ -127,8 +127,8 @@ class FastSimulator(Simulator):
         if simulator.named_backend is None:
             ordinary = simulator.extension is None and simulator.law == CONVEX
             backend = default_backend(simulator.system, simulator.pairs, simulator.cone, ordinary)
-        own = {"backend": backend, "extension": simulator.extension}
-        super().__init__(**{**simulator.settings(), **own})
+        chosen = {"backend": backend, "extension": simulator.extension}
+        super().__init__(**{**simulator.settings(), **chosen})
         self.named_backend = simulator.named_backend
         reason = missing()
         self.by_c = reason is None

@@ -45,19 +45,19 @@ class KeptColumns:
         n_c = len(layout.rows)
         both = zip(moves[layout.link_alpha], moves[layout.link_beta], strict=True)
         joints = [np.flatnonzero((a > 0) | (b > 0)) for a, b in both]
-        kept = [np.unique(owner[own]) for own in joints]
+        kept = [np.unique(owner[of_contact]) for of_contact in joints]
         most_joints = max(map(len, joints), default=0)
         most_kept = max(map(len, kept), default=0)
         shapes = {"joint": most_joints, "place": most_joints, "coordinate": most_kept}
         indices = {name: np.zeros((n_c, width), np.int64) for name, width in shapes.items()}
         sides = {name: np.zeros((n_c, most_joints)) for name in ("moves_alpha", "moves_beta")}
         self.pattern = np.zeros((n_c, 4, simulator.system.n_v))
-        for c, (own, coordinates) in enumerate(zip(joints, kept, strict=True)):
-            indices["joint"][c, : len(own)] = own
-            indices["place"][c, : len(own)] = np.searchsorted(coordinates, owner[own])
+        for c, (of_contact, coordinates) in enumerate(zip(joints, kept, strict=True)):
+            indices["joint"][c, : len(of_contact)] = of_contact
+            indices["place"][c, : len(of_contact)] = np.searchsorted(coordinates, owner[of_contact])
             indices["coordinate"][c, : len(coordinates)] = coordinates
-            sides["moves_alpha"][c, : len(own)] = moves[layout.link_alpha[c], own]
-            sides["moves_beta"][c, : len(own)] = moves[layout.link_beta[c], own]
+            sides["moves_alpha"][c, : len(of_contact)] = moves[layout.link_alpha[c], of_contact]
+            sides["moves_beta"][c, : len(of_contact)] = moves[layout.link_beta[c], of_contact]
             self.pattern[c, :, coordinates] = 1.0
         self.kept = np.array(list(map(len, kept)), np.int64)
         self.coordinate = indices["coordinate"]
@@ -225,8 +225,8 @@ class Steps:
     def _step(
         self, names: tuple[str, ...], written: NDArray[Any], change: Array, J: Array
     ) -> StepData:
-        own = {name: written[name] for name in ("phi", "n", "d1", "d2")}
-        contacts = Contacts.unchecked(name=names, J=J, **own, **self._of_contacts)
+        frames = {name: written[name] for name in ("phi", "n", "d1", "d2")}
+        contacts = Contacts.unchecked(name=names, J=J, **frames, **self._of_contacts)
         tau = written["tau"]
         n_a = len(change)
         return StepData.unchecked(

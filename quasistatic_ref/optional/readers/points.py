@@ -47,9 +47,9 @@ def file_points(path: Path) -> Array:
 
 def _counted(points: Array, content: bytes, line: bytes) -> Array:
     """The points, if they are as many as a line of the file's header says."""
-    said = re.search(line + rb"[ \t]+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
-    if said is not None and int(said[1]) != len(points):
-        raise ModelError(f"must be {int(said[1])}", field="points", value=len(points))
+    header_count = re.search(line + rb"[ \t]+(\d+)", content[:LARGEST_HEADER], re.MULTILINE)
+    if header_count is not None and int(header_count[1]) != len(points):
+        raise ModelError(f"must be {int(header_count[1])}", field="points", value=len(points))
     return points
 
 

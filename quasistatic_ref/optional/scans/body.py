@@ -176,8 +176,8 @@ def scanned_body(
     path = Path(scan)
     name = path.stem.replace(" ", "_") if name is None else name
     Body(name, "<robot/>")  # checks the name
-    given, greatest = (("mass", mass), ("density", density)), 1e6
-    chosen = [(word, value) for word, value in given if value is not None]
+    options, greatest = (("mass", mass), ("density", density)), 1e6
+    chosen = [(word, value) for word, value in options if value is not None]
     if len(chosen) != 1 or not 0 < chosen[0][1] < greatest:
         problem = "say one of them, greater than 0: --mass in kg, or --density in kg/m^3"
         raise InputError(problem, field="mass, density", value=[mass, density])
