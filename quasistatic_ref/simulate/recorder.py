@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from array import array
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import takewhile, zip_longest
@@ -122,7 +123,7 @@ class Recorder:
         self.parts: list[StepArrays] = []
         self._latest: list[StepResult] = []
         self._targets: list[Array] = []
-        self._between: list[float] = []
+        self._between = array("d")
         self._since = time.perf_counter()
 
     @property

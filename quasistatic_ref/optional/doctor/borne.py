@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.compared import FARTHEST, SHORT
 from quasistatic_ref.optional.doctor.equilibrium import missing_force, statics, unsqueezed
-from quasistatic_ref.optional.doctor.start import Start, least
+from quasistatic_ref.optional.doctor.start import Start, least, translations
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Mask, StepData
 
@@ -24,17 +24,20 @@ class AtRest(NamedTuple):
         The body of each un-actuated coordinate.
     masses : ndarray, shape (n_u,)
         Theirs [kg].
+    free : list of slice
+        Un-actuated coordinates that translate a free body.
     """
 
     step: StepData
     touching: Mask
     bodies: tuple[str, ...]
     masses: Array
+    free: list[slice]
 
     def without_squeeze(self) -> Array:
         """Normal forces, shape (n_c,) [N], that bear the loads and are no mere squeeze."""
         no_limit = np.full(self.step.contacts.n_c, np.inf)
-        normal = statics(self.step, self.touching, no_limit, self.masses).normal
+        normal = statics(self.step, self.touching, no_limit, self.masses, self.free).normal
         return unsqueezed(self.step, normal)
 
 
@@ -55,7 +58,8 @@ def at_rest(start: Start, q: Array, contacts: Contacts) -> AtRest:
     names = tuple(c.joint.partition("/")[0] for c in system.coordinates[step.n_a :])
     sizes = np.repeat([least(pair) for pair in start.pairs], [pair.n_c for pair in start.pairs])
     touching = contacts.phi <= SHORT * np.minimum(sizes, FARTHEST)
-    return AtRest(step, touching, names, np.array([system.mass(name) for name in names]))
+    masses = np.array([system.mass(name) for name in names])
+    return AtRest(step, touching, names, masses, translations(system))
 
 
 def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool = True) -> bool:
@@ -77,6 +81,6 @@ def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool 
     """
     rest = at_rest(start, q, contacts)
     at_most = np.full(contacts.n_c, np.inf) if squeezed else rest.without_squeeze()
-    missing = missing_force(rest.step, rest.touching, at_most, rest.masses)
+    missing = missing_force(rest.step, rest.touching, at_most, rest.masses, rest.free)
     lacks = float(np.linalg.norm(missing[[x == name for x in rest.bodies]]))
     return lacks <= LIGHT * start.system.mass(name) * start.g

@@ -16,7 +16,7 @@ from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.equilibrium import missing_force
-from quasistatic_ref.optional.doctor.start import bodies, free_bases, least, slices
+from quasistatic_ref.optional.doctor.start import bodies, free_bases, least, slices, translations
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, Mask, StepData
@@ -217,7 +217,8 @@ class LookedAt:
         masses = np.array([system.mass(name) for name in names])
         actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
         at_most = np.where(actuated, np.maximum(self.forces[:, 2], 0.0), np.inf)
-        missing = missing_force(step, self._touching, at_most, masses)
+        free = translations(system)
+        missing = missing_force(step, self._touching, at_most, masses, free)
         unbalanced = {}
         for name in free_bases(system):
             coordinates = np.flatnonzero([other == name for other in names])
@@ -378,13 +379,20 @@ class Compared:
 
     @cached_property
     def held_in_ellipsoid(self) -> dict[str, int]:
-        """Bodies that fall out of balance or slip in the corners of the pyramid alone: the step."""
+        """Bodies that fall out of balance or slip in the corners of the pyramid alone: the step.
+
+        Not those next to a body that is out of balance in the ellipsoid, too: of a pile that falls
+        it is not determined which of its bodies lack a force.
+        """
         held: dict[str, int] = {}
+        neighbours = [bodies(self.run.system, pair) for pair in self.run.pairs]
         for at in self.steps:
             if not at.slips_inside:
                 continue
+            falling = set(at.unbalanced_in_ellipsoid)
+            falling |= {name for names in neighbours if falling & {*names} for name in names}
             for name in at.unbalanced:
-                if name not in at.unbalanced_in_ellipsoid:
+                if name not in falling:
                     held.setdefault(name, at.k)
         return held
 

@@ -124,7 +124,7 @@ def layer(run: Run) -> Iterator[Finding]:
             does += f"{there.normal:.3g} N"
             if way > change:
                 does = f"slips by {1e3 * here.way:.3g} mm, where Coulomb's law allows "
-                does += f"{1e3 * there.way:.3g} mm"
+                does += f"{1e3 * round(there.way, 9):.3g} mm"
             finding = Finding(
                 "boundary layer",
                 False,

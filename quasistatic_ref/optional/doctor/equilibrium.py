@@ -3,9 +3,11 @@
 A force in a contact's cone is a combination, with multipliers lam >= 0, of the cone's rows a_i, so
 that the generalised force of all contacts on the un-actuated coordinates is A_u' lam. The step is
 in equilibrium if A_u' lam + tau_u = 0 for some lam. Where no lam does it, what is missing is the
-least r, in the sum of its sizes, with A_u' lam + tau_u + r = 0.
+least r, in the sum of its sizes, with A_u' lam + tau_u + r = 0: of a free body along the normals
+that press on it, along the rest of its load, and across both.
 """
 
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -43,7 +45,9 @@ class Statics(NamedTuple):
     normal: Array
 
 
-def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array) -> Array:
+def missing_force(
+    step: StepData, touching: Mask, at_most: Array, masses: Array, free: Sequence[slice] = ()
+) -> Array:
     """What the contacts of a step cannot bear of its loads on the un-actuated coordinates.
 
     Forces lie in the cones of the touching contacts. Lever arms count, since a row of A holds them.
@@ -58,6 +62,8 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
         Largest normal force of each contact [N]; infinite where no spring limits it.
     masses : ndarray, shape (n_u,)
         Of the body of each un-actuated coordinate [kg].
+    free : sequence of slice
+        Un-actuated coordinates that translate a free body, three each.
 
     Returns
     -------
@@ -71,10 +77,12 @@ def missing_force(step: StepData, touching: Mask, at_most: Array, masses: Array)
     >>> bool(np.abs(borne).sum() > 0)  # it spins: its torque is beyond mu_omega m g
     True
     """
-    return statics(step, touching, at_most, masses).missing
+    return statics(step, touching, at_most, masses, free).missing
 
 
-def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> Statics:
+def statics(
+    step: StepData, touching: Mask, at_most: Array, masses: Array, free: Sequence[slice] = ()
+) -> Statics:
     """What :func:`missing_force` returns, and the least normal forces.
 
     Parameters
@@ -85,6 +93,7 @@ def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> St
         [N].
     masses : ndarray, shape (n_u,)
         [kg].
+    free : sequence of slice
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
@@ -95,6 +104,11 @@ def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> St
     scale = np.sqrt(masses)
     along = np.linalg.solve(root, np.column_stack([rows[:, step.n_a :].T, step.tau_u]))
     along *= scale[:, None]
+    J_n = frame_jacobian(step.contacts, step.contacts.J)[0][touching, step.n_a :]
+    normals = scale * np.linalg.solve(root, J_n.T).T
+    axes = [_axes(normals[:, body], along[body, -1]) for body in free]
+    for body, axis in zip(free, axes, strict=True):
+        along[body] = axis.T @ along[body]
     load = along[:, -1]
     size = float(np.abs(load).max(initial=0.0))
     if not size:
@@ -112,7 +126,18 @@ def statics(step: StepData, touching: Mask, at_most: Array, masses: Array) -> St
     if answer.x is None:  # with r it has a solution: only where HiGHS fails
         return Statics(np.zeros(n_u), np.zeros(n_c))
     plus, minus = answer.x[len(rows) :].reshape(2, n_u)
-    return Statics(np.asarray(size * (plus - minus)), np.asarray(size * (pressing @ answer.x)))
+    missing = np.asarray(size * (plus - minus))
+    for body, axis in zip(free, axes, strict=True):
+        missing[body] = axis @ missing[body]
+    return Statics(missing, np.asarray(size * (pressing @ answer.x)))
+
+
+def _axes(normals: Array, load: Array) -> Array:
+    """Orthonormal columns, shape (3, 3): along what presses, along the rest of a load, across."""
+    presses = normals.sum(axis=0)
+    if np.linalg.norm(presses) <= SAME_NORMAL * len(normals):  # from opposite sides
+        presses = load
+    return np.asarray(np.linalg.qr(np.column_stack([presses, load, np.eye(3)]))[0])
 
 
 def unsqueezed(step: StepData, normal: Array) -> Array:

@@ -94,7 +94,10 @@ def unborne(run: Run) -> Iterator[Finding]:
     What a last bit of the places of contacts may change in forces is that of the same step: next to
     a load that is rounding, any change is large.
     """
-    k = int(run["wrench"][:, :, 2].sum(axis=1).argmax())
+    pressing = run["wrench"][:, :, 2].sum(axis=1)
+    k = int(pressing.argmax())
+    if pressing[k] <= SURE * run.g * run.system.masses.sum():  # nothing bears anything
+        return
     compliant = run.compliant(k)
     if compliant is None:
         return

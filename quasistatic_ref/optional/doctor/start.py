@@ -191,6 +191,12 @@ def free_bases(system: System) -> dict[str, Joint]:
     return {base.name.removesuffix("/base"): base for base in bases}
 
 
+def translations(system: System) -> list[slice]:
+    """The un-actuated coordinates that translate each free body, three each."""
+    starts = [base.v.start - system.n_a for base in free_bases(system).values()]
+    return [slice(start, start + 3) for start in starts]
+
+
 def centre(system: System, kinematics: Kinematics, name: str) -> Array:
     """Centre of mass of a body, shape (3,) [m]."""
     mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)

@@ -49,7 +49,7 @@ def leaps(run: Run) -> Iterator[Finding]:
         k = int(long.argmax())
         how = f"turns by {np.degrees(angle[k]):.3g} degrees"
         if length[k] / size > angle[k]:
-            how = f"moves by {1e3 * length[k]:.3g} mm, {share[k]:.2g} of the {size:.3g} m it moves"
+            how = f"moves by {1e3 * length[k]:.3g} mm, {share[k]:.2g} of the size of what it moves"
         remedy = "take a smaller h, move slower, or start nearer to the first target"
         why = "and a step is right to first order only"
         if jump > BEYOND:

@@ -13,8 +13,9 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.account import side
+from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import joining, least
+from quasistatic_ref.optional.doctor.start import Start, joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.finding import Finding
@@ -213,9 +214,10 @@ def idle(run: Run) -> Iterator[Finding]:
             fingers.setdefault(task.holder(i), []).append(i)
         idle = {name: touch for name, touch in fingers.items() if not task.touched(touch)}
         named = False
+        hollow = any(inside(Start(run.simulator, run.q_start)))  # fingers may open from within
         for name, touch in idle.items():
             touching = [i for i in pairs if task.holder(i) not in idle]
-            astray = _astray(task, touch, touching)
+            astray = None if hollow else _astray(task, touch, touching)
             if astray is None:
                 continue
             joint, way = astray

@@ -15,7 +15,7 @@ CLAMP = (("upper", -0.03, 1.0), ("lower", 0.03, 0.0))
 SLEEVE = (*CLAMP, ("third", 0.03, 1.0), ("fourth", -0.03, 0.0))
 
 
-def scenario(reach, offset, balls=CLAMP, steps=3):
+def scenario(reach, offset, balls=CLAMP, steps=3, mu_v=MU_V):
     """Balls on both sides of a post, up to `offset` apart in height [m], a load `reach` out."""
     collisions = "".join(
         f'<collision name="{name}"><origin xyz="{x} 0 {z * offset}"/><geometry>'
@@ -28,7 +28,7 @@ def scenario(reach, offset, balls=CLAMP, steps=3):
         f'{collisions}<collision name="load"><origin xyz="{reach} 0 0"/><geometry>'
         '<box size="0.1 0.05 0.02"/></geometry></collision></link></robot>'
     )
-    on = {"alpha": "post", "mu_v": MU_V, "rows": 4}
+    on = {"alpha": "post", "mu_v": mu_v, "rows": 4}
     scene = {
         "h": 0.01,
         "steps": steps,
@@ -72,6 +72,11 @@ def test_a_clamp_that_falls_is_told_that_nothing_bears_it(reach, offset):
     assert finding.name == "free fall"
     assert 0.09 < -run["q"][-1][2] + 0.4 < 0.099
     assert 1 <= run.header["largest_drag_share"] <= 10 / MU_V
+
+
+def test_a_clamp_without_friction_falls_and_no_force_is_said_to_be_uncertain():
+    run = scenario(0.1, 0.1, steps=20, mu_v=0.0).run(progress=False)
+    assert [one.name for one in run.findings] == ["free fall"]
 
 
 def test_a_sleeve_whose_lever_arms_press_too_little_is_locked():

@@ -26,6 +26,7 @@ def missing(wrench, points, frames, at_most=np.inf, cone="pyramid", **friction):
         np.ones(len(points), dtype=bool),
         np.full(len(points), at_most),
         np.full(6, M),
+        [slice(0, 3)],
     )
 
 
@@ -79,3 +80,14 @@ def test_torsion_bears_mu_omega_times_the_normal_force():
     found = missing(load, [(0, 0, -0.05)], UP, mu_v=0.5, mu_omega=0.005, rows=6)
     lacks = (torque - 0.005 * WEIGHT) / np.sqrt(2e-3 / M)
     np.testing.assert_allclose(np.abs(found).sum(), lacks, rtol=1e-5)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, np.pi / 4])
+def test_what_is_missing_does_not_depend_on_the_axes_of_the_body(angle):
+    """A ball without friction on a floor, pushed with 3 N along the world's x axis."""
+    c, s = np.cos(angle), np.sin(angle)
+    turned = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    load = np.concatenate([turned.T @ [3.0, 0.0, -WEIGHT], np.zeros(3)])
+    frames = UP @ turned  # d1, d2 and n in the body's axes
+    lacking = missing(load, [(0.0, 0.0, 0.0)], frames, mu_v=1e-6)
+    assert np.linalg.norm(lacking) == pytest.approx(3.0, rel=1e-4)
