@@ -110,12 +110,25 @@ def _of_text(path: Path) -> Array:
         if len(words) < 3:
             problem = "must be three numbers, x y z"
             raise ModelError(problem, field=f"line {number}", value=line)
+        if not points and (table := _table(lines[number - 1 :], text)) is not None:
+            check_points(len(table))
+            return table[:, columns]
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
         with about_field(f"line {number}"):
             points.append([number_or_nan(words[c]) for c in columns])
     check_points(len(points))
     return np.array(points, dtype=np.float64).reshape(-1, 3)
+
+
+def _table(lines: list[str], first: str) -> Array | None:
+    """Numbers in equal columns, which NumPy reads at once; None where a line is something else."""
+    separator = next((mark for mark in ",;" if mark in first), None)
+    try:
+        table = np.loadtxt(lines, delimiter=separator, ndmin=2)
+    except ValueError:
+        return None
+    return None if np.isinf(table).any() else table
 
 
 def _column(header: list[str], name: str, number: int) -> int:

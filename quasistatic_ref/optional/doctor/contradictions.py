@@ -59,6 +59,10 @@ def density(start: Start) -> Iterator[Finding]:
 
 def hull_of(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:
     """Convex hull of a link's shapes, in its frame; None if they are flat."""
+    first = shapes[0]
+    in_frame = np.array_equal(first.R, np.eye(3)) and not first.t.any()
+    if len(shapes) == 1 and in_frame and isinstance(first.shape, ConvexMesh):
+        return first.shape
     points = [farthest_points(placed) for placed in shapes]
     for placed in shapes:
         corners, radius = placed.shape.corners(WAYS[0])

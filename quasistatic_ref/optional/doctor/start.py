@@ -13,6 +13,7 @@ from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
@@ -20,6 +21,8 @@ from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.extension import Extension
 
 HULL = "hull of its points"
+SAMPLED = 50_000
+"""Points of a cloud, every so manyth, of which its hull is formed for findings, at most."""
 SEARCHED = 200_000
 """Most entries of a step's J, 4 n_c n_v, of a scene in which J is formed and a step is solved once
 more: the exact method starts cold, and takes a second there."""
@@ -117,8 +120,10 @@ class Start:
         clouds = {id(p.shape): p for p in self.sides if p.link == link}
         for placed in clouds.values():
             if isinstance(placed.shape, PointCloud):
+                points = placed.shape.points
+                some = points[:: 1 + len(points) // SAMPLED]
                 with suppress(ModelError):  # all of them in a plane
-                    yield replace(placed, name=HULL, shape=placed.shape.hull)
+                    yield replace(placed, name=HULL, shape=convex_hull(some))
 
     @property
     def sides(self) -> list[PlacedShape]:

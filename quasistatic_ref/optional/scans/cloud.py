@@ -78,6 +78,7 @@ def thinned(points: Array, count: int) -> Indices:
     corners = ConvexHull(points).vertices
     if len(points) <= count:
         return np.concatenate([np.sort(corners), np.setdiff1d(np.arange(len(points)), corners)])
+    corners = corners[:: -(-len(corners) // COVERING)]
     chosen = _farthest(points[corners], [], min(count // 2, len(corners)))
     some = np.arange(0, len(points), -(-len(points) // COVERING))
     some = np.concatenate([corners[chosen], np.setdiff1d(some, corners[chosen])])

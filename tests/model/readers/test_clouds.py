@@ -390,3 +390,15 @@ def test_las_is_read_in_metres_and_a_broken_one_is_refused(tmp_path):
         file.write_bytes(spoilt)
         with pytest.raises(ModelError, match="cannot be read as LAS"):
             point_cloud(file)
+
+
+def test_many_lines_of_numbers_are_read_as_line_by_line(tmp_path, rng):
+    """To the last bit, with a header, other columns and comments."""
+    rows = [[repr(v) for v in row] for row in rng.normal(size=(50, 4)).tolist()]
+    path = tmp_path / "a.csv"
+    path.write_text("u,z,y,x\n" + "\n".join(",".join(row) for row in rows) + " # last\n")
+    expected = [[float(row[c]) for c in (3, 2, 1)] for row in rows]
+    assert seen_points(path)[0].tolist() == expected
+    path.write_text(path.read_text() + "1,2,3,x\n")
+    with pytest.raises(ModelError, match="line 52"):
+        seen_points(path)
