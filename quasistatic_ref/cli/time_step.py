@@ -91,8 +91,10 @@ def _fastest(scenario: Scenario) -> tuple[float, float]:
     origins = np.array([shape.t for shape in placed])
     way = turn = 0.0
     for before, after in _steps(scenario):
-        R, x = before.R[links], _origins(before, links, origins)
-        R_next, x_next = after.R[links], _origins(after, links, origins)
+        R = before.R[links]
+        x = _origins(before, links, origins)
+        R_next = after.R[links]
+        x_next = _origins(after, links, origins)
         chord = np.linalg.norm(R_next - R, axis=(1, 2))  # sqrt(8) sin(angle / 2)
         angle = 2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1.0))
         way = max(way, float(np.linalg.norm(x_next - x, axis=1).max()))
@@ -117,7 +119,8 @@ def _thinnest_layer(scenario: Scenario) -> float | None:
             continue
         end = 0
         for pair in scenario.pairs:
-            start, end = end, end + pair.n_c
+            start = end
+            end += pair.n_c
             j = start + int(points.phi[start:end].argmin())
             depth = -float(points.phi[j])
             links = [pair.alpha.link, pair.beta.link]

@@ -362,11 +362,13 @@ def repeated(candidates: ClosestPoints) -> Mask:
     near = 2 * width * REPEATED  # twice, for what the sums round
     repeats = np.zeros(count, dtype=bool)
     for shift in range(1, count):
-        a, b = order[:-shift], order[shift:]
+        a = order[:-shift]
+        b = order[shift:]
         close = np.flatnonzero(total[b] - total[a] <= near)
         if not close.size:
             break
-        a, b = a[close], b[close]
+        a = a[close]
+        b = b[close]
         same = np.abs(every[a] - every[b]).max(axis=1) <= REPEATED
         repeats[np.maximum(a, b)[same]] = True
     return repeats

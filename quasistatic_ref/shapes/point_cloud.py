@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, read_only
@@ -43,11 +42,6 @@ class PointCloud(Shape):
     def extent(self) -> float:
         """Longest edge of the box about it along its own axes [m]."""
         return float(np.ptp(self.points, axis=0).max())
-
-    @cached_property
-    def hull(self) -> ConvexMesh:
-        """Its convex hull; ModelError if it has no volume."""
-        return convex_hull(self.points)
 
     def words(self) -> str:
         """How many points it has, and the edges of the box about them [m]."""

@@ -61,11 +61,12 @@ def rows(scenes: Mapping[str, Mapping[str, float]]) -> list[tuple[str, ...]]:
     Below them stands how each grows with the number of boxes [-].
     """
     each = [
-        (name, *(f"{own[figure]:.0f}" if figure in own else "-" for figure in FIGURES))
-        for name, own in scenes.items()
+        (name, *(f"{times[figure]:.0f}" if figure in times else "-" for figure in FIGURES))
+        for name, times in scenes.items()
     ]
     for fewer, more in pairwise(name for name in GROWTH if name in scenes):
-        one, other = scenes[fewer], scenes[more]
+        one = scenes[fewer]
+        other = scenes[more]
         both = one.keys() & other.keys()
         growth = (f"x {other[name] / one[name]:.1f}" if name in both else "-" for name in FIGURES)
         each.append((f"{more} over {fewer.split()[0]}", *growth))

@@ -16,7 +16,15 @@ from quasistatic_ref.certify.contact_forces import forces_near
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.equilibrium import missing_force
-from quasistatic_ref.optional.doctor.start import bodies, free_bases, least, slices, translations
+from quasistatic_ref.optional.doctor.start import (
+    FARTHEST,
+    SHORT,
+    bodies,
+    free_bases,
+    least,
+    slices,
+    translations,
+)
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, Mask, StepData
@@ -35,10 +43,6 @@ SETTLED = 0.01
 """Change of rises and of normal forces, over the largest, at which Coulomb's law holds [-]."""
 COUNTS = 0.1
 """Least difference that counts, over the larger of two numbers [-]."""
-FARTHEST = 1.0
-"""Size that stands for that of a half-space [m]."""
-SHORT = 1e-6
-"""Motion that is none, over the size of the smaller shape of a pair [-]."""
 FEW = 0.01
 """Motion that is none, over the longest of a contact in a step of the run [-]."""
 WITHIN = 0.95

@@ -12,12 +12,11 @@ import numpy as np
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.compared import (
     COUNTS,
-    SHORT,
     LookedAt,
     PairMotion,
 )
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import bodies
+from quasistatic_ref.optional.doctor.start import SHORT, bodies
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
 

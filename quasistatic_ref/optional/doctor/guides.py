@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.optional.doctor.borne import at_rest, borne
+from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding

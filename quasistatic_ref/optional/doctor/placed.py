@@ -8,8 +8,8 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.doctor.borne import borne
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
+from quasistatic_ref.optional.doctor.equilibrium import borne
 from quasistatic_ref.optional.doctor.start import (
     Start,
     bodies,

@@ -20,6 +20,10 @@ from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.extension import Extension
 
+FARTHEST = 1.0
+"""Size that stands for that of a half-space [m]."""
+SHORT = 1e-6
+"""Motion that is none, over the size of the smaller shape of a pair [-]."""
 HULL = "hull of its points"
 SAMPLED = 50_000
 """Points of a cloud, every so manyth, of which its hull is formed for findings, at most."""

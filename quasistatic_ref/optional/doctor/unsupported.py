@@ -11,9 +11,17 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.compared import FARTHEST, SHORT
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start, bodies, body, free_bases, joining, least
+from quasistatic_ref.optional.doctor.start import (
+    FARTHEST,
+    SHORT,
+    Start,
+    bodies,
+    body,
+    free_bases,
+    joining,
+    least,
+)
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array, Extra, Mask

@@ -151,12 +151,11 @@ def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> D
             values[places[name]] = number
         return values
 
-    values: Callable[[float], Array] = lambda t: start  # noqa: E731 one of four
+    values: Callable[[float], Array] = partial(piecewise_linear, np.zeros(1), start[None])
     idle: tuple[str, ...] = ()
     if callable(targets):
-        function = targets
-        row(function(0.0))
-        values = lambda t: row(function(t))  # noqa: E731
+        row(targets(0.0))  # refuses wrong names before the run
+        values = partial(_of_function, targets, row)
     elif isinstance(targets, str | Path):
         with about_file(Path(targets)):
             columns, times, table = table_read(Path(targets))
@@ -171,6 +170,15 @@ def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> D
         values = _of_keyframes(system, start, T, targets)
     q_a = system.q_start[: system.n_q_a]
     return Drive(q_a, (), system, values, [data.act.copy()], idle)
+
+
+def _of_function(
+    function: Callable[[float], Mapping[str, float]],
+    row: Callable[[Mapping[str, float]], Array],
+    t: float,
+) -> Array:
+    """The controls and targets that a user's function names at a time [s]."""
+    return row(function(t))
 
 
 def _of_keyframes(

@@ -3,7 +3,7 @@
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.optional.doctor.borne import at_rest
+from quasistatic_ref.optional.doctor.equilibrium import at_rest
 from quasistatic_ref.optional.doctor.start import Start
 from tests.optional.doctor.urdfs import block
 

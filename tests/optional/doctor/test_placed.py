@@ -249,12 +249,24 @@ def test_a_fall_past_a_ball_is_endless_and_onto_one_ends_on_it():
     assert fall(start, grip, "can") == pytest.approx(0.16 - np.sqrt(0.06**2 - 0.03**2), abs=1e-8)
 
 
+def mug_and_finger(at, way=0.0):
+    """A mug of eight boxes, and a finger that touches none of them and moves along x [m]."""
+    mug = fields(*HOLLOW["a mug of boxes"]) | {"steps": 30}
+    tip = {"urdf": slides("x", sphere(0.01)), "actuated": "all", "K_q": {"x": 100.0}}
+    targets = [{"t": 0, "x": 0.0}, {"t": 0.3, "x": way}]
+    mug["bodies"]["finger"] = tip | {"pose": {"xyz": list(at)}, "targets": targets}
+    mug["contacts"]["push"] = mug["contacts"]["floor"] | {"alpha": "finger/tip", "k": 1}
+    return qr.load_scenario(mug)
+
+
+def test_a_finger_that_moves_inside_of_a_mug_is_not_told_to_turn_its_axis():
+    """From the wall behind it to the middle, which leads it away from what it could touch first."""
+    findings = mug_and_finger((-0.015, 0, 0.05), 0.02).run(progress=False).findings
+    assert [one.name for one in findings] == ["starts inside", "idle contacts"]
+    assert findings[1].remedy == "check where b stands and how far finger/tip moves"
+
+
 @pytest.mark.parametrize(("at", "inside"), [((0, 0, 0.05), True), ((0.2, 0, 0.05), False)])
 def test_a_finger_that_starts_inside_of_a_mug_is_told_to_start_outside(at, inside):
-    """Of eight boxes, between which a finger touches none."""
-    mug = fields(*HOLLOW["a mug of boxes"])
-    tip = {"urdf": slides("x", sphere(0.01)), "actuated": "all", "K_q": {"x": 100.0}}
-    mug["bodies"]["finger"] = tip | {"pose": {"xyz": list(at)}}
-    mug["contacts"]["push"] = mug["contacts"]["floor"] | {"alpha": "finger/tip", "k": 1}
-    said = [x for x in qr.load_scenario(mug).findings() if x.name == "starts inside"]
+    said = [x for x in mug_and_finger(at).findings() if x.name == "starts inside"]
     assert [one.remedy for one in said] == ["start finger/shape outside of b/b"] * inside
