@@ -15,7 +15,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
+from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import Mask, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -58,7 +58,6 @@ class FunctionSolver(BackendSolver):
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        assert isinstance(both, DenseStepInBothUnits)
         near, out_of_reach = within_reach(both.natural_step)
         self.form = standard_form(near)
         return out_of_reach

@@ -187,7 +187,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
             return _not_enclosed(both, solver, answer, statistics)
         check_length(step, optimum.delta_q, groups(step))
     else:
-        optimum = solver.prover.optimum(both, answer)
+        optimum = solver.optimum(both, answer)
     delta_q = optimum.delta_q
     lam = optimum.lam
     to_measure = answer or unclaimed
@@ -291,6 +291,6 @@ def _judged(
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, both.si_step, accuracy, residuals)
-    error = solver.prover.error_bound(both, delta_q, lam)
+    error = solver.error_bound(both, delta_q, lam)
     useful = error if error <= WORTHLESS else None
     return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=both.si_step)

@@ -1,10 +1,11 @@
-"""A solver of steps: one object that holds a compiled problem and a prover, and says what it is.
+"""A solver of steps: one object that holds a compiled problem, and says what it is.
 
 It knows its backend (``name``), by which interface it calls that (``interface``), and the kind of
 step that its problem was compiled for (:meth:`Solver.fits`). Each interface is one class in a file
 of its own, and :func:`solver_for` chooses among them.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,8 +13,10 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics
+from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
@@ -21,6 +24,7 @@ from quasistatic_ref.solve.backends import (
     DEFAULT,
     NONE,
     QPSOLVERS,
+    RESIDUAL,
     UNSAFE,
     Options,
     backend,
@@ -28,9 +32,8 @@ from quasistatic_ref.solve.backends import (
     is_function,
 )
 from quasistatic_ref.solve.greeting import greeting_silenced
-from quasistatic_ref.solve.prover import OnwardProver, Prover
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
@@ -126,8 +129,6 @@ class Solver(ABC):
         What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
-    prover : Prover
-        What proves steps from its answers.
     unsafe : bool
         Whether its backend may not return from steps whose rows are unlike each other.
     """
@@ -142,7 +143,6 @@ class Solver(ABC):
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         if name.removeprefix(QPSOLVERS) == "highs":
             greeting_silenced()
-        self.prover = Prover()
         self._option_sets: dict[float, list[OptionSet]] = {}
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -171,7 +171,7 @@ class Solver(ABC):
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in SI units and in natural units."""
-        return DenseStepInBothUnits(step)
+        return StepInBothUnits(step)
 
     @abstractmethod
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
@@ -190,6 +190,32 @@ class Solver(ABC):
             If it says anything but a full solution, or the numbers are not finite; or if it may
             not return and the rows of the step are unlike each other.
         """
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum, sought from the rows that an answer shows to be active, or from cold.
+
+        It does not depend on where it is sought from.
+
+        Raises
+        ------
+        StepInfeasible, StepIllPosed
+        """
+        warm = []
+        if answer is not None:
+            form = both.natural_form
+            warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
+        return step_optimum(both.si_step, warm)
+
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
+
+        Infinite where none is known, as in a curved cone.
+        """
+        if not cone(both.si_step.cone).polyhedral:
+            return math.inf
+        with needing(RESIDUAL):
+            from quasistatic_ref.optional.large.bound import error_bound
+        return error_bound(both.si_step, delta_q, lam)
 
 
 class BackendSolver(Solver):
@@ -239,7 +265,7 @@ class BackendSolver(Solver):
         """
         if not both.si_form.b.size:
             return self.free(both, accuracy)
-        if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.row_ratio <= ALIKE:
+        if self.unsafe and not both.row_ratio <= ALIKE:
             status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
         try:
@@ -307,11 +333,17 @@ class NoSolver(Solver):
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
-        self.prover = OnwardProver()
+        self._working_set: tuple[int, ...] = ()
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """No answer: StepNotSolved."""
         raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
+
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum, sought from the working set of the step before; errors of the base."""
+        optimum = step_optimum(both.si_step, self._working_set)
+        self._working_set = optimum.working_set
+        return optimum
 
 
 def solver_for(

@@ -13,7 +13,7 @@ from quasistatic_ref.solve.compiled import CompiledMap, ProblemData, is_large, p
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, NaturalAnswer, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
+from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 MOST_CONTACTS = 2000
@@ -62,7 +62,6 @@ class CvxpySolver(BackendSolver):
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        assert isinstance(both, DenseStepInBothUnits)
         near, out_of_reach = within_reach(both.natural_step)
         self.problem.set_parameters(near)
         return out_of_reach

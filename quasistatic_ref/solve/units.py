@@ -15,7 +15,7 @@ conversion loses nothing, unless a number leaves the range of float64.
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Final, NamedTuple, Protocol
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -346,26 +346,8 @@ def _power_of_two(x: float) -> float:
     return 2.0**exponent if exponent < 1024 else math.inf
 
 
-class StepInBothUnits(Protocol):
-    """A step in SI units and in its natural units, in which answers are judged."""
-
-    si_step: StepData
-    units: Units
-
-    @property
-    def si_form(self) -> StandardForm:
-        """Its standard form in SI units; H and A may be sparse."""
-
-    @property
-    def natural_form(self) -> StandardForm:
-        """The same in natural units."""
-
-    def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
-        """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
-
-
-class DenseStepInBothUnits:
-    """A step of dense matrices, with its standard form, in SI units and in natural units.
+class StepInBothUnits:
+    """A step with its standard form, in SI units and in natural units, in which it is judged.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
 from quasistatic_ref.solve.solver import NoSolver, solver_for
-from quasistatic_ref.solve.units import DenseStepInBothUnits
+from quasistatic_ref.solve.units import StepInBothUnits
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING
 
@@ -25,9 +25,9 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
     unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
     for name, refused in (("qpsolvers:quadprog", True), ("daqp", False)):
         assert solver_for(unlike, name, not refused).unsafe == refused
-        solver_for(step, name, not refused).answer(DenseStepInBothUnits(step), 1e-9)
+        solver_for(step, name, not refused).answer(StepInBothUnits(step), 1e-9)
     with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
-        solver_for(unlike, "qpsolvers:quadprog").answer(DenseStepInBothUnits(unlike), 1e-9)
+        solver_for(unlike, "qpsolvers:quadprog").answer(StepInBothUnits(unlike), 1e-9)
 
 
 def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
@@ -42,13 +42,13 @@ def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
 def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before():
     step = pinch(grip=5.0)
     solver = NoSolver(step, "none")
-    cold, warm = (solver.prover.optimum(solver.in_both_units(step), None) for _ in range(2))
+    cold, warm = (solver.optimum(solver.in_both_units(step), None) for _ in range(2))
     assert cold.walks > warm.walks == 0
     for name in ("delta_q", "net", "slack"):
         assert getattr(cold, name).tobytes() == getattr(warm, name).tobytes()
     fewer = pushed_point()
     assert fewer.m < max(cold.working_set)  # a row that the next step does not have
-    onward = solver.prover.optimum(solver.in_both_units(fewer), None)
+    onward = solver.optimum(solver.in_both_units(fewer), None)
     assert onward.delta_q.tobytes() == solve_step(fewer, "none").delta_q.tobytes()
 
 
@@ -61,7 +61,7 @@ def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step)
         assert answer.certificate.kind in ("exact", "enclosure")
         assert max(answer.certificate.residuals.values()) < ROUNDING
         assert answer.statistics.digits > -np.log10(OPTIMUM)
-        assert DenseStepInBothUnits(one).units.size not in (
+        assert StepInBothUnits(one).units.size not in (
             0.5,
             1.0,
             2.0,

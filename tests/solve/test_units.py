@@ -10,7 +10,7 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.units import (
     FAR,
-    DenseStepInBothUnits,
+    StepInBothUnits,
     Units,
     check_units,
     natural_step,
@@ -112,7 +112,7 @@ def with_own_rows(rows, b, load=0.0):
 def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
     step = with_own_rows(rows, [-1.0] * len(rows))
     assert natural_units(step).length == length
-    assert DenseStepInBothUnits(step).row_ratio == 1.0
+    assert StepInBothUnits(step).row_ratio == 1.0
 
 
 def test_without_load_and_penetration_the_size_is_a_length_that_counts_as_unmoved():

@@ -29,7 +29,7 @@ from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.solve.units import DenseStepInBothUnits, HessianInBothUnits
+from quasistatic_ref.solve.units import HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -210,7 +210,7 @@ class FastSimulator(Simulator):
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
-    def _in_both_units(self, step: StepData, form: StandardForm) -> DenseStepInBothUnits:
+    def _in_both_units(self, step: StepData, form: StandardForm) -> StepInBothUnits:
         """The step in both units, and its program written into DAQP's."""
         solver = self.fitting_solver(step)
         assert isinstance(solver, FastSolver)
@@ -221,7 +221,7 @@ class FastSimulator(Simulator):
         units = None
         if hessian is not None and hessian.H is step.H:
             units = natural.write(hessian)
-        both = without_warnings(DenseStepInBothUnits, step, hessian, form, units)
+        both = without_warnings(StepInBothUnits, step, hessian, form, units)
         self._hessian = both.hessian
         if units is None:
             solver.program.write(both.natural_form)
@@ -236,7 +236,7 @@ class FastSimulator(Simulator):
         step: StepData,
         form: StandardForm,
         points: ClosestPoints,
-        both: DenseStepInBothUnits | None,
+        both: StepInBothUnits | None,
     ) -> bool:
         """Whether a step, its matrices and its program are those of the plain path."""
         kinematics = self.system.kinematics(q)
@@ -254,9 +254,7 @@ class FastSimulator(Simulator):
         same = in_c is None or (bits(written) == bits(also) and in_c[1:] == both.units[1:])
         return same and bits(form) == bits(standard_form(plain))
 
-    def _solution(
-        self, step: StepData, both: DenseStepInBothUnits | None, q: Array
-    ) -> StepSolution:
+    def _solution(self, step: StepData, both: StepInBothUnits | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""
         if both is None:
             return self.solution(step) if self.extension is None else self.extended(step, q)

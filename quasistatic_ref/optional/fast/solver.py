@@ -8,11 +8,9 @@ from typing import Final
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import RESIDUAL, check_backend
-from quasistatic_ref.solve.prover import Prover
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet, Solver, solver_for
 from quasistatic_ref.solve.units import (
-    DenseStepInBothUnits,
     HessianInBothUnits,
     StepInBothUnits,
     Units,
@@ -47,34 +45,6 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     return FastSolver(step) if name == DAQP else solver_for(step, name)
 
 
-class FastProver(Prover):
-    """The exact method, with what H gives of bounds kept while H stays.
-
-    Attributes
-    ----------
-    natural_H : ndarray, shape (n_v, n_v), or None
-        Of the step whose error was bounded last [-].
-    bound : callable
-        (step in both units, delta_q, lam) -> a bound of the relative error of steps with this H.
-    """
-
-    def __init__(self) -> None:
-        self.natural_H: Array | None = None
-        self.bound: Callable[[DenseStepInBothUnits, Array, Array], float] = super().error_bound
-
-    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """A bound of the relative error [-]: in float64, and in balls where that is open."""
-        assert isinstance(both, DenseStepInBothUnits)
-        H = both.hessian.natural_H
-        if self.natural_H is not H:
-            with needing(RESIDUAL):
-                from quasistatic_ref.optional.large.float_bound import FloatBound
-            self.natural_H = H
-            self.bound = FloatBound(H).step_error
-        error = self.bound(both, delta_q, lam)
-        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)
-
-
 class FastSolver(BackendSolver):
     """DAQP for steps of one kind; it starts from its answer to the step before.
 
@@ -99,10 +69,11 @@ class FastSolver(BackendSolver):
 
     def __init__(self, template: StepData, name: str = DAQP) -> None:
         super().__init__(template, name)
-        self.prover = FastProver()
         self.program = Program(groups(template))
         self.written: Units | None = None
         self._hessian: HessianInBothUnits | None = None
+        self._bounded_H: Array | None = None
+        self._bound: Callable[[StepInBothUnits, Array, Array], float] = super().error_bound
 
     def fits(self, step: StepData) -> bool:
         """Whether a step is of that kind."""
@@ -114,11 +85,10 @@ class FastSolver(BackendSolver):
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""
-        return DenseStepInBothUnits(step, self._hessian)
+        return StepInBothUnits(step, self._hessian)
 
     def write(self, both: StepInBothUnits) -> None:
         """Write the program, unless a simulator has."""
-        assert isinstance(both, DenseStepInBothUnits)
         self._hessian = both.hessian
         if self.written is not both.units:
             if not self.program.has_all_of(both.natural_form):
@@ -136,3 +106,17 @@ class FastSolver(BackendSolver):
         reply = kept.reply(self._hessian)
         option_set.kept = kept
         return reply
+
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
+        """A bound of the relative error [-]: in float64, and in balls where that is open.
+
+        What H gives of it is kept while H stays.
+        """
+        H = both.hessian.natural_H
+        if self._bounded_H is not H:
+            with needing(RESIDUAL):
+                from quasistatic_ref.optional.large.float_bound import FloatBound
+            self._bounded_H = H
+            self._bound = FloatBound(H).step_error
+        error = self._bound(both, delta_q, lam)
+        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)

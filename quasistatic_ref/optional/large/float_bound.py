@@ -34,7 +34,7 @@ from quasistatic_ref.optional.large.sizes import (
     row_sizes,
     step_sizes,
 )
-from quasistatic_ref.solve.units import DenseStepInBothUnits, in_natural
+from quasistatic_ref.solve.units import StepInBothUnits, in_natural
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -95,7 +95,7 @@ class FloatBound:
         """The factors L and U of H, in float64."""
         return splu(csc_matrix(self.H))
 
-    def step_error(self, both: DenseStepInBothUnits, delta_q: Array, lam: Array) -> float:
+    def step_error(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """The bound [-] of a step in dense matrices, from an answer in SI units.
 
         It is infinite where a user's cost is in H: terms of H may cancel, so that its entries do
@@ -103,7 +103,7 @@ class FloatBound:
 
         Parameters
         ----------
-        both : DenseStepInBothUnits
+        both : StepInBothUnits
             In a polyhedral cone.
         delta_q : ndarray, shape (n_v,)
             [m, rad].

@@ -10,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, within_reach
+from quasistatic_ref.solve.units import StepInBothUnits, within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -36,7 +36,6 @@ class QpsolversSolver(BackendSolver):
 
     def write(self, both: StepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        assert isinstance(both, DenseStepInBothUnits)
         near, out_of_reach = within_reach(both.natural_step)
         self.form = standard_form(near)
         return out_of_reach

@@ -12,7 +12,7 @@ from quasistatic_ref.optional.fast.program import STATUS, NaturalProgram, Progra
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import (
-    DenseStepInBothUnits,
+    StepInBothUnits,
     hessian_in_both_units,
     natural_step,
     units_of,
@@ -104,7 +104,7 @@ def test_the_program_is_the_standard_form_of_the_natural_step(rng):
     """Written again, it holds nothing of the step before."""
     solver = FastSolver(with_own_row(rng))
     for step in (with_own_row(rng), with_own_row(rng)):
-        both = DenseStepInBothUnits(step)
+        both = StepInBothUnits(step)
         assert both.units.length != 1
         solver.answer(both, 1e-9)
         expected = standard_form(natural_step(step, both.units))

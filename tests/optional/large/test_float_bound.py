@@ -16,7 +16,7 @@ from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
-from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
+from quasistatic_ref.solve.units import StepInBothUnits, Units, natural_step
 from tests.helpers import point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
 from tests.oracles.random_steps import any_step
@@ -29,7 +29,7 @@ RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0,
 
 def bound_of(step, delta_q, lam):
     """The bound of an answer in SI units; infinite where none is known."""
-    both = DenseStepInBothUnits(step)
+    both = StepInBothUnits(step)
     return FloatBound(both.hessian.natural_H).step_error(both, delta_q, lam)
 
 

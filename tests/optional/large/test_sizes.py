@@ -25,7 +25,7 @@ from quasistatic_ref.optional.large.sizes import (
     step_sizes,
     term_sizes,
 )
-from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
+from quasistatic_ref.solve.units import StepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.friction import scaled_by
 from tests.closeness import assert_relative
@@ -145,7 +145,7 @@ def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone):
     taken = []
     monkeypatch.setattr(FloatBound, "error", lambda _, form, sizes, x, lam: taken.append(sizes))
     step = random_step(np.random.default_rng(2)).replace(cone=cone)
-    both = DenseStepInBothUnits(step)
+    both = StepInBothUnits(step)
     FloatBound(both.hessian.natural_H).step_error(both, np.zeros(step.n_v), np.zeros(step.m))
     (sizes,) = taken
     S, ell, rho = both.units
