@@ -11,12 +11,10 @@ import pytest
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.optional.large import float_bound
-from quasistatic_ref.optional.large import least_eigenvalues as eigenvalues
 from quasistatic_ref.optional.large.float_bound import ENOUGH, FloatBound
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.sizes import TermSizes
 from quasistatic_ref.step.standard_form import StandardForm
-from tests.closeness import assert_relative
 from tests.helpers import random_stiffness
 from tests.tolerances import ROUNDING
 
@@ -63,12 +61,3 @@ def test_bound_is_that_of_its_formula(monkeypatch, seed, kind):
     sizes = TermSizes(kind(A), 2 * np.abs(g), row_terms=3, column_terms=7, usable=True)
     assert bound.error(form, sizes, x, y) == pytest.approx(length / free, rel=ROUNDING)
     assert bound.error(form, replace(sizes, usable=False), x, y) == np.inf
-
-
-def test_eigenvalues_are_bounded_by_their_formula(monkeypatch):
-    """Of [[2, 1], [1, 2]], c = 1/2; L L' = H - c I has no negative entries, so sizes are 2 H."""
-    monkeypatch.setattr(eigenvalues, "rounding", loose)
-    off = 2 * 3 * 3 * U
-    expected = 0.5 - (off + 3 * U * off)
-    found = eigenvalues.least_eigenvalues(csc_matrix([[2.0, 1.0], [1.0, 2.0]]))
-    assert_relative(found, expected, ROUNDING)
