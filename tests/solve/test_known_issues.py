@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import StepProblem
+from quasistatic_ref.lab.bench.scenes import boxes
 from quasistatic_ref.lab.folders import CONTACT_QP, problem_set_folder
-from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.compiled import CANON
@@ -24,8 +24,8 @@ def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
 
 
 def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
-    some = pile((2, 1, 2))
-    step = some.simulator.step(some.q, np.zeros(0), some.force).step
+    scene = boxes(3)
+    step = scene.simulator("off", True).step(scene.q, np.zeros(0), scene.force).step
     fails = StepProblem(step)
     works = StepProblem(step)
     assert sum(parameter.size for parameter in fails.parameters.values()) >= 1000

@@ -16,46 +16,14 @@ from quasistatic_ref.lab.scenes.contacts import (
     frames_about,
     point_jacobian,
 )
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import StepData
 
 STIFFNESS = np.array([800.0, 800.0, 800.0, 20.0, 20.0, 20.0, 2000.0])
 """Of the gripper's base and of its width [N/m, N m/rad]."""
 
 
-def grasp_step(rng: Rng) -> StepData:
-    """A body turned at random, with ten contacts of the gripper and five of the floor.
-
-    Returns
-    -------
-    StepData
-        SI units: a body of about 0.2 kg and 0.1 m, h = 0.01 s.
-    """
-    grip = 10
-    n_c = 15
-    mass = 0.2 * (1 + rng.random())
-    R = np.linalg.qr(rng.standard_normal((3, 3)))[0]
-    inertia = R @ np.diag(mass * 1e-3 * (0.5 + rng.random(3))) @ R.T
-    M_u = np.zeros((6, 6))
-    M_u[:3, :3] = mass * np.eye(3)
-    M_u[3:, 3:] = (inertia + inertia.T) / 2
-    lift = np.array([0, 0, rng.choice([0.0, 2e-4]), 0, 0, 0])
-    squeeze = rng.uniform(0, 2e-3)
-    target = np.append(lift + 1e-5 * rng.standard_normal(6), -squeeze)
-    side = _sides(grip, n_c)
-    n = np.zeros((n_c, 3))
-    at = np.zeros((n_c, 3))
-    for j in range(n_c):  # one contact after another, as their numbers are drawn
-        if side[j]:
-            n[j] = side[j] * X + 0.05 * rng.standard_normal(3)
-            at[j] = -0.03 * side[j] * X + 0.005 * rng.standard_normal(3)
-        else:
-            n[j], at[j] = Z, [*(0.04 * rng.standard_normal(2)), -0.04]
-        n[j] /= np.linalg.norm(n[j])
-    return _step(M_u, target, _contacts_of_side(rng, side, n, at))
-
-
-def aligned_grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
-    """A body whose principal axes are the world's.
+def grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
+    """A body turned at random, which a gripper and the floor touch.
 
     Parameters
     ----------
@@ -66,38 +34,35 @@ def aligned_grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
     Returns
     -------
     StepData
-        Of the size of those of :func:`grasp_step`.
+        SI units: a body of about 0.2 kg and 0.1 m, h = 0.01 s.
     """
     n_c = grip + floor
-    side = _sides(grip, n_c)
-    n = np.tile(Z, (n_c, 1))
-    n[:grip] = np.column_stack([side[:grip], 0.05 * rng.standard_normal((grip, 2))])
-    n /= np.linalg.norm(n, axis=1)[:, None]
-    at = 0.01 * rng.standard_normal((n_c, 3))
-    at[:grip, 0] -= 0.03 * side[:grip]
-    at[grip:, 2] -= 0.04
+    number = np.arange(n_c)
+    gripped = number < grip
+    side = np.where(gripped, np.where(number % 2, 1.0, -1.0), 0.0)  # which finger; 0 is the floor
     mass = 0.2 * (1 + rng.random())
-    M_u = np.diag([mass, mass, mass, 2e-4, 3e-4, 4e-4])
-    target = 1e-5 * rng.standard_normal(7)
-    target[[2, 6]] += rng.choice([0.0, 2e-4]), -rng.uniform(0, 2e-3)
-    return _step(M_u, target, _contacts_of_side(rng, side, n, at))
-
-
-def _sides(grip: int, n_c: int) -> Array:
-    """Which finger a contact is with, -1 or 1; 0 of the floor."""
-    j = np.arange(n_c)
-    return np.where(j < grip, np.where(j % 2, 1.0, -1.0), 0.0)
-
-
-def _contacts_of_side(rng: Rng, side: Array, n: Array, at: Array) -> Contacts:
-    """Contacts at points of the body, gaps and friction at random."""
-    n_c = len(n)
-    gripped = side != 0
+    R = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    inertia = R @ np.diag(mass * 1e-3 * (0.5 + rng.random(3))) @ R.T
+    M_u = np.zeros((6, 6))
+    M_u[:3, :3] = mass * np.eye(3)
+    M_u[3:, 3:] = (inertia + inertia.T) / 2
+    lift = np.array([0, 0, rng.choice([0.0, 2e-4]), 0, 0, 0])
+    squeeze = rng.uniform(0, 2e-3)
+    target = np.append(lift + 1e-5 * rng.standard_normal(6), -squeeze)
+    n = np.zeros((n_c, 3))
+    at = np.zeros((n_c, 3))
+    for j in range(n_c):  # one contact after another, as their numbers are drawn
+        if gripped[j]:
+            n[j] = side[j] * X + 0.05 * rng.standard_normal(3)
+            at[j] = -0.03 * side[j] * X + 0.005 * rng.standard_normal(3)
+        else:
+            n[j], at[j] = Z, [*(0.04 * rng.standard_normal(2)), -0.04]
+        n[j] /= np.linalg.norm(n[j])
     J = np.zeros((n_c, 4, 13))
     J[:, :, 7:] = point_jacobian(at, n)
     J[gripped, :, :6] = -J[gripped, :, 7:]
     J[:, 0, 6] = side / 2
-    return contacts_of(
+    contacts = contacts_of(
         phi=np.where(rng.random(n_c) < 0.5, 1e-6, 1e-4) * rng.standard_normal(n_c),
         frames=frames_about(n, -Y),
         J=J,
@@ -105,15 +70,12 @@ def _contacts_of_side(rng: Rng, side: Array, n: Array, at: Array) -> Contacts:
         mu_omega=rng.uniform(0.005, 0.02, n_c),
         rows=np.where(gripped, 6, 4),
     )
-
-
-def _step(M_u: Array, target: Array, contacts: Contacts) -> StepData:
     return StepData(
         h=0.01,
         K_q=np.diag(STIFFNESS),
         M_u=M_u,
         tau_a=np.zeros(7),
-        tau_u=-GRAVITY * M_u[2, 2] * np.eye(6)[2],
+        tau_u=-GRAVITY * mass * np.eye(6)[2],
         delta_q_bar_a=target,
         contacts=contacts,
     )

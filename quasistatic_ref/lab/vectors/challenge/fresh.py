@@ -14,7 +14,7 @@ from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_frames
 from quasistatic_ref.lab.scenes.at_random import random_step as random_program
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, repeated
-from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     few_digits,
     random_follower,
@@ -201,7 +201,7 @@ def _rows(rng: Rng, level: int) -> Json:
 
 def _qp(rng: Rng, level: int) -> Json:
     if level == HARD and rng.integers(4) == 0:
-        return _program(aligned_grasp_step(rng, grip=int(rng.integers(2, 6)), floor=2))
+        return _program(grasp_step(rng, grip=int(rng.integers(2, 6)), floor=2))
     n_a, n_u = (int(v) for v in rng.integers(0, 2 if level == EASY else 4, 2))
     n_u += n_a + n_u == 0
     if level == PLAIN and rng.integers(4) == 0:
