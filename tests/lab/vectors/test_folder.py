@@ -1,6 +1,5 @@
 """The committed vectors: valid, whole, what `generate` writes, and certified."""
 
-import hashlib
 import json
 import subprocess
 import sys
@@ -13,16 +12,19 @@ from quasistatic_ref import InputError, verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.files import line
-from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder
+from quasistatic_ref.lab.vectors.generate import expected_record, generate_folder, manifest_text
 from quasistatic_ref.lab.vectors.layers import COMPUTED, LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed_certificate, cone_step, step_of
+from quasistatic_ref.lab.vectors.versions import MANIFEST
 from tests.lab.vectors.committed_cases import (
     ROOT,
     VECTORS,
+    answer_file,
     by_size,
     cases,
     expected_of,
     inputs_file,
+    right_answers,
 )
 
 MEBIBYTES = 25
@@ -32,54 +34,39 @@ EVERY = {"distance": 24, "qp": 12, "step": 48}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 
-def schema(name):
-    return Draft202012Validator(
-        json.loads((VECTORS / "schemas" / f"{name}.schema.json").read_text())
-    )
+def violations(name, *values):
+    """What of some values is not as a schema says."""
+    schema = json.loads((VECTORS / "schemas" / f"{name}.schema.json").read_text())
+    Draft202012Validator.check_schema(schema)
+    validator = Draft202012Validator(schema)
+    return [error.message for value in values for error in validator.iter_errors(value)]
 
 
-@pytest.mark.parametrize("name", ["manifest", "inputs", "expected", "answers", *LAYERS])
-def test_every_schema_is_one(name):
-    Draft202012Validator.check_schema(schema(name).schema)
+def contents(folder):
+    """The bytes of every file of a folder, by its path inside."""
+    paths = [path for path in folder.rglob("*") if path.is_file()]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
 @pytest.mark.parametrize("layer", LAYERS)
-def test_every_file_is_as_its_schema_says(layer):
+def test_every_file_is_as_its_schema_says(layer, tmp_path):
     inputs = json.loads((VECTORS / "inputs" / f"{layer}.json").read_text())
     outputs = json.loads((VECTORS / "expected" / f"{layer}.json").read_text())
-    assert [e.message for e in schema("inputs").iter_errors(inputs)] == []
-    assert [e.message for e in schema("expected").iter_errors(outputs)] == []
+    answers = json.loads(answer_file(tmp_path, layer, right_answers(layer)).read_text())
+    assert violations("inputs", inputs) == []
+    assert violations("expected", outputs) == []
+    assert violations("answers", answers) == []
     pairs = zip(inputs["cases"], outputs["cases"], strict=True)
-    both = schema(layer)
-    wrong = [
-        (given["id"], error.message)
-        for given, record in pairs
-        for error in both.iter_errors({"input": given["input"], "output": record["output"]})
-    ]
-    assert wrong == []
+    both = [{"input": case["input"], "output": record["output"]} for case, record in pairs]
+    assert violations(layer, *both) == []
 
 
-def complaints(folder):
-    """What of a folder is not as its manifest says."""
-    found = []
-    for entry in json.loads((folder / "manifest.json").read_text())["files"]:
-        path = folder / entry["path"]
-        if not path.is_file():
-            found.append(f"{entry['path']} is missing")
-        elif hashlib.sha256(path.read_bytes()).hexdigest() != entry["sha256"]:
-            found.append(f"{entry['path']} is another file")
-    return found
-
-
-def test_the_manifest_names_every_file_by_its_content(tmp_path):
-    assert complaints(VECTORS) == []
-    manifest = json.loads((VECTORS / "manifest.json").read_text())
-    assert [e.message for e in schema("manifest").iter_errors(manifest)] == []
-    files = {p.relative_to(VECTORS).as_posix() for p in VECTORS.rglob("*") if p.is_file()}
-    assert {entry["path"] for entry in manifest["files"]} == files - {"manifest.json"}
-    assert manifest["cases"] == {layer: len(cases(layer)) for layer in LAYERS}
-    size = sum(p.stat().st_size for p in VECTORS.rglob("*") if p.is_file())
-    assert size < MEBIBYTES * 2**20
+def test_the_manifest_names_every_file_by_its_content():
+    files = contents(VECTORS)
+    text = files.pop(MANIFEST).decode()
+    assert text == manifest_text(files)
+    assert violations("manifest", json.loads(text)) == []
+    assert sum(map(len, files.values())) < MEBIBYTES * 2**20
 
 
 @pytest.mark.parametrize("layer", COMPUTED)
@@ -121,13 +108,10 @@ def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     counts = generate_folder(tmp_path / "a", tmp_path / "b", progress=False)
     assert counts == dict.fromkeys(LAYERS, 3)
     generate_folder(tmp_path / "a", tmp_path / "a", progress=False)
-    content = [
-        {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-        for folder in (tmp_path / "a", tmp_path / "b")
-    ]
-    assert content[0] == content[1]
-    assert len(content[0]) == 1 + 3 + 2 * len(LAYERS)
-    assert complaints(tmp_path / "b") == []
+    files = contents(tmp_path / "b")
+    assert contents(tmp_path / "a") == files
+    assert len(files) == 1 + 3 + 2 * len(LAYERS)
+    assert files.pop(MANIFEST).decode() == manifest_text(files)
 
 
 def test_outputs_are_computed_without_robotics_stack_backends_and_blas(tmp_path):

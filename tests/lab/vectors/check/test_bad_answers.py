@@ -94,17 +94,6 @@ def test_a_name_of_several_lines_is_said_on_one(folder):
     assert report["qp"].unasked.endswith(r"fields that are not looked at: a\nb")
 
 
-def test_contacts_that_differ_in_their_fields_are_a_failure(folder):
-    answers = right_answers("step")
-    name = next(n for n, output in answers.items() if len(output.get("contacts", ())) > 1)
-    first, second, *rest = answers[name]["contacts"]
-    second = {key: value for key, value in second.items() if key != "beta"}
-    contacts = [first, second, *rest]
-    answer_file(folder, "step", {name: {**answers[name], "contacts": contacts}})
-    report = by_layer(check_answers(folder, VECTORS, only=[name]))
-    assert report["step"].verdicts[0].reason == "contacts[1].beta is missing"
-
-
 def test_the_json_report_says_all_of_it(folder, cli):
     answers = right_answers("rows")
     name = next(name for name, output in answers.items() if output["b"])

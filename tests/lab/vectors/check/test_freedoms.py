@@ -1,7 +1,5 @@
 """Answers that differ and are right, and their neighbours that are not."""
 
-import copy
-
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict, verdict_to_digits
@@ -105,9 +103,6 @@ def test_a_contradiction_below_rounding_need_not_be_seen():
         ([2, 0], "passed"),
         ([2, 1], "failed"),
         ([0, 2], "failed"),  # not the nearest first
-        ([2, 2], "failed"),
-        ([2, 4], "failed"),
-        ([2, 9], "failed"),
         ([2, 0.5], "failed"),
         ([2], "failed"),
     ],
@@ -188,40 +183,26 @@ def test_near_a_unique_witness_there_is_no_other():
     assert case_verdict("distance", case, wanted, answer).verdict == "acceptable"
 
 
-def test_minus_q_is_q_but_minus_cos_sin_is_not():
-    for layer, field in (("integrate", "q"), ("step", "q_next")):
-        answers = right_answers(layer)
-        for case in cases(layer):
-            kinds = {b["name"]: b["joint"] for b in case.input["mechanism"]["bodies"]}
-            if set(kinds.values()) == {"floating"} and field in answers[case.id]:
-                answer = copy.deepcopy(answers[case.id])
-                answer[field][3:7] = [-x for x in answer[field][3:7]]
-                found = case_verdict(layer, case.input, expected_of(layer)[case.id], answer)
-                assert found.verdict == "acceptable"
-                assert found.digits > 15
-                break
-        else:
-            pytest.fail(f"no floating body in {layer}")
-    turning = next(
-        case
-        for case in cases("integrate")
-        if [b["joint"] for b in case.input["mechanism"]["bodies"]] == ["continuous"]
-    )
-    answer = {"q": [-x for x in right_answers("integrate")[turning.id]["q"]]}
-    found = case_verdict("integrate", turning.input, expected_of("integrate")[turning.id], answer)
-    assert found.verdict == "failed"
+def case_of_joints(layer, kind):
+    """The first case of a layer all of whose joints are of one kind."""
+    for case in cases(layer):
+        if {body["joint"] for body in case.input["mechanism"]["bodies"]} == {kind}:
+            return case
+    raise LookupError(kind)
 
 
-def test_a_certificate_may_be_given_and_has_to_hold():
-    layer = "qp"
-    name, wanted = next(
-        (name, wanted)
-        for name, wanted in expected_of(layer).items()
-        if wanted["output"].get("certificate", {}).get("working_set")
-        and len(wanted["output"]["lam"]) > 4
-    )
-    case = next(case for case in cases(layer) if case.id == name)
-    answer = copy.deepcopy(wanted["output"])
-    assert case_verdict(layer, case.input, wanted, answer).verdict == "passed"
-    answer["certificate"]["working_set"] = answer["certificate"]["working_set"][1:]
-    assert case_verdict(layer, case.input, wanted, answer).field == "certificate"
+@pytest.mark.parametrize(
+    ("layer", "field", "kind", "turn", "verdict"),
+    [
+        ("integrate", "q", "floating", slice(3, 7), "acceptable"),
+        ("step", "q_next", "floating", slice(3, 7), "acceptable"),
+        ("integrate", "q", "continuous", slice(0, 2), "failed"),
+    ],
+)
+def test_minus_q_is_q_but_minus_cos_sin_is_not(layer, field, kind, turn, verdict):
+    case = case_of_joints(layer, kind)
+    q = list(right_answers(layer)[case.id][field])
+    q[turn] = [-x for x in q[turn]]
+    answer = {**right_answers(layer)[case.id], field: q}
+    judged = case_verdict(layer, case.input, expected_of(layer)[case.id], answer)
+    assert judged.verdict == verdict

@@ -30,21 +30,19 @@ def test_the_package_undoes_its_own_step_to_the_last_digits():
         assert_within(back, step, 1e-14)
 
 
+DRIVE, FINGER = follower("prismatic")
+
+
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("bodies", "says"),
     [
-        ({"joint": "screw"}, r"bodies\[1\].joint: is not a kind of joint"),
-        ({"parent": "nobody"}, r"bodies\[1\].parent: must be a body before it"),
-        ({"joint": "continuous"}, "must follow a revolute or prismatic joint"),
-        ({"mimic": {"of": "finger"}}, "must follow a revolute or prismatic joint"),
+        ([DRIVE, FINGER | {"joint": "screw"}], r"bodies\[1\].joint: is not a kind of joint"),
+        ([DRIVE, FINGER | {"parent": "nobody"}], r"bodies\[1\].parent: must be a body before it"),
+        ([DRIVE, FINGER | {"joint": "continuous"}], "must follow a revolute or prismatic joint"),
+        ([DRIVE, FINGER | {"mimic": {"of": "finger"}}], "must follow a revolute or prismatic"),
+        ([free_body()], "q: must contain 7 numbers"),
     ],
 )
-def test_a_mechanism_that_cannot_be_is_refused(change, says):
-    drive, finger = follower("prismatic")
+def test_a_mechanism_that_cannot_be_and_a_q_of_another_length_are_refused(bodies, says):
     with pytest.raises(InputError, match=says):
-        exact_case({"mechanism": {"bodies": [drive, finger | change]}})
-
-
-def test_a_q_of_another_length_is_refused():
-    with pytest.raises(InputError, match="q: must contain 7 numbers"):
-        exact_case({"mechanism": {"bodies": [free_body()]}, "q": [0.0] * 6})
+        exact_case({"mechanism": {"bodies": bodies}, "q": [0.0] * 6})

@@ -20,18 +20,13 @@ NEXT = nextafter(1.0, 2.0)
 """1 + 2^-52."""
 
 
-def test_midpoints_between_two_floats_go_to_the_even_one():
+def test_midpoints_between_two_floats_go_to_the_even_one_but_for_a_hair():
     # 1 + 2^-53 lies between 1 (even) and 1 + 2^-52 (odd); 1 + 3 2^-53 between that and 1 + 2^-51.
     below = fmpq(1) + fmpq(1, 1 << 53)
     above = fmpq(1) + fmpq(3, 1 << 53)
-    values, _ = rounded_results(lambda: [below, above])
-    assert values == [1.0, nextafter(NEXT, 2.0)]
-
-
-def test_a_hair_beside_a_midpoint_decides():
     hair = fmpq(1, 10**60)
-    values, _ = rounded_results(lambda: [fmpq(1) + fmpq(1, 1 << 53) + s * hair for s in (-1, 1)])
-    assert values == [1.0, NEXT]
+    values, _ = rounded_results(lambda: [below, above, below - hair, below + hair])
+    assert values == [1.0, nextafter(NEXT, 2.0), 1.0, NEXT]
 
 
 def test_precision_is_raised_until_the_ball_decides():
