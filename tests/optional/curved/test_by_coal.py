@@ -6,9 +6,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Box, Cone, ContactError, Ellipsoid
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved import by_coal
 from quasistatic_ref.optional.curved.by_coal import coal_witness
+from quasistatic_ref.optional.curved.ways_out import REACH, rival_directions
 from tests.closeness import assert_relative, assert_within
 from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import COAL, CURVED_PAIR, ROUNDING
@@ -111,33 +113,23 @@ def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, 
     assert_within(refused.value.value["phi"], gap, 10 * COAL)
 
 
-@pytest.mark.parametrize("settle", [True, False])
-@pytest.mark.parametrize("gap", [0.0, -1e-4, -0.01])
-def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap, settle):
-    # At no accuracy; the direction that is tried then is x.
-    without_normals(monkeypatch, len(by_coal.ACCURACIES), phi=gap)
-    if not settle:
-        monkeypatch.setattr(by_coal, "settled", lambda *_: iter(()))
-    found = coal_witness("p", *tips(gap))
-    assert_within(found.phi, gap, CURVED_PAIR)
-    assert_within(found.n, X, CURVED_PAIR)
-
-
 BOX = Box((0.1, 0.12, 0.14))
 GRAIN = Ellipsoid((0.02, 0.021, 0.022))
 
 
+@pytest.mark.parametrize("swapped", [True, False])
 @pytest.mark.parametrize(("y", "ways"), [(0.1, [1]), (-0.1, [-1]), (0.0, [-1, 1])])
-def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y, ways):
+def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y, ways, swapped):
     """A face of the box is 0.12 - |y| away, and the grain reaches 0.021 behind; or 0.1 and 0.02."""
     without_normals(monkeypatch, len(by_coal.ACCURACIES))  # the direction that is tried then is x
     way = 1 if y else 0
     phi = abs(y) - 0.12 - 0.021 if y else -0.1 - 0.02
-    here = ShapeInWorld(BOX, np.eye(3), np.zeros(3))
-    found = coal_witness("p", here, ShapeInWorld(GRAIN, np.eye(3), np.array([0.0, y, 0.0])))
+    box = ShapeInWorld(BOX, np.eye(3), np.zeros(3))
+    grain = ShapeInWorld(GRAIN, np.eye(3), np.array([0.0, y, 0.0]))
+    found = coal_witness("p", *((grain, box) if swapped else (box, grain)))
     assert_within(found.phi, phi, CURVED_PAIR)
     assert_within(abs(found.n), np.eye(3)[way], CURVED_PAIR)
-    assert np.sign(found.n[way]) in ways
+    assert np.sign(found.n[way]) * (-1 if swapped else 1) in ways
 
 
 def test_a_deep_way_out_that_settles_slowly_is_found():
@@ -149,3 +141,13 @@ def test_a_deep_way_out_that_settles_slowly_is_found():
     found = coal_witness("p", here, ShapeInWorld(Ellipsoid(half), S, t))
     expected = (t - half - np.linalg.norm(S * half, axis=1)).max()
     assert_within(found.phi, expected, CURVED_PAIR)
+
+
+def test_a_smooth_way_out_between_all_axes_is_near_a_sample():
+    """Discs tilted by 0.35 and -0.35 about x: the sum of their reaches is least along z and -z."""
+    tilted = [Rotation.from_rotvec([angle, 0, 0]).as_matrix() for angle in (0.35, -0.35)]
+    disc = Ellipsoid((0.1, 0.1, 0.05))
+    a, b = (ShapeInWorld(disc, tilt, np.zeros(3)) for tilt in tilted)
+    z = np.array([0.0, 0.0, 1.0])
+    (found,) = rival_directions(a, b, z, float(gaps(a, b, z[None])[0]), 0.05)
+    assert found @ -z > np.cos(REACH)

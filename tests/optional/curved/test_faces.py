@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Box, Cone, Cylinder
+from quasistatic_ref import Box, Cylinder
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved.faces import curvature, face, kinks
 from tests.closeness import assert_relative, assert_within
@@ -66,17 +66,6 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name):
                 found.radius * np.linalg.norm(across)
             )
     assert wide
-
-
-@pytest.mark.parametrize("end", [1.0, -1.0])
-def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end):
-    way = np.array([0.0, 0.0, end])
-    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), way)
-    assert cap.radius == 0.1
-    np.testing.assert_array_equal(cap.corners, [0.25 * way])
-    base = face(ShapeInWorld(Cone(0.1, 0.25), *HERE), way)
-    assert base.radius == (0.1 if end < 0 else 0.0)
-    np.testing.assert_array_equal(base.corners, [0.25 * way])
 
 
 def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face():
