@@ -105,10 +105,7 @@ class TableReader:
             raise self.error_about(field, "must be a finite number", value)
         if above is not None and not number > above:
             raise self.error_about(field, f"must be greater than {above:g}", value)
-        if least is not None and not number >= least:
-            raise self.error_about(field, f"must be at least {least:g}", value)
-        if most is not None and not number <= most:
-            raise self.error_about(field, f"must be at most {most:g}", value)
+        self._check_bounds(field, value, least, most)
         return number
 
     def integer(
@@ -126,11 +123,16 @@ class TableReader:
             return value
         if choices is not None and value not in choices:
             raise self.error_about(field, f"must be {' or '.join(map(str, choices))}", value)
-        if least is not None and value < least:
-            raise self.error_about(field, f"must be at least {least}", value)
-        if most is not None and value > most:
-            raise self.error_about(field, f"must be at most {most}", value)
+        self._check_bounds(field, value, least, most)
         return value
+
+    def _check_bounds(
+        self, field: str, value: float, least: float | None, most: float | None
+    ) -> None:
+        if least is not None and value < least:
+            raise self.error_about(field, f"must be at least {least:.9g}", value)
+        if most is not None and value > most:
+            raise self.error_about(field, f"must be at most {most:.9g}", value)
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
         """Return true or false."""

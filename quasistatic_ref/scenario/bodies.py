@@ -97,10 +97,6 @@ def body_entry(
         raise table.error_about("urdf", "is missing")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
-    if actuated != "all":
-        if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
-            raise table.error_about("actuated", 'must be a list of joint names, or "all"', actuated)
-        actuated = tuple(actuated)
     xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names_left()}
@@ -115,8 +111,9 @@ def body_entry(
     try:
         body = Body(name, urdf, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:
-        if error.field == f"{name}.rpy":
-            error.field = table.name("pose.rpy")
+        places = {f"{name}.rpy": "pose.rpy", f"{name}.actuated": "actuated"}
+        if error.field in places:
+            error.field = table.name(places[error.field])
         raise
     entry = BodyEntry(
         body=body,
@@ -213,13 +210,12 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
 
 def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array:
     n = joint.v.stop - joint.v.start
-    stiffness = stiffnesses.take(name)
-    wrapped = TableReader({name: stiffness}, stiffnesses.where, ScenarioError)
+    stiffness = stiffnesses.peek(name)
     if not isinstance(stiffness, list):
-        return wrapped.number(name, above=0.0) * np.eye(n)
+        return stiffnesses.number(name, above=0.0) * np.eye(n)
     if stiffness and isinstance(stiffness[0], list):
-        return wrapped.array(name, (n, n))
-    diagonal = wrapped.array(name, (n,))
+        return stiffnesses.array(name, (n, n))
+    diagonal = stiffnesses.array(name, (n,))
     if not (diagonal > 0).all():
         raise stiffnesses.error_about(name, "must be greater than 0 in every entry", stiffness)
     return np.diag(diagonal)

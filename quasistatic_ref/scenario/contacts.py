@@ -7,7 +7,6 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -123,12 +122,8 @@ def contact_pairs(
         if rows == 4 and mu_omega > 0:
             problem = "has no effect with rows = 4; set rows = 6, or remove it"
             raise table.error_about("mu_omega", problem, mu_omega)
-        k = value(table, CONTACT, "k")
-        within = _within(k, table.name("k"))
-        if within is None:
-            k = TableReader({"k": k}, table.where, ScenarioError).integer("k", least=1)
-        else:
-            k = 1
+        within = _within(table)
+        k = table.integer("k", 1, least=1) if within is None else 1
         hull = value(table, CONTACT, "hull")
         count = len(pairs) + len(sides[0]) * len(sides[1])
         if count > MOST_PAIRS:
@@ -147,11 +142,11 @@ def contact_pairs(
     return tuple(pairs)
 
 
-def _within(k: Any, where: str) -> float | None:
-    """The distance [m] of a k such as ``{ within = "5 mm" }``; None of anything but a table."""
-    if not isinstance(k, dict):
+def _within(contact: TableReader) -> float | None:
+    """The distance [m] of a k such as ``{ within = "5 mm" }``; None where k is no table."""
+    if not isinstance(contact.peek("k"), dict):
         return None
-    table = TableReader(k, where, ScenarioError)
+    table = contact.table("k")
     check_names(table, WITHIN)
     text = table.take("within")
     length = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")

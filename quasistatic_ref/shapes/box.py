@@ -56,11 +56,6 @@ class Box(Rounded):
     def _reach(self) -> Array:
         return np.tile(self.half_extents, 2)
 
-    @property
-    def corner_count(self) -> int:
-        """Number of corners."""
-        return 8
-
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""
         return self._vertices, 0.0

@@ -33,11 +33,6 @@ class Capsule(Revolved, Rounded):
         """Its segment, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, self.half_length]), self.radius
 
-    @property
-    def corner_count(self) -> int:
-        """Number of corners."""
-        return 2
-
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Centres of its caps, shape (2, 3) [m], and its radius, whichever way `towards` [-] is."""
         return np.array([[0, 0, -self.half_length], [0, 0, self.half_length]]), self.radius

@@ -45,8 +45,7 @@ class Cone(Revolved):
         rim = np.array([radius, -half_length])
         tip = np.array([0.0, half_length])
         slant = norm(tip - rim)
-        side = _side(radius, half_length)
-        above_side, above_base = _heights(p, radius, half_length)
+        above_side, above_base = self._heights(p)
         along = (tip - rim) / slant
         s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
         on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
@@ -57,7 +56,7 @@ class Cone(Revolved):
         nearest = np.where(side_nearest[:, None], on_side, on_base)
         away = p - nearest
         distance = norm(away)
-        flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
+        flat = np.where((above_side >= above_base)[:, None], self._side, np.array([0.0, -1.0]))
         level = np.maximum(above_side, above_base)
         # Inside, and wherever a face is the closest feature, its normal; else that of an edge or
         # tip. By where the closest point is, not by its distance: next to the surface that is all
@@ -71,13 +70,24 @@ class Cone(Revolved):
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the side and the base."""
         p, outward = _half_plane(points)
-        heights = np.stack(_heights(p, self.radius, self.half_length), axis=1)
-        side = _side(self.radius, self.half_length)
+        heights = np.stack(self._heights(p), axis=1)
         normals = np.zeros((len(points), 2, 3))
-        normals[:, 0, :2] = side[0] * outward
-        normals[:, 0, 2] = side[1]
+        normals[:, 0, :2] = self._side[0] * outward
+        normals[:, 0, 2] = self._side[1]
         normals[:, 1, 2] = -1.0
         return heights, normals
+
+    @cached_property
+    def _side(self) -> Array:
+        """Outward normal of the edge rim - tip, shape (2,)."""
+        side = np.array([2 * self.half_length, self.radius])
+        return np.asarray(side / norm(side))
+
+    def _heights(self, p: Array) -> tuple[Array, Array]:
+        """Heights of points (r, z) above the side and above the base."""
+        beyond = p[:, 0] - self.radius
+        above_side = beyond * self._side[0] + (p[:, 1] + self.half_length) * self._side[1]
+        return above_side, -self.half_length - p[:, 1]
 
     def support_point(self, direction: Array) -> Array:
         """The tip or a point of the rim, by the `direction`; both of shape (3,), [m] and [-]."""
@@ -92,11 +102,6 @@ class Cone(Revolved):
         tip = self.half_length * axial
         return np.maximum(tip, self.radius * radial - tip)
 
-    @property
-    def corner_count(self) -> int:
-        """Number of corners."""
-        return 5
-
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
         tip = np.array([[0, 0, self.half_length]])
@@ -110,16 +115,3 @@ def _half_plane(points: Array) -> tuple[Array, Array]:
     outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
     outward[degenerate] = (1.0, 0.0)
     return np.stack([r, points[:, 2]], axis=1), outward
-
-
-def _side(radius: float, half_length: float) -> Array:
-    """Outward normal of the edge rim - tip."""
-    side = np.array([2 * half_length, radius])
-    return np.asarray(side / norm(side))
-
-
-def _heights(p: Array, radius: float, half_length: float) -> tuple[Array, Array]:
-    """Heights above the side and above the base."""
-    side = _side(radius, half_length)
-    above_side = (p[:, 0] - radius) * side[0] + (p[:, 1] + half_length) * side[1]
-    return above_side, -half_length - p[:, 1]

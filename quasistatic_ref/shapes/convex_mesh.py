@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
@@ -95,11 +95,6 @@ class ConvexMesh(Shape):
         """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
         return np.asarray(product(directions, self.vertices.T).max(axis=1))
 
-    @property
-    def corner_count(self) -> int:
-        """Number of corners."""
-        return len(self.vertices)
-
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
         return self.vertices, 0.0
@@ -116,15 +111,13 @@ class ConvexMesh(Shape):
         return f"{what}, {len(self.vertices)} corners within {extent}"
 
 
-def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
+def convex_hull(points: ArrayLike) -> ConvexMesh:
     """Convex hull of some points.
 
     Parameters
     ----------
     points : array_like, shape (N, 3)
         At least four, not in one plane [m]; corners keep their order, the others are dropped.
-    excess : float
-        See :class:`~quasistatic_ref.shapes.convex_mesh.ConvexMesh` [-].
 
     Raises
     ------
@@ -161,7 +154,7 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     a, b, c = vertices[triangles].transpose(1, 0, 2)
     inward = np.sum(np.cross(b - a, c - a) * normals, axis=1) < 0
     triangles[inward] = triangles[inward][:, ::-1]
-    return ConvexMesh(vertices, triangles, normals, offsets, float(hull.volume), excess)
+    return ConvexMesh(vertices, triangles, normals, offsets, float(hull.volume))
 
 
 def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
@@ -191,7 +184,7 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     excess = abs(hull.volume - enclosed) / hull.volume
     if excess <= CONVEX_EXCESS:
         excess = max(excess, _deepest(hull, every) / float(np.ptp(every, axis=0).max()))
-    return convex_hull(every, min(excess, 1.0))
+    return replace(hull, excess=min(excess, 1.0))
 
 
 def _deepest(hull: ConvexMesh, points: Array) -> float:

@@ -75,11 +75,6 @@ class Cylinder(Revolved):
         axial = directions[:, 2]
         return self.radius * radial + self.half_length * np.abs(axial)
 
-    @property
-    def corner_count(self) -> int:
-        """Number of corners."""
-        return 8
-
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)

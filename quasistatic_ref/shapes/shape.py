@@ -131,10 +131,10 @@ class Shape(Plain):
         """Radius of the rims about z that have corners [m]; None where there are none."""
         return None
 
-    @property
+    @cached_property
     def corner_count(self) -> int:
         """Number of corners, which does not depend on the direction."""
-        return 0
+        return len(self.corners(AXES[0])[0])
 
     @property
     def edge_count(self) -> int:

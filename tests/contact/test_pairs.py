@@ -1,5 +1,7 @@
 """What may touch what: refusals, and how many contacts a pair makes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -50,7 +52,7 @@ def test_two_solids_make_k_contacts_or_as_many_as_they_have_candidates():
 
 
 def test_a_mesh_that_is_not_convex_is_refused_unless_its_hull_will_do():
-    dented = convex_hull(np.eye(4)[:, :3], excess=0.2)
+    dented = replace(convex_hull(np.eye(4)[:, :3]), excess=0.2)
     with pytest.raises(ContactError, match=r"the mesh of b is not convex: .* 20 % more; say hull"):
         pair(FLOOR, dented)
     assert pair(FLOOR, dented, k=5, hull=True).n_c == 5

@@ -23,7 +23,6 @@ EXCEPTIONS = {
     ),
     "files, read and checked before a run": (
         "model/urdf/urdf_file.py",
-        "model/urdf/urdf_inertia.py",
         "model/urdf/urdf_tree.py",
     ),
     "angles by balls of flint, rounded correctly": ("model/angles.py:angle_of",),

@@ -254,10 +254,10 @@ def _check_poses(file: UrdfFile, model: pin.Model) -> None:
 
 
 def _check_inertias(file: UrdfFile, model: pin.Model) -> None:
-    """Compare the spatial inertia of each rigid group, about the frame of its first link."""
-    for first, written in group_inertias(file).items():
-        joint = model.frames[body_frame(model, first)].parentJoint
-        loaded = model.inertias[joint].matrix()
+    """Compare the inertia of each rigid group."""
+    for first, inertia in group_inertias(file).items():
+        written = inertia.matrix()
+        loaded = model.inertias[model.frames[body_frame(model, first)].parentJoint].matrix()
         if np.abs(written - loaded).max() > LOADED * np.abs(written).max():
             problem = f"mass, centre or inertia was not loaded as written ({loaded[0, 0]:g} kg)"
             raise ModelError(problem, field=f"link[{first}].inertial", value=float(written[0, 0]))

@@ -11,7 +11,6 @@ M_u is definite depends on the axes of these joints, and is found from M_u itsel
 
 from collections.abc import Collection, Mapping, Sequence
 
-import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
@@ -21,28 +20,15 @@ from quasistatic_ref.model.urdf.urdf_file import (
     UrdfFile,
     inertia_defect,
 )
-from quasistatic_ref.model.urdf.urdf_tree import Pose, link_poses, rigid_groups
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.model.urdf.urdf_tree import link_poses
 
 
-def group_inertias(file: UrdfFile) -> dict[str, Array]:
-    """Spatial inertia (6, 6) of each rigid group as written, about the frame of its first link."""
-    group = rigid_groups(file.root, file.joints)
-    zero = {joint.name: 0.0 for joint in file.joints}
-    poses = {
-        name: pin.SE3(*pose) for name, pose in link_poses(file.root, file.joints, zero).items()
+def group_inertias(file: UrdfFile) -> dict[str, pin.Inertia]:
+    """Inertia of each rigid group as written, in the frame of its first link."""
+    poses = _poses(file)
+    return {
+        first: poses[first].actInv(_welded(links, poses)) for first, links in _groups(file).items()
     }
-    total = {first: np.zeros((6, 6)) for first in dict.fromkeys(group.values())}
-    for link, first in group.items():
-        m = file.links[link].mass
-        c = pin.skew(file.links[link].com)
-        about_com = file.links[link].inertia
-        # About the link's frame, linear part first.
-        inertia = np.block([[m * np.eye(3), -m * c], [m * c, about_com - m * c @ c]])
-        # As a congruence, not through pinocchio's Inertia: that would divide by a mass of zero.
-        X = poses[first].actInv(poses[link]).toActionMatrixInverse()
-        total[first] += X.T @ inertia @ X
-    return total
 
 
 def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> tuple[str, ...]:
@@ -61,37 +47,62 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     ModelError
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
-    group = rigid_groups(file.root, file.joints)
+    poses = _poses(file)
     mover = _movers(file, unactuated, base)
     loaded = _loaded(file)
     notes = []
-    poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
-    for first in dict.fromkeys(group.values()):
-        links = [link for link in group if group[link] == first]
-        welded = [file.links[link] for link in links]
-        defects = [(link.name, link.defect) for link in welded]
+    for first, links in _groups(file).items():
+        defects = [(link.name, link.defect) for link in links if link.defect is not None]
         connects = first in loaded and not any(
-            link.mass or link.defect or link.collisions for link in welded
+            link.mass or link.defect or link.collisions for link in links
         )
         if mover[first] is not None and not connects:
-            composite = _composite(file, links, poses)
-            if not composite.mass > 0 and defects[0][1] is None:
+            heavy = [link for link in links if link.mass]
+            if not heavy and links[0].defect is None:
                 problem = (
                     f"is missing, but {mover[first]} moves this link: it needs a mass, or an "
                     "actuator at that joint (actuated)"
                 )
                 raise ModelError(problem, field=f"link[{first}].inertial")
-            defect = inertia_defect(composite.inertia, max(link.digit for link in welded))
+            defect = inertia_defect(_welded(heavy, poses).inertia, max(x.digit for x in links))
             if defect is not None:
-                faulty = [(name, of_link) for name, of_link in defects if of_link is not None]
-                name, (field, problem, value) = faulty[0] if faulty else (first, defect)
+                name, (field, problem, value) = defects[0] if defects else (first, defect)
                 raise ModelError(problem, field=f"link[{name}].inertial.{field}", value=value)
         notes += [
-            f"link[{name}].inertial.{of_link[0]}: {of_link[1]}; {_accepted(of_link, mover[first])}"
-            for name, of_link in defects
-            if of_link
+            f"link[{name}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover[first])}"
+            for name, defect in defects
         ]
     return tuple(notes)
+
+
+def _poses(file: UrdfFile) -> dict[str, pin.SE3]:
+    """Where each link is at position zero, in the frame of the root link."""
+    zero = {joint.name: 0.0 for joint in file.joints}
+    poses = link_poses(file.root, file.joints, zero)
+    return {name: pin.SE3(*pose) for name, pose in poses.items()}
+
+
+def _groups(file: UrdfFile) -> dict[str, list[FileLink]]:
+    """The links of each rigid group, by the name of its first."""
+    first = {file.root: file.root}
+    groups = {file.root: [file.links[file.root]]}
+    for joint in file.joints:  # parents before children
+        name = first[joint.parent] if joint.kind == "fixed" else joint.child
+        first[joint.child] = name
+        groups.setdefault(name, []).append(file.links[joint.child])
+    return groups
+
+
+def _welded(links: Sequence[FileLink], poses: Mapping[str, pin.SE3]) -> pin.Inertia:
+    """Links as one body, in the frame of the root link."""
+    total = pin.Inertia.Zero()
+    for link in links:
+        inertia = pin.Inertia.Zero()  # with numbers, its constructor refuses what no body has
+        inertia.mass = link.mass
+        inertia.lever = link.com
+        inertia.inertia = link.inertia
+        total += poses[link.name].act(inertia)
+    return total
 
 
 def _loaded(file: UrdfFile) -> set[str]:
@@ -121,19 +132,3 @@ def _movers(file: UrdfFile, unactuated: Collection[str], base: str) -> dict[str,
         label = f"joint {joint.name!r}" if joint.kind != "fixed" and source in unactuated else None
         mover[joint.child] = label or mover[joint.parent]
     return mover
-
-
-def _composite(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> FileLink:
-    """Links welded together as one, in the frame of the root link."""
-    parts = [(file.links[link], *poses[link]) for link in links if file.links[link].mass]
-    mass = sum(link.mass for link, _, _ in parts)
-    if not parts:
-        return FileLink("", 0.0, np.zeros(3), np.zeros((3, 3)), ())
-    centres = [R @ link.com + t for link, R, t in parts]
-    com = sum((link.mass * c for (link, _, _), c in zip(parts, centres, strict=True)), np.zeros(3))
-    com = com / mass
-    inertia = np.zeros((3, 3))
-    for (link, R, _), centre in zip(parts, centres, strict=True):
-        d = centre - com
-        inertia += R @ link.inertia @ R.T + link.mass * (d @ d * np.eye(3) - np.outer(d, d))
-    return FileLink("", mass, com, inertia, ())

@@ -211,11 +211,3 @@ def turn(axis: Array, angle: float) -> Array:
     cross = np.cross(axis, np.eye(3)).T  # [axis x]
     R: Array = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
     return R
-
-
-def rigid_groups(root: str, joints: Sequence[FileJoint]) -> dict[str, str]:
-    """For every link, the first link of the group that fixed joints weld it to."""
-    group = {root: root}
-    for joint in joints:
-        group[joint.child] = group[joint.parent] if joint.kind == "fixed" else joint.child
-    return group
