@@ -5,8 +5,6 @@ them. Both are done together, q exp6(delta_q), so that "ahead" turns with the bo
 theta a step ahead of d has led to d sin(theta) / theta and d (1 - cos(theta)) / theta.
 """
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.lab.figures.labels import label_axes
@@ -53,19 +51,17 @@ def main() -> dict[str, float]:
     }
 
 
-def figure(ax: Any = None, *, ahead: float = AHEAD, turn: float = TURN, count: int = 6) -> Figure:
+def figure(*, ahead: float = AHEAD, turn: float = TURN, count: int = 6) -> Figure:
     """The body along its screw; dotted, straight on and then turned.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     ahead, turn : float
         [m], [deg].
     count : int
         Poses that are drawn.
     """
-    page, (axes,) = panels(4.6, 3.4, within=ax)
+    page, (axes,) = panels(4.6, 3.4)
     R, t = poses(ahead, turn, count)
     outline = 0.01 * CORNERS
     for k, (R_k, t_k) in enumerate(zip(R, t, strict=True)):

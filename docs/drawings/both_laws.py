@@ -80,17 +80,15 @@ def push(law: str) -> tuple[Pair, Array]:
     return pair, np.array([pushes.before[PUSH], pushes.after[PUSH], found])
 
 
-def figure(ax: Any = None, *, h: float = H) -> Figure:
+def figure(*, h: float = H) -> Figure:
     """Slip and turn of one step against the load; the grasp in time; the push from above.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     h : float
         [s].
     """
-    page, axes = panels(6.3, 5.2, columns=2, rows=2, within=ax)
+    page, axes = panels(6.3, 5.2, columns=2, rows=2)
     beyond = h**2 * GRAVITY * np.maximum(LOADS - 1, 0)
     scenes = (
         (block, 0, MU_V, r"push / ($\mu_v m g$) [-]", "slip [mm]"),

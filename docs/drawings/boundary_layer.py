@@ -9,7 +9,6 @@ layer.
 
 from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -82,15 +81,13 @@ def main() -> dict[str, float]:
 
 
 def figure(
-    ax: Any = None, *, mu_omega: float = MU_OMEGA, h: float = H,
+    *, mu_omega: float = MU_OMEGA, h: float = H,
     sizes: Sequence[float] = TIME_STEPS, share: float = SHARE,
 ) -> Figure:  # fmt: skip
     """Lift-off against the torque, and the layer against the time step by both laws.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     mu_omega, h : float
         Of the sphere whose torque grows [m], [s].
     sizes : sequence of float
@@ -101,4 +98,4 @@ def figure(
     run, torque = run_and_torques(mu_omega, h)
     picture = {"torque": torque, "lift": run["q"][1:, 2] - RADIUS, "h": h, "sizes": np.array(sizes),
                "limit": mu_omega * M * GRAVITY}  # fmt: skip
-    return PICTURES["boundary_layer"](picture | layers(tuple(sizes), share), ax)
+    return PICTURES["boundary_layer"](picture | layers(tuple(sizes), share))

@@ -6,7 +6,6 @@ its limit whatever the tangential force. Their volumes compare how much they hol
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -23,14 +22,12 @@ def main() -> dict[str, float]:
     return {f"volume of the {name} [-]": volume for name, volume in volumes.items()}
 
 
-def figure(ax: Any = None, *, cones: Sequence[str] = SHOWN) -> Figure:
+def figure(*, cones: Sequence[str] = SHOWN) -> Figure:
     """The surfaces of some cones, side by side.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     cones : sequence of str
         As ``cone`` of a step.
     """
-    return limit_surfaces(cones, within=ax)
+    return limit_surfaces(cones)

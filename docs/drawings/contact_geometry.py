@@ -34,10 +34,10 @@ def arrow(axes, start, way, name, colour, offset):
     axes.text(*(tip + offset), name, color=colour, ha="center", va="center")
 
 
-def figure(ax=None, *, gap=10.0):
+def figure(*, gap=10.0):
     """A panel for each sign of phi, whose size is the gap [mm]."""
     gaps = {"apart": gap, "overlapping": -gap}
-    made, row = panels(6.3, 3.6, columns=len(gaps), within=ax, sharey=True)
+    made, row = panels(6.3, 3.6, columns=len(gaps), sharey=True)
     turn = -np.degrees(ANGLE)
     for axes, (name, phi) in zip(row, gaps.items(), strict=True):
         alpha, beta = points(phi)

@@ -59,10 +59,10 @@ def main(pushes=PUSHES):
     return np.array([[a.wrench[:, 0].sum(), *a.wrench[:, 2]] for a in answers])
 
 
-def figure(ax=None, *, pushes=PUSHES):
+def figure(*, pushes=PUSHES):
     """One panel a push: the block, its weight, the push and the forces of the table."""
     mm_per_newton = 8
-    made, row = panels(6.3, 3.0, columns=len(pushes), within=ax, narrow=12, sharey=True)
+    made, row = panels(6.3, 3.0, columns=len(pushes), sharey=True)
     styles = {
         "weight": {"color": "0.3", "linewidth": scaled(1.6)},
         "push": {"color": "#D55E00", "linewidth": scaled(1.6), "linestyle": (0, (3, 1))},

@@ -58,19 +58,17 @@ def main() -> dict[str, float]:
 
 
 def figure(
-    ax: Any = None, *, K_q: float = K_Q, m: float = M, h: float = H, target: float = TARGET,
+    *, K_q: float = K_Q, m: float = M, h: float = H, target: float = TARGET,
     phi: float = GAP,
 ) -> Figure:  # fmt: skip
     """The scene; and the plane of both unknowns: level lines, the row, both minimisers.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     K_q, m, h, target, phi : float
         Those of :func:`finger_and_block` [N/m], [kg], [s], [m], [m].
     """
-    page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 3.2, columns=2)
     gap = 1e3 * phi
     free = 1e3 * target
     answer = 1e3 * solve_step(finger_and_block(K_q, m, h, target, phi)).delta_q

@@ -9,7 +9,6 @@ sides 1 / sqrt(2). In the ellipsoid tangents do not matter.
 
 from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -96,19 +95,17 @@ def main() -> dict[str, float]:
     return found | {"the same [-]": 1.0}
 
 
-def figure(ax: Any = None, *, angles: Sequence[float] = ANGLES, mu_v: float = MU_V) -> Figure:
+def figure(*, angles: Sequence[float] = ANGLES, mu_v: float = MU_V) -> Figure:
     """What the patch holds against the angle of its tangents: formulas, and steps as marks.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     angles : sequence of float
         At which steps are tried [deg].
     mu_v : float
         [-].
     """
-    page, (axes,) = panels(4.6, 2.8, within=ax)
+    page, (axes,) = panels(4.6, 2.8)
     dense = np.radians(np.linspace(0, 90, 181))
     laws = np.maximum(np.cos(dense), np.sin(dense)), np.ones_like(dense)
     for cone, law, mark in zip(CONES, laws, "os", strict=True):

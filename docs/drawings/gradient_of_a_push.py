@@ -65,17 +65,15 @@ def curve(sides: Array, ahead: float = AHEAD) -> Array:
     return np.array(ends)
 
 
-def figure(ax: Any = None, *, ahead: float = AHEAD) -> Figure:
+def figure(*, ahead: float = AHEAD) -> Figure:
     """Where the ball goes against where the finger stands, with tangents.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     ahead : float
         How far the finger's target is ahead of it [m].
     """
-    page, (left, right) = panels(6.3, 2.8, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 2.8, columns=2)
     for side, style in ((SIDES[0], "-"), (SIDES[-1], "--")):
         at = np.array([X, side])
         end = -0.6 * RADIUS * at / np.hypot(*at)

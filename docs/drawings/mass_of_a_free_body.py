@@ -6,8 +6,6 @@ about the origin. Together they make a body fall without turning; without the co
 turn, (R3).
 """
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.lab.figures.labels import caption, label_axes
@@ -134,17 +132,15 @@ def main() -> dict[str, float]:
     }  # fmt: skip
 
 
-def figure(ax: Any = None, *, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figure:
+def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figure:
     """Origin, centre of mass and weight; and the rod's fall, with the coupling and without.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     length, tilt, h : float
         Of the rod [m]; of its start [deg]; [s].
     """
-    page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 3.2, columns=2)
     system, q, c, _ = rod(length, tilt)
     R = system.kinematics(q).R[system.link("rod")]
     ends = 1e3 * np.array([np.zeros(3), R @ (2 * c)])

@@ -7,7 +7,6 @@ CVXPY's own ``solve`` gets the paper's program in SI units, and ends "optimal".
 import warnings
 from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -54,18 +53,14 @@ def errors(scene: str, solver: str) -> tuple[float, float]:
     return in_metres, error(step, page.solve(solver))
 
 
-def figure(
-    ax: Any = None, *, scenes: Sequence[str] = SCENES, solvers: Sequence[str] = SOLVERS
-) -> Figure:
+def figure(*, scenes: Sequence[str] = SCENES, solvers: Sequence[str] = SOLVERS) -> Figure:
     """Errors of each solver, on a step of each scene.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     scenes, solvers : sequence of str
     """
-    page, (axes,) = panels(4.4, 3.9, within=ax)
+    page, (axes,) = panels(4.4, 3.9)
     x = np.arange(len(solvers))
     for j, scene in enumerate(scenes):
         each = np.maximum([errors(scene, solver) for solver in solvers], LEAST)

@@ -97,19 +97,17 @@ def main() -> dict[str, float]:
     }
 
 
-def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
+def figure(*, tilt: float = TILT, k: int = K) -> Figure:
     """The cloud, phi of all and the k contacts with the motion of a turn; the prediction's error.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     tilt : float
         [deg].
     k : int
         Points that become contacts.
     """
-    page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 3.0, columns=2)
     system, pair, q = tilted_scene(tilt, k)
     points, found = geometry(system, pair, q)
     x, _, z = 1e3 * points_at(system, q).T

@@ -64,21 +64,19 @@ def main() -> dict[str, float]:
 
 
 def figure(
-    ax: Any = None, *, m: float = M, mu_v: float = MU_V, mu_omega: float = MU_OMEGA,
+    *, m: float = M, mu_v: float = MU_V, mu_omega: float = MU_OMEGA,
     levers: int = 5,
 ) -> Figure:  # fmt: skip
     """The least squeeze against the lever, in three cones: formulas, and steps as marks.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     m, mu_v, mu_omega : float
         [kg], [-], [m].
     levers : int
         Number of levers at which steps are tried.
     """
-    page, (axes,) = panels(4.8, 3.4, within=ax)
+    page, (axes,) = panels(4.8, 3.4)
     numbers = m, mu_v, mu_omega
     longest = 1.5 * mu_omega / mu_v
     dense = np.linspace(0.0, longest, 400)

@@ -84,9 +84,9 @@ def planned_push(start: tuple[float, float, float], mu_omega: float) -> Push:
         return Push(np.array(run), certified, misses, np.asarray(miss(run[-1])))
 
 
-def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> Figure:
+def figure(*, start: tuple[float, float, float] = STARTS[0]) -> Figure:
     """Both pushes from `start` [m, rad], from above, and how far the descent was from the goal."""
-    page, grid = panels(6.3, 3.0, columns=3, within=ax)
+    page, grid = panels(6.3, 3.0, columns=3)
     for axes, (name, mu_omega), style in zip(grid, SUPPORTS.items(), ("-", "--"), strict=False):
         push = planned_push(start, mu_omega)
         _block(axes, push.q[0], "--", "black", "start")

@@ -46,9 +46,9 @@ def drawn(axes, k):
     label_axes(axes, "x [mm]", "", f"{push:g} N, step {k}, gap {1e3 * gap:.0f} µm", key=False)
 
 
-def figure(ax=None, *, larger=6.0, smaller=3.0):
+def figure(*, larger=6.0, smaller=3.0):
     """Slip and gap of each step under two pushes [N], and what Coulomb's law has instead."""
-    made, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
+    made, (left, right) = panels(6.3, 3.0, columns=2)
     places = 1e6 * run(larger, smaller)
     push = pushes(larger, smaller)
     steps = np.arange(1, len(places))

@@ -6,7 +6,6 @@ optimum of each step says how many digits of the answer are right.
 
 from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -34,18 +33,14 @@ def digits(backend: str, accuracy: str) -> Array:
     return np.array([answer.statistics.digits for answer in answers], dtype=np.float64)
 
 
-def figure(
-    ax: Any = None, *, backends: Sequence[str] = BACKENDS, accuracies: Sequence[str] = ACCURACIES
-) -> Figure:
+def figure(*, backends: Sequence[str] = BACKENDS, accuracies: Sequence[str] = ACCURACIES) -> Figure:
     """Digits against the accuracy of the call.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     backends, accuracies : sequence of str
     """
-    page, (axes,) = panels(4.4, 3.9, within=ax)
+    page, (axes,) = panels(4.4, 3.9)
     for k, backend in enumerate(backends):
         found = [digits(backend, accuracy) for accuracy in accuracies]
         x = np.arange(len(accuracies)) + SPREAD * (k - (len(backends) - 1) / 2)

@@ -7,7 +7,6 @@ When the target stops, so does all else.
 """
 
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -72,17 +71,15 @@ def main() -> dict[str, float]:
     }
 
 
-def figure(ax: Any = None, *, K_q: float = K_Q, m: float = M, h: float = H, v: float = V) -> Figure:
+def figure(*, K_q: float = K_Q, m: float = M, h: float = H, v: float = V) -> Figure:
     """Places, and the force, against time.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     K_q, m, h, v : float
         [N/m], [kg], [s], [m/s].
     """
-    page, (left, right) = panels(6.3, 2.8, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 2.8, columns=2)
     t, target, q, N = motion(K_q, m, h, v)
     places = {"target": target, "finger": q[1:, 0], "block": q[1:, 1]}
     for name, place in places.items():

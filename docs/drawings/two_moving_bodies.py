@@ -112,19 +112,17 @@ def main() -> dict[str, float]:
     }
 
 
-def figure(ax: Any = None, *, phi: float = PHI, turn: float = TURN) -> Figure:
+def figure(*, phi: float = PHI, turn: float = TURN) -> Figure:
     """The motions of alpha and beta and their difference; which columns of J a contact has.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     phi : float
         [m].
     turn : float
         Of the box about y [deg].
     """
-    page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 3.2, columns=2)
     at, points, _ = pair_at(phi, turn)
     angle = np.linspace(0, 2 * np.pi, 100)
     ball = at.t[1] + RADIUS * np.column_stack([np.cos(angle), 0 * angle, np.sin(angle)])

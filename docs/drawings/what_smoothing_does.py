@@ -6,8 +6,6 @@ at the kink, where it is between those of both sides. Away from kinks, step and 
 the exact ones with kappa.
 """
 
-from typing import Any
-
 import numpy as np
 
 from quasistatic_ref.lab.figures.labels import caption, label_axes, note_below
@@ -60,17 +58,15 @@ def biases(kappas: Array) -> tuple[Array, Array]:
     return np.abs(places), np.abs(slopes)
 
 
-def figure(ax: Any = None, *, drawn: tuple[float, ...] = DRAWN) -> Figure:
+def figure(*, drawn: tuple[float, ...] = DRAWN) -> Figure:
     """The step about the kink for some weights, and the bias against the weight.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     drawn : tuple of float
         Weights of the left panel [N m s].
     """
-    page, (left, right) = panels(6.3, 2.8, columns=2, within=ax)
+    page, (left, right) = panels(6.3, 2.8, columns=2)
     moves = np.linspace(-5e-4, 5e-4, 41)
     ends = heights(moves, 0.0) - RADIUS
     left.plot(1e3 * moves, 1e3 * ends, "-", color="black", label="exact")

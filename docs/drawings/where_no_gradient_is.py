@@ -73,17 +73,15 @@ def tilt_curve(angles: Array) -> tuple[Array, tuple[str, ...]]:
     return np.array(ends), tuple(why.kind for why in derivatives(simulator, q, NONE).reasons)
 
 
-def figure(ax: Any = None, *, reach: float = 1.0) -> Figure:
+def figure(*, reach: float = 1.0) -> Figure:
     """The three steps against what they are functions of, with their one-sided derivatives.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     reach : float
         How far to either side, relative to what the example shows [-].
     """
-    page, grid = panels(6.3, 2.6, columns=3, within=ax)
+    page, grid = panels(6.3, 2.6, columns=3)
     moves = reach * np.linspace(-5e-4, 5e-4, 21)
     forces = reach * np.linspace(-0.2, 0.2, 21)
     ends, slopes = fall_curve(moves)

@@ -6,7 +6,6 @@ from these pushes. Change the cone, the pair or the number of pushes, and see wh
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -61,19 +60,17 @@ def main() -> dict[str, float]:
     return found
 
 
-def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) -> Figure:
+def figure(*, pair: str = PAIR, cones: Sequence[str] = CONES) -> Figure:
     """Some pushes from above: outlines as measured in grey, as predicted in lines.
 
     Parameters
     ----------
-    ax : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     pair : str
         surface/shape.
     cones : sequence of str
         One or two.
     """
-    page, axes = panels(6.3, 4.6, columns=3, rows=2, within=ax, sharex=True, sharey=True)
+    page, axes = panels(6.3, 4.6, columns=3, rows=2, sharex=True, sharey=True)
     own, ratio, pushes = measurements(pair)
     ends = {cone: poses(own, ratio, pushes, cone) for cone in cones}
     moved = pose_errors(pushes.before, pushes.after)[:, 0]

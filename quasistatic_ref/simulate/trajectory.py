@@ -352,18 +352,6 @@ class Trajectory(Plain, HasPage):
             from quasistatic_ref.optional.show.table import data_frame
         return data_frame(self)
 
-    def coordinates_to_pandas(self) -> DataFrame:
-        """One row a step and entry of q: its name, unit, value and target.
-
-        Raises
-        ------
-        InputError
-            As for :meth:`to_pandas`.
-        """
-        with needing("to_pandas"):
-            from quasistatic_ref.optional.show.table import coordinate_frame
-        return coordinate_frame(self)
-
     def contacts_to_pandas(self) -> DataFrame:
         """One row a step and contact: its pair, point, gap, forces, points and frame.
 

@@ -24,17 +24,15 @@ SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 
 
-def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
+def limit_surfaces(cones: Sequence[str] = SHOWN) -> Figure:
     """The forces that a contact can bear at f_n = 1, in units of mu_v, mu_v, mu_omega.
 
     Parameters
     ----------
     cones : sequence of str
-    within : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     """
     space = {"projection": "3d"}
-    page, grid = panels(6.3, 2.6, columns=len(cones), within=within, narrow=13, subplot_kw=space)
+    page, grid = panels(6.3, 2.6, columns=len(cones), subplot_kw=space)
     colours = plt.rcParams["axes.prop_cycle"].by_key()["color"]
     for k, (axes, name) in enumerate(zip(grid, cones, strict=True)):
         colour = colours[k % len(colours)]

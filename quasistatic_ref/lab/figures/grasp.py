@@ -33,7 +33,6 @@ def grasp_strip(
     runs: Mapping[str, Trajectory],
     instants: Sequence[float],
     spread: Mapping[str, Array],
-    within: Any = None,
 ) -> Figure:
     """Runs in rows, instants in columns; and how far other clouds of the same bunny turn.
 
@@ -47,13 +46,11 @@ def grasp_strip(
         Times of the columns [s].
     spread : mapping of str to ndarray, shape (N,)
         Row title -> rotations of other clouds [deg].
-    within : Axes or SubFigure, optional
-        Where to draw; a figure of its own by default.
     """
     rows = len(runs)
     columns = len(instants) + 1
     page, grid = panels(
-        6.3, 1.7 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
+        6.3, 1.7 * rows + 0.5, columns, rows=rows,
         gridspec_kw={"wspace": 0.0, "hspace": 0.0, "width_ratios": [1] * len(instants) + [0.8]},
     )  # fmt: skip
     shown = {title: [_at(scenario, run, t) for t in instants] for title, run in runs.items()}

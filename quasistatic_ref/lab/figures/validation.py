@@ -59,9 +59,9 @@ def contact_geometry(picture: Picture) -> Figure:
     return figure
 
 
-def boundary_layer(picture: Picture, within: Any = None) -> Figure:
+def boundary_layer(picture: Picture) -> Figure:
     """Spin and lift-off against torque; size of the layer against the time step."""
-    figure, (left, right) = panels(6.3, 2.8, columns=2, within=within)
+    figure, (left, right) = panels(6.3, 2.8, columns=2)
     left.plot(1e3 * picture["torque"], 1e3 * picture["lift"])
     left.axvline(1e3 * picture["limit"], **DOTTED)
     left.annotate(
@@ -252,4 +252,4 @@ PICTURES: dict[str, Callable[..., Figure]] = {
         patch_torsion, flat_patch, peg_wedging, locked_guide, mujoco_friction, planar_push,
     )
 }  # fmt: skip
-"""Claim -> its figure, of what was measured, drawn into given axes."""
+"""Claim -> its figure, of what was measured."""

@@ -1,7 +1,7 @@
 """A trajectory as tables of pandas, whose columns have names and units.
 
-One wide table for looking at: a row a step, by the time of its end, and a column a number. Two
-tidy ones for analysis: a row a step and coordinate, a row a step and contact.
+One wide table: a row a step, by the time of its end, and a column a number. One tidy table: a row a
+step and contact.
 """
 
 from collections.abc import Mapping
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.optional.show.loads import shown_forces
 from quasistatic_ref.parts import needed_package
 
 if TYPE_CHECKING:
@@ -57,32 +58,6 @@ def data_frame(trajectory: "Trajectory") -> "DataFrame":
     return pandas.DataFrame(_wide(trajectory), index=pandas.Index(trajectory["t"], name="t [s]"))
 
 
-def coordinate_frame(trajectory: "Trajectory") -> "DataFrame":
-    """One row a step and entry of q: t, its name and unit, its value and its target.
-
-    Raises
-    ------
-    InputError
-        If pandas is not installed.
-    """
-    pandas = _pandas()
-    names = _positions(trajectory)
-    steps = trajectory.steps
-    values = trajectory["q"][1:]
-    targets = np.full((steps, len(names)), np.nan)
-    if steps:
-        q_bar_a = trajectory["q_bar_a"]
-        targets[:, : q_bar_a.shape[1]] = q_bar_a
-    words, units = zip(*(name.removesuffix("]").split(" [") for name in names), strict=True)
-    return pandas.DataFrame({
-        "t [s]": np.repeat(trajectory["t"], len(names)),
-        "coordinate": np.tile(words, steps),
-        "unit": np.tile(units, steps),
-        "value": values.ravel(),
-        "target": targets.ravel(),
-    })  # fmt: skip
-
-
 def contact_frame(trajectory: "Trajectory") -> "DataFrame":
     """One row a step and contact: t, its pair, its point's number, and its numbers.
 
@@ -109,15 +84,11 @@ def table_written(trajectory: "Trajectory", path: Path, option: str = "--table")
     ----------
     trajectory : Trajectory
     path : Path
+        Checked by :func:`check_table_path`.
     option : str
         ``--table`` for :func:`data_frame`, ``--contacts-table`` for :func:`contact_frame`.
 
-    Raises
-    ------
-    InputError
-        If the name ends otherwise, or what writes it is not installed.
     """
-    check_table_path(path, option)
     frame = data_frame(trajectory) if option == "--table" else contact_frame(trajectory)
     if path.suffix == ".csv":
         return written_whole(path, lambda file: frame.to_csv(file, mode="wb"))
@@ -174,19 +145,11 @@ def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
     """What is known of contacts by names of columns, shape (steps, n_c)."""
     columns = {"point": trajectory["point"]}
     arrays = {name: trajectory[name] for name in CONTACT}
-    arrays["wrench"] = _contact_wrenches(trajectory)
+    arrays["wrench"] = np.array([shown_forces(trajectory, k) for k in range(trajectory.steps)])
     for name, labels in CONTACT.items():
         entries = arrays[name].reshape(*columns["point"].shape, -1)
         columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
     return columns
-
-
-def _contact_wrenches(trajectory: "Trajectory") -> NDArray[Any]:
-    """The forces of single contacts, or, of a record that cannot form them, those of the proof."""
-    try:
-        return trajectory.forces
-    except InputError:
-        return trajectory["wrench"]
 
 
 def _positions(trajectory: "Trajectory") -> list[str]:

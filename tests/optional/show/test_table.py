@@ -1,4 +1,4 @@
-"""A trajectory as attributes, as a sequence of steps, and as tables of pandas."""
+"""A trajectory as attributes and as tables of pandas."""
 
 import sys
 from operator import attrgetter
@@ -22,12 +22,10 @@ def run(scene):
 
 
 def test_arrays_are_attributes_by_the_names_of_the_format(run):
-    for name, array in run.arrays.items():
-        assert getattr(run, name) is array
     assert set(dir(run)) >= {*run.arrays, "wrench_on", "header", "steps"}
+    assert run.phi is run.arrays["phi"]
     with pytest.raises(AttributeError, match=r"this trajectory has no 'phis'; did you mean 'phi'"):
         attrgetter("phis")(run)
-    assert not hasattr(run, "lam_extra")
 
 
 def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(run):
@@ -56,43 +54,23 @@ def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(
     assert table.shape == (5, 10 + 8 + 3 + 2 * 6 + 3)
 
 
-def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
-    coordinates = run.coordinates_to_pandas()
-    contacts = run.contacts_to_pandas()
-    slide = coordinates[coordinates.coordinate == "rail/slide"]
-    np.testing.assert_array_equal(slide["value"], run.q[1:, 0])
-    np.testing.assert_array_equal(slide["target"], run.q_bar_a[:, 0])
-    assert set(slide["unit"]) == {"m"}
-    height = coordinates[coordinates.coordinate == "ball.z"]
-    assert height["target"].isna().all()  # nothing drives it
-    by_pair = contacts.groupby("pair")["f_n [N]"]
-    for i, slot in enumerate(run.header["slots"]):
-        pair = slot.rpartition("/")[0]
-        np.testing.assert_array_equal(by_pair.get_group(pair), run.forces[:, i, 2])
-
-
 def exact_csv(path):
     """A table as text: pandas before 3 is off by a last bit where it reads numbers itself."""
     return pandas.read_csv(path, dtype=str)
 
 
-@pytest.mark.parametrize(("kind", "read"), [("csv", exact_csv), ("parquet", pandas.read_parquet)])
-def test_run_writes_the_wide_table(tmp_path, scene, cli, kind, read):
-    file = tmp_path / f"table.{kind}"
-    assert f"and {file}" in cli("run", scene, "--fast", "--out", tmp_path, "--table", file).out
-    table = read(file)
+def test_run_writes_both_tables_as_csv_or_parquet(tmp_path, scene, cli):
+    wide = tmp_path / "wide.parquet"
+    tidy = tmp_path / "contacts.csv"
+    options = ["--out", tmp_path, "--table", wide, "--contacts-table", tidy]
+    assert f"and {wide} and {tidy}" in cli("run", scene, "--fast", *options).out
     run = trajectory_read(tmp_path / f"{scene.stem}.npz")
-    found = table["ball.z [m]"].astype(float)
-    np.testing.assert_array_equal(found, run.to_pandas()["ball.z [m]"])
-
-
-def test_run_writes_a_row_a_contact_and_step(tmp_path, scene, cli):
-    file = tmp_path / "contacts.csv"
-    cli("run", scene, "--fast", "--out", tmp_path, "--contacts-table", file)
-    run = trajectory_read(tmp_path / f"{scene.stem}.npz")
-    table = exact_csv(file)
-    assert len(table) == run.phi.size
-    np.testing.assert_array_equal(table["phi [m]"].astype(float), run.phi.ravel())
+    table = pandas.read_parquet(wide)
+    np.testing.assert_array_equal(table["ball.z [m]"], run.to_pandas()["ball.z [m]"])
+    contacts = exact_csv(tidy)
+    assert contacts["pair"].tolist() == run.pair_names * run.steps
+    for name, numbers in (("phi [m]", run.phi), ("f_n [N]", run.forces[:, :, 2])):
+        np.testing.assert_array_equal(contacts[name].astype(float), numbers.ravel())
 
 
 def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, cli):
@@ -114,8 +92,7 @@ def test_files_without_names_have_numbers(run):
 
 def test_a_run_without_steps_is_an_empty_table():
     empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
-    tables = empty.to_pandas(), empty.coordinates_to_pandas(), empty.contacts_to_pandas()
-    assert [len(table) for table in tables] == [0, 0, 0]
+    assert len(empty.to_pandas()) == len(empty.contacts_to_pandas()) == 0
 
 
 def test_without_pandas_a_table_is_one_sentence(run, monkeypatch):

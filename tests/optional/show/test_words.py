@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import (
-    Contacts,
     Extra,
     RunFailed,
     Trajectory,
@@ -39,11 +38,6 @@ HOSTILE = '<script>alert("&")</script>\n\x1b[31m\u202e' + "long" * 50
 def element(page):
     """A page as an element of XML: what is not closed, or not escaped, is an error."""
     return ElementTree.fromstring(page.replace("<br>", "<br/>"))
-
-
-def rows_of(page):
-    """The texts of the cells of its table, row by row."""
-    return [["".join(cell.itertext()) for cell in row] for row in element(page).iter("tr")]
 
 
 def check(*objects):
@@ -98,12 +92,10 @@ def test_what_is_known_of_multipliers_and_active_rows_is_said_and_nothing_else()
     assert "multipliers" not in repr(off.certificate)
 
 
-def test_a_step_shows_its_nearest_contacts_first():
-    one = point_on_floor(force=(0, 0, -1.0))
+def test_a_step_shows_its_nearest_contacts_first(rng):
+    step = random_step(rng, rows=(4,) * 4)
     gaps = [2e-3, 0.0, 1e-3, 0.0]
-    columns = {key: [getattr(one.contacts, key)[0]] * 4 for key in one.contacts.kept()}
-    names = tuple("abcd")
-    step = one.replace(contacts=Contacts(**columns | {"name": names, "phi": gaps}))
+    step = step.replace(contacts=changed(step.contacts, name=tuple("abcd"), phi=gaps))
     assert [line.split()[0] for line in repr(step).splitlines()[2:]] == ["b", "d", "c", "a"]
 
 
@@ -117,8 +109,7 @@ def test_names_are_escaped_and_cut():
     page = step._repr_html_()
     assert "<script" not in page
     assert "&lt;script&gt;alert(&quot;&amp;&quot;)" in page
-    assert rows_of(page)[1][0].startswith('<script>alert("&")</script>\\n\\x1b[31m\\u202e')
-    assert "<script>alert" in repr(step)
+    assert '<script>alert("&")</script>\\n\\x1b[31m\\u202e' in "".join(element(page).itertext())
 
 
 def test_a_step_says_what_it_holds():
@@ -155,8 +146,7 @@ def test_words_and_numbers_are_cut_where_they_must():
     for n in (MOST, MOST + 1):
         page = text_page(("t", (), ("a",), [("1",)] * n))
         assert page.endswith("... and 1 more") == ("more" in page) == (n > MOST)
-    for n in (MOST_IN_HTML, MOST_IN_HTML + 1):
-        page = html_page(("t", (), ("a",), [("1",)] * n))
-        assert len(rows_of(page)) == 1 + MOST_IN_HTML
-        assert page.endswith("<p>and 1 more</p></div>") == ("more" in page) == (n > MOST_IN_HTML)
+    page = html_page(("t", (), ("a",), [("1",)] * (MOST_IN_HTML + 1)))
+    assert page.count("<tr>") == 1 + MOST_IN_HTML
+    assert page.endswith("<p>and 1 more</p></div>")
     assert html_page(("t", (), (), ())) == "<div><p><strong>t</strong></p></div>"

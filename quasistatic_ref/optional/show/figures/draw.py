@@ -14,7 +14,6 @@ from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
 from quasistatic_ref.optional.show.figures.moments import (
-    BEARING,
     DrawnContact,
     Moment,
     box_of,
@@ -27,6 +26,7 @@ from quasistatic_ref.optional.show.figures.pens import (
     Pen,
 )
 from quasistatic_ref.optional.show.figures.style import legend_above, scaled
+from quasistatic_ref.optional.show.loads import BEARING
 from quasistatic_ref.step.data import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")

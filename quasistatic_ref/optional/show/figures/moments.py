@@ -7,18 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.show.figures.looks import ROUND, link_colours
+from quasistatic_ref.optional.show.figures.friction_cone import limit_at
+from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
+from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array
-
-BEARING = 1e-3
-"""A contact is drawn as bearing load above this share of the largest normal force [-]."""
-
 
 SLIP = 1e-9
 """A contact that bears load slides where beta moves along the tangents by more in a step, or turns
@@ -217,15 +214,6 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
     return box_of(np.concatenate(points))
 
 
-def reported(run: Trajectory, k: int) -> Array:
-    """(f_d1, f_d2, f_n, tau_n) of each contact in a step, shape (n_c, 4) [N, N m].
-
-    The forces of single contacts; what the multipliers combine to, where these are not known.
-    """
-    known = run.header["record"] != "light" and run.header.get("alone", True)
-    return np.asarray(run.step_forces(k) if known else run["wrench"][k])
-
-
 def contact_states(run: Trajectory) -> NDArray[np.str_]:
     """``"apart"``, ``"sticking"`` or ``"sliding"`` of each contact in each step, (steps, n_c)."""
     states = [[contact.state for contact in _contacts(run, k)] for k in range(run.steps)]
@@ -233,9 +221,10 @@ def contact_states(run: Trajectory) -> NDArray[np.str_]:
 
 
 def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
-    rim = _rim(str(run.header["cone"]))
-    wrench = reported(run, k)
-    bears = wrench[:, 2] > BEARING * max(wrench[:, 2].max(initial=0.0), 1e-12)
+    corners = limit_at(str(run.header["cone"]), 0.0)
+    rim = np.column_stack([corners, np.ones(len(corners))])
+    wrench = shown_forces(run, k)
+    bears = bearing(wrench[:, 2])
     drawn = []
     for j, (*force, torque) in enumerate(wrench):
         frame = np.stack([run[axis][k, j] for axis in ("d1", "d2", "n")])
@@ -264,13 +253,3 @@ def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
     along = np.abs(frame[:2] @ motion[:3]).max()
     turning = run["mu_omega"][j] * abs(motion[3])
     return "sliding" if max(along, turning) > SLIP else "sticking"
-
-
-def _rim(name: str) -> Array:
-    """(f_1, f_2, f_n) over (mu_v, mu_v, 1) f_n around a cone where tau_n = 0, shape (N, 3)."""
-    kind = cone(name)
-    if not kind.polyhedral:  # the ellipsoid's is a circle
-        angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
-        return np.stack([np.cos(angle), np.sin(angle), np.ones(ROUND)], axis=1)
-    flat = cone_matrix(name)[: kind.without_torsion, 1:3]
-    return np.column_stack([flat, np.ones(len(flat))])

@@ -27,7 +27,7 @@ def opinion_figure(opinion: Any) -> Figure:
     exact = [c.exact for c in contacts]
     count = max(len(contacts), len(bodies), 2)
     with figure_style():
-        figure, (forces, shares, speeds) = panels(6.3, 1.3 + 0.3 * count, columns=3, narrow=0)
+        figure, (forces, shares, speeds) = panels(6.3, 1.3 + 0.3 * count, columns=3)
         _bars(forces, names, [c.theirs.normal for c in contacts],
               [np.nan if one is None else one.normal for one in exact], opinion.engine)  # fmt: skip
         forces.set(xlabel="normal force [N]")

@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.transforms import Bbox
 
@@ -20,7 +20,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.quoting import suggestion
 
-Place = Axes | SubFigure | Figure
 PAGE: Final = 6.3
 """Width of the text on a page [in]: A4 or letter with the usual margins."""
 
@@ -29,12 +28,6 @@ TEXT: Final = 9.0
 
 STYLES: Final = ("paper", "slides", "poster")
 """Styles that come along, each a file of rcParams next to this module."""
-
-NARROW: Final = 16.0
-"""Panels narrower than this [sizes of the text] stand below each other."""
-
-CROWDED: Final = 1.3
-"""Width over height [-] at which a panel is as cramped across as it is up: labels lie below it."""
 
 DRAWING: Final = "drawing"
 """Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
@@ -102,85 +95,27 @@ def scaled(size: float) -> float:
 
 
 def panels(
-    width: float = 4.6,
-    height: float = 2.8,
-    columns: int = 1,
-    *,
-    rows: int = 1,
-    within: Place | None = None,
-    narrow: float = NARROW,
-    **options: Any,
+    width: float = 4.6, height: float = 2.8, columns: int = 1, *, rows: int = 1, **options: Any
 ) -> tuple[Figure, list[Any]]:
-    """Axes in a grid: those of a figure of their own, or in what is given.
-
-    Where a row has no room for its panels, some or all stand below each other.
+    """A figure with axes in a grid.
 
     Parameters
     ----------
     width, height : float
-        Of a figure of their own, on paper [in].
+        Of the figure, on paper [in].
     columns, rows : int
-    within : Axes, SubFigure or Figure, optional
-        Where to draw. One panel is drawn into given axes; several take their place in a grid.
-    narrow : float
-        Least width of a panel [sizes of the text].
     options
         Further arguments of ``matplotlib.pyplot.subplots``.
 
     Returns
     -------
     tuple of Figure and list of Axes
-        The whole figure; row by row.
-
-    Raises
-    ------
-    InputError
-        If several panels are to take the place of axes that are in no grid.
+        The axes row by row.
     """
-    wanted = (options.get("subplot_kw") or {}).get("projection", "rectilinear")
-    if isinstance(within, Axes) and rows * columns == 1 and within.name == wanted:
-        return _whole(within), [within]
-    count = rows * columns
-    em = float(plt.rcParams["font.size"]) / 72
-    if within is None:
-        size = sized(width, height)
-        if size[0] < columns * narrow * em:
-            rows, columns, size = count, 1, (size[0], size[1] * columns)
-        place: Figure | SubFigure = plt.figure(figsize=size, layout="constrained")
-    else:
-        place = _place(within)
-        if narrow:
-            rows, columns = _arrangement(count, *place.bbox.size)
-    grid = list(place.subplots(rows, columns, squeeze=False, **options).flat)
-    for spare in grid[count:]:
-        spare.remove()
-    return _whole(place), grid[:count]
-
-
-def _arrangement(count: int, across: float, up: float) -> tuple[int, int]:
-    """Rows and columns of panels in a place of a given size, so that they are least cramped."""
-    choices = [(-(-count // columns), columns) for columns in range(1, count + 1)]
-    return max(choices, key=lambda c: min(across / c[1], CROWDED * up / c[0]))
-
-
-def _whole(within: Place) -> Figure:
-    whole = within.get_figure(root=True)
-    assert isinstance(whole, Figure)
-    return whole
-
-
-def _place(within: Place) -> Figure | SubFigure:
-    """A figure or part of one to draw into; that of axes is theirs, which go."""
-    if not isinstance(within, Axes):
-        return within
-    spec = within.get_subplotspec()
-    if spec is None:
-        problem = "are in no grid: pass axes of plt.subplots or a SubFigure"
-        raise InputError(problem, field="ax")
-    parent = within.get_figure(root=False)
-    assert parent is not None
-    within.remove()
-    return parent.add_subfigure(spec)
+    figure, grid = plt.subplots(
+        rows, columns, squeeze=False, figsize=sized(width, height), layout="constrained", **options
+    )
+    return figure, list(grid.flat)
 
 
 def room(axes: Axes) -> tuple[float, float]:

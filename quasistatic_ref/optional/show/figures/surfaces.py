@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial import ConvexHull
+import trimesh
 
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.solids.polytope import polytope
@@ -59,9 +59,4 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
 
 def triangles(points: Array) -> Array:
     """Corners of the convex hull's triangles, shape (3T, 3), counter-clockwise from outside."""
-    hull = ConvexHull(points)
-    corners = points[hull.simplices]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
-    corners[inward] = corners[inward][:, [0, 2, 1]]
-    return np.asarray(corners.reshape(-1, 3))
+    return np.asarray(trimesh.convex.convex_hull(points).triangles.reshape(-1, 3))

@@ -103,9 +103,6 @@ def view_written(
     ...     qr.view_written(qr.load_scenario("sphere_spin"), Path(folder) / "spin.html").name
     'spin.html'
     """
-    if not isinstance(path, str | Path):
-        problem = "must be a file; give what is shown, then the file, then the run"
-        raise InputError(problem, field="path", value=type(path).__name__)
     meshcat = viewer_package()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)

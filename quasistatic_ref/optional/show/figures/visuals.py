@@ -70,7 +70,7 @@ def _of_body(body: Body, system: System, body_colour: str) -> Iterator[Visual]:
                 corners = _corners(shape, file.path.parent, body.package_dirs)
             except ModelError:
                 continue
-            colour = _colour(element.find("material"), named) or body_colour
+            colour = _colour(element, named) or body_colour
             number = system.link(f"{body.name}/{link.get('name')}")
             yield Visual(number, corners @ R.T + t, colour)
 
@@ -83,18 +83,16 @@ def _corners(shape: Shape | FileMesh, folder: Path, package_dirs: Sequence[str |
     return np.asarray((mesh.vertices * shape.scale)[mesh.triangles.ravel()])
 
 
-def _colour(material: Element | None, named: dict[str | None, Element]) -> str | None:
-    """The colour of a visual element, or of the robot's material of that name."""
-    if material is None:
-        return None
-    colour = material.find("color")
-    if colour is None and material.get("name") in named:
-        colour = named[material.get("name")].find("color")
+def _colour(visual: Element, named: dict[str | None, Element]) -> str | None:
+    """The colour of a visual element's material, or of the robot's material of that name."""
+    colour = visual.find("material/color")
     if colour is None:
-        return None
+        material = visual.find("material")
+        shared = None if material is None else named.get(material.get("name"))
+        colour = None if shared is None else shared.find("color")
+    rgba = "" if colour is None else colour.get("rgba", "")
     try:
-        red, green, blue, _ = (float(x) for x in colour.get("rgba", "").split())
-    except ValueError:
+        red, green, blue, _ = map(float, rgba.split())
+        return to_hex((red, green, blue))
+    except ValueError:  # it is no colour
         return None
-    red, green, blue = np.clip([red, green, blue], 0.0, 1.0)
-    return to_hex((red, green, blue))

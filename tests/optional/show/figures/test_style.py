@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
 from quasistatic_ref.optional.show.figures import figure_style, style_file
-from quasistatic_ref.optional.show.figures.style import STYLES, legend_above, scaled, sized
+from quasistatic_ref.optional.show.figures.style import STYLES, legend_above, scaled
 
 
 def test_a_style_is_that_of_the_enclosing_block_and_is_left_again():
@@ -16,7 +16,6 @@ def test_a_style_is_that_of_the_enclosing_block_and_is_left_again():
         np.testing.assert_allclose(scaled(1.8), 1.8 * 16 / 9)
     with figure_style():
         assert plt.rcParams["font.size"] == 9
-        assert sized(1, 2) == (1, 2)
     assert dict(plt.rcParams) == before
 
 

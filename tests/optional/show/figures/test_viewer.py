@@ -59,8 +59,6 @@ def test_links_move_as_in_the_trajectory(commands, pushed):
     track = tracks(sent, f"links/{link}")
     poses = [scenario.system.kinematics(q) for q in run["q"][:-1:2]]
     np.testing.assert_array_equal(track[".position"], [p.t[link] for p in poses])
-    # A turn by R about w: quaternions [x y z w], here of hardly any turn.
-    np.testing.assert_allclose(np.abs(track[".quaternion"][:, 3]), 1.0, atol=1e-6)
     (whole,) = [
         c["matrix"] for c in sent if c["type"] == "set_transform" and c["path"] == "/meshcat"
     ]
@@ -70,7 +68,7 @@ def test_links_move_as_in_the_trajectory(commands, pushed):
 def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushed):
     _, run = pushed
     moments, sent = commands
-    for j in range(8):
+    for j, _ in enumerate(run.pair_names):
         track = tracks(sent, f"forces/{j}")
         np.testing.assert_array_equal(track[".position"], run["beta"][::2, j])
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
@@ -109,8 +107,9 @@ def test_what_cannot_be_shown_is_refused(pushed, tmp_path):
     from_file = pickle.loads(pickle.dumps(run))
     with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
         view_written(from_file, tmp_path / "other.html")
-    with pytest.raises(InputError, match="path: must be a file; give what is shown, then the file"):
-        view_written(scenario, run, tmp_path / "other.html")
+    empty = type(run)(run.header, {**run.arrays, "t": run["t"][:0]})
+    with pytest.raises(InputError, match="has no steps"):
+        view_written(scenario, tmp_path / "other.html", empty)
 
 
 LOOKS = robot(
@@ -141,10 +140,3 @@ def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, 
     arguments = ["run", "block_push", "--view", "--set", "steps=2", "--out", tmp_path]
     assert "pip install 'quasistatic-ref[view]'" in cli(*arguments, status=2).err
     assert list(tmp_path.iterdir()) == []  # refused before the run
-
-
-def test_a_run_without_steps_has_nothing_to_show(pushed):
-    scenario, run = pushed
-    empty = type(run)(run.header, {**run.arrays, "t": run["t"][:0]})
-    with pytest.raises(InputError, match="has no steps"):
-        frames(scenario, empty, FRAMES_PER_SECOND)
