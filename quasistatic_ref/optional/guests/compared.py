@@ -11,6 +11,7 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.optional.guests.state_step import StateContact
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import CREEP, FORCES_AGREE, STEADY
@@ -147,34 +148,27 @@ class Touch(NamedTuple):
 
     Parameters
     ----------
-    name, pair : str
-        Its own, and that of all contacts of the two geometries.
-    bodies : tuple of str
-        Alpha's and beta's; ``"world"`` for what cannot move.
-    depth : float
-        [m].
-    mu_v, mu_omega : float
-        [-, m].
+    name : str
+    nearest : StateContact
+        That, or the nearest of these points.
     of_step : tuple of str
         The step's contacts that it stands for, by their names.
-    J : ndarray, shape (k, 4, nv)
-        Of Eq. :eq:`eq-3`, along the engine's velocities, where it is closed.
-    tangents : ndarray, shape (k, 2, 3)
-        d1 and d2 there [-].
+    slides : tuple of StateContact
+        Where the surfaces may slide on each other.
     wrench : ndarray, shape (4,)
-        The engine's own (f_d1, f_d2, f_n, tau_n), in the first of these frames [N, N m].
+        The engine's own (f_d1, f_d2, f_n, tau_n), in the frame of the first of these [N, N m].
     """
 
     name: str
-    pair: str
-    bodies: tuple[str, str]
-    depth: float
-    mu_v: float
-    mu_omega: float
+    nearest: StateContact
     of_step: tuple[str, ...]
-    J: Array
-    tangents: Array
+    slides: tuple[StateContact, ...]
     wrench: Array
+
+    @property
+    def bodies(self) -> tuple[str, str]:
+        """Alpha's and beta's; ``"world"`` for what cannot move."""
+        return self.nearest.bodies
 
 
 class Mover(NamedTuple):
@@ -280,8 +274,10 @@ class Compared:
         number = {name: j for j, name in enumerate(self.answer.step.contacts.name)}
         for touch in self.state.touches:
             mine = [number[name] for name in touch.of_step if name in number]
+            nearest = touch.nearest
             yield Contact(
-                touch.name, touch.bodies, touch.depth, touch.mu_v, touch.mu_omega, touch.pair,
+                touch.name, touch.bodies, max(0.0, -nearest.phi), nearest.mu_v, nearest.mu_omega,
+                nearest.pair,
                 theirs=self._bearing(touch, touch.wrench[None], self.present),
                 exact=self._together(touch, mine) if mine else None,
             )  # fmt: skip
@@ -359,18 +355,17 @@ class Compared:
             [m/s, rad/s].
         """
         f_n = wrenches[:, 2]
-        mus = np.array([touch.mu_v, touch.mu_v, touch.mu_omega])
+        mu_v, mu_omega = touch.nearest.mu_v, touch.nearest.mu_omega
+        mus = np.array([mu_v, mu_v, mu_omega])
         of_limits = np.abs(wrenches[:, [0, 1, 3]]) / np.where(mus > 0, mus, np.inf)
         pyramid = self.answer.cone == PYRAMID
         used = of_limits.sum(axis=1) if pyramid else np.linalg.norm(of_limits, axis=1)
-        moves = touch.J @ v
-        slips = np.einsum("ktc,kc->kt", touch.tangents, moves[:, :3])
         normal = float(f_n.sum())
         return Bearing(
             normal=normal,
             friction=float(np.hypot(*wrenches[:, :2].sum(axis=0))),
             torque=float(abs(wrenches[:, 3].sum())),
             share=float(used.sum() / normal) if normal > 0 else 0.0,
-            slip=float(np.linalg.norm(slips, axis=1).max()),
-            spin=float(np.abs(moves[:, 3]).max()),
+            slip=max(contact.slip(v) for contact in touch.slides),
+            spin=max(contact.spin(v) for contact in touch.slides),
         )

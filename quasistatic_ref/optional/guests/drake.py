@@ -13,19 +13,17 @@ import numpy as np
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests.drake_pairs import (
     STICTION,
-    Contact,
     DrakeState,
-    contact_words,
-    contacts,
-    drake_contacts,
+    drake_pairs,
     drake_state,
 )
-from quasistatic_ref.optional.guests.mujoco import (
-    DEPTHS,
+from quasistatic_ref.optional.guests.state_step import (
     Coordinates,
+    contacts_of,
+    dropped,
     quasi_dynamic_number,
     step_from,
-    velocity_words,
+    takes_as_is,
 )
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import Extra, StepData
@@ -138,8 +136,7 @@ def drake_step(
     >>> qr.solve_step(step).forces[0, 2].round(3)  # the weight [N]
     np.float64(2.943)
     """
-    if depth not in DEPTHS:
-        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
+    as_is = takes_as_is(depth)
     if not 0 < stiction_tolerance < np.inf:
         problem = "must be a positive speed [m/s]"
         raise InputError(problem, field="stiction_tolerance", value=stiction_tolerance)
@@ -157,18 +154,20 @@ def drake_step(
     M = plant.CalcMassMatrix(still)[np.ix_(dofs[n_a:], dofs[n_a:])]
     tau = (loads(state) - of_elements)[dofs]
     K_q = np.diag(K[dofs[:n_a]])
-    every = drake_contacts(state, margin, stiction_tolerance)
-    touching = [contact for contact in every if (contact.J @ T).any()]
-    closed = depth == "closed"
-    extra = limits(state, joints, dofs, closed)
-    of_contacts = contacts(touching, T, closed)
-    step = step_from(h, K_q, M, tau, of_springs[dofs], contacts=of_contacts, extra=extra)
+    touching = [
+        contact
+        for pair in drake_pairs(state, margin, stiction_tolerance)
+        for contact in pair.contacts
+        if (contact.J @ T).any()
+    ]
+    step = step_from(
+        h, K_q, M, tau, of_springs[dofs],
+        contacts=contacts_of(touching, T, as_is), extra=limits(state, joints, dofs, as_is),
+    )  # fmt: skip
     names = tuple(plant.GetVelocityNames()[i] for i in dofs)
     v = plant.GetVelocities(context)
-    left_out = (*velocity_words(v), *words(plant, touching))
-    slips = np.array([contact.slip(v) * (contact.phi <= 0) for contact in touching])
-    gravity = plant.gravity_field().gravity_vector()
-    number = quasi_dynamic_number(slips, of_contacts.mu_v, gravity, h)
+    left_out = (*dropped(v, touching), *gain_words(plant))
+    number = quasi_dynamic_number(touching, v, plant.gravity_field().gravity_vector(), h)
     return step, Coordinates(names, T, left_out, number)
 
 
@@ -255,7 +254,7 @@ def loads(state: DrakeState) -> Array:
     return tau
 
 
-def limits(state: DrakeState, joints: Mapping[str, Joint], dofs: Array, closed: bool) -> Extra:
+def limits(state: DrakeState, joints: Mapping[str, Joint], dofs: Array, as_is: bool) -> Extra:
     """Limits of joints as rows.
 
     Parameters
@@ -264,8 +263,8 @@ def limits(state: DrakeState, joints: Mapping[str, Joint], dofs: Array, closed: 
     joints : mapping of str to object
     dofs : ndarray of int, shape (n_v,)
         Drake's velocities of the coordinates.
-    closed : bool
-        Whether limits that are violated count as closed.
+    as_is : bool
+        Whether limits that are violated are; else they count as closed.
 
     Raises
     ------
@@ -289,13 +288,12 @@ def limits(state: DrakeState, joints: Mapping[str, Joint], dofs: Array, closed: 
                 names.append(f"limit of joint[{name}] ({len(names)})")
                 A.append(sign * np.eye(len(dofs))[places[joint.velocity_start()]])
                 short = sign * (end[0] - here)
-                b.append(min(short, 0.0) if closed else short)
+                b.append(short if as_is else min(short, 0.0))
     return Extra(tuple(names), np.array(A).reshape(-1, len(dofs)), np.array(b))
 
 
-def words(plant: MultibodyPlant, touching: list[Contact]) -> Iterator[str]:
-    """What a step leaves out."""
-    yield from contact_words(touching)
+def gain_words(plant: MultibodyPlant) -> Iterator[str]:
+    """What a step leaves out of actuators."""
     for index in plant.GetJointActuatorIndices():
         actuator = plant.get_joint_actuator(index)
         if actuator.has_controller():

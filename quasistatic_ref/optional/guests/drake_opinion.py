@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.drake import MARGIN, drake_step
 from quasistatic_ref.optional.guests.drake_pairs import (
     STICTION,
-    Contact,
     DrakeState,
-    drake_contacts,
+    Pair,
+    ball_about,
+    called,
+    drake_pairs,
     drake_state,
     jacobian,
 )
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
         Diagram,
         GeometryId,
         MultibodyPlant,
-        RigidBody,
     )
 
 CONTINUOUS = 1e-3
@@ -120,11 +120,11 @@ def drake_opinion(
     still = of_plant.still
     copied = context.Clone()  # it must outlive the plant's context in it
     evaluated = after_step(plant, copied)
-    contacts = drake_contacts(of_plant, margin, stiction_tolerance)
+    pairs = drake_pairs(of_plant, margin, stiction_tolerance)
     mean, later = velocities(drake, diagram, plant, context)
     gravity = np.array(plant.gravity_field().gravity_vector())
     state = EngineState(
-        touches=tuple(touches(of_plant, evaluated, contacts)),
+        touches=tuple(touches(of_plant, evaluated, pairs)),
         movers=tuple(movers(of_plant)),
         M=plant.CalcMassMatrix(still),
         gravity=gravity,
@@ -224,7 +224,7 @@ def forces(
     return known | {(B, A): (-force, at) for (A, B), (force, at) in known.items()}
 
 
-def touches(state: DrakeState, evaluated: Context, contacts: list[Contact]) -> Iterator[Touch]:
+def touches(state: DrakeState, evaluated: Context, pairs: list[Pair]) -> Iterator[Touch]:
     """Pairs of geometries that are closed, or that Drake presses on each other.
 
     Parameters
@@ -232,48 +232,22 @@ def touches(state: DrakeState, evaluated: Context, contacts: list[Contact]) -> I
     state : DrakeState
     evaluated : object
         Drake's context, with the outputs of the state.
-    contacts : list of Contact
+    pairs : list of Pair
     """
-    plant = state.plant
-    known = forces(plant.get_contact_results_output_port().Eval(evaluated))
-    for alpha, beta in dict.fromkeys(contact.geometries for contact in contacts):
-        of_pair = [contact for contact in contacts if contact.geometries == (alpha, beta)]
-        nearest = min(of_pair, key=lambda contact: contact.phi)
-        force, at = known.get((alpha, beta), (np.zeros(3), None))
+    known = forces(state.plant.get_contact_results_output_port().Eval(evaluated))
+    for pair in pairs:
+        nearest = min(pair.contacts, key=lambda contact: contact.phi)
+        force, at = known.get(pair.geometries, (np.zeros(3), None))
         if at is None and nearest.phi > 0:
             continue
-        closed = [contact for contact in of_pair if contact.flat] or [nearest]
-        frames = np.array(tangents(np.array([one.n for one in closed]))).transpose(1, 0, 2)
-        J = np.array([one.J for one in closed])
+        slides = [contact for contact in pair.contacts if contact.closed] or [nearest]
         if at is not None:  # its slip is that where its force acts
-            J_at_force = jacobian(state, list(nearest.bodies), (at, at), nearest.n)
-            J = np.concatenate([J_at_force[None], J])
-            frames = np.concatenate(
-                [np.array(tangents(nearest.n[None])).transpose(1, 0, 2), frames]
-            )
-        first = frames[0]
-        n = np.cross(first[0], first[1])
-        yield Touch(
-            name=nearest.pair,
-            pair=nearest.pair,
-            bodies=(called(plant, nearest.bodies[0]), called(plant, nearest.bodies[1])),
-            depth=max(0.0, -nearest.phi),
-            mu_v=nearest.mu_v,
-            mu_omega=0.0,
-            of_step=tuple(contact.name for contact in of_pair),
-            J=J,
-            tangents=frames,
-            wrench=np.array([*(first @ force), n @ force, 0.0]),
-        )
-
-
-def called(plant: MultibodyPlant, body: RigidBody) -> str:
-    """The name of what a body is welded to; ``"world"`` for what cannot move."""
-    first = min(plant.GetBodiesWeldedTo(body), key=lambda one: int(one.index()))
-    if first.index() == plant.world_body().index():
-        return "world"
-    alone = plant.NumBodiesWithName(first.name()) == 1
-    return str(first.name() if alone else first.scoped_name())
+            J = jacobian(state, pair.bodies, (at, at), nearest.frame[0])
+            slides.insert(0, nearest._replace(J=J))
+        f_n, f_d1, f_d2 = slides[0].frame @ force
+        names = tuple(contact.name for contact in pair.contacts)
+        wrench = np.array([f_d1, f_d2, f_n, 0.0])
+        yield Touch(nearest.pair, nearest, names, tuple(slides), wrench)
 
 
 def movers(state: DrakeState) -> Iterator[Mover]:
@@ -303,12 +277,11 @@ def movers(state: DrakeState) -> Iterator[Mover]:
         moves = J.any(axis=0)
         floats = any(one.is_floating_base_body() for one in group)
         free = floats and not M[np.ix_(moves, ~moves)].any()
-        size = 0.0
-        for X, one in zip(places, group, strict=True):
-            for geometry in plant.GetCollisionGeometriesForBody(one):
-                box = inspector.GetObbInGeometryFrame(geometry)
-                if box is not None:
-                    middle = X @ inspector.GetPoseInFrame(geometry) @ box.center()
-                    reach = np.linalg.norm(middle - centre) + np.linalg.norm(box.half_width())
-                    size = max(size, float(reach))
+        balls = [
+            ball_about(inspector, geometry, X @ inspector.GetPoseInFrame(geometry))
+            for X, one in zip(places, group, strict=True)
+            for geometry in plant.GetCollisionGeometriesForBody(one)
+        ]
+        reaches = [float(np.linalg.norm(ball[0] - centre)) + ball[1] for ball in balls if ball]
+        size = max(reaches, default=0.0)
         yield Mover(name, float(masses.sum()), size, bool(free), J[3:], J[:3])

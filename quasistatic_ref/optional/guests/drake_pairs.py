@@ -6,7 +6,6 @@ geometries may touch, and its properties how they rub.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
@@ -17,6 +16,7 @@ from quasistatic_ref.contact.distance import number_within, pair_closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.guests.state_step import StateContact
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
@@ -30,18 +30,23 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.tolerances import DEEP, LIES_FLAT
 
 if TYPE_CHECKING:
-    from pydrake.all import Context, GeometryId, MultibodyPlant, RigidBody, SceneGraphInspector
+    from pydrake.all import (
+        Context,
+        GeometryId,
+        MultibodyPlant,
+        RigidBody,
+        RigidTransform,
+        SceneGraphInspector,
+    )
 
 STICTION = 1e-3
 """Slip up to which the friction of a continuous plant is static, Drake's default [m/s]."""
 STRIBECK = 3.0
 """Slip over that, from which on the friction of a continuous plant is dynamic [-]."""
 HULLS = ("Convex", "Mesh")
-ROUND = ("Sphere", "Ellipsoid")
 FEWEST = 4
 """Contacts of two shapes that may touch with a face: more where more corners are as near."""
 
@@ -85,55 +90,31 @@ def drake_state(plant: MultibodyPlant, context: Context) -> DrakeState:
     return DrakeState(drake, plant, context, still)
 
 
-class Contact(NamedTuple):
-    """One contact of two geometries.
+class Pair(NamedTuple):
+    """Two geometries and their contacts.
 
     Parameters
     ----------
-    name : str
-        Its pair's; with a number where the pair has several contacts.
-    pair : str
-        Names of the geometries, alpha's first; with a number where another pair has the same.
     geometries : tuple
-        Drake's ids of them.
+        Drake's ids, alpha's first.
     bodies : tuple
         Drake's bodies.
-    phi : float
-        [m].
-    n : ndarray, shape (3,)
-    J : ndarray, shape (4, nv)
-        Of Eq. :eq:`eq-3`, along Drake's velocities.
-    mu_v : float
-        [-].
-    flat : bool
-        Whether it counts as closed, since the two are closed: it is nearer than LIES_FLAT.
+    contacts : tuple of StateContact
+        All are closed whose corners are nearer than LIES_FLAT, if one of them is.
     """
 
-    name: str
-    pair: str
     geometries: tuple[GeometryId, GeometryId]
     bodies: tuple[RigidBody, RigidBody]
-    phi: float
-    n: Array
-    J: Array
-    mu_v: float
-    flat: bool
-
-    def slip(self, v: Array) -> float:
-        """Speed of one surface along the other at a velocity v, (nv,) [m/s]."""
-        return slip_rate(self.J, self.n, v)
+    contacts: tuple[StateContact, ...]
 
 
-def slip_rate(J: Array, n: Array, v: Array) -> float:
-    """Speed of one surface along the other [m/s], from J (4, nv) and a velocity v, (nv,)."""
-    slip = J[:3] @ v
-    return float(np.linalg.norm(slip - (n @ slip) * n))
-
-
-def drake_contacts(
+def drake_pairs(
     state: DrakeState, margin: float, stiction_tolerance: float = STICTION
-) -> list[Contact]:
-    """All contacts of geometries that are nearer than the margin [m], pair by pair.
+) -> list[Pair]:
+    """All pairs of geometries with contacts that are nearer than the margin [m].
+
+    A pair of a name that another has, too, has a number in its name, and so has each of several
+    contacts of a pair.
 
     Parameters
     ----------
@@ -162,37 +143,45 @@ def drake_contacts(
         for link, i in enumerate(ids)
     ]
     number = {i.get_value(): link for link, i in enumerate(ids)}
-    v = plant.GetVelocities(context)
-    discrete = bool(plant.time_step())
-    near = [
-        (B, A)
-        for A, B in sorted(
-            sorted(number[i.get_value()] for i in two) for two in inspector.GetCollisionCandidates()
-        )
-        if bounds_apart(inspector, (ids[A], ids[B]), (places[A], places[B])) <= margin
-    ]
+    candidates = sorted(
+        sorted(number[i.get_value()] for i in two) for two in inspector.GetCollisionCandidates()
+    )
+    balls = [ball_about(inspector, i, X) for i, X in zip(ids, places, strict=True)]
+    near = [(B, A) for A, B in candidates if balls_apart(balls[A], balls[B]) <= margin]
     names = [f"{shapes[B].name}/{shapes[A].name}" for B, A in near]
-    contacts = []
+    pairs = []
     for i, (B, A) in enumerate(near):
-        bodies = [plant.GetBodyFromFrameId(inspector.GetFrameId(ids[link])) for link in (B, A)]
-        rubs = friction_of(drake, inspector, ids[A], ids[B])
         name = names[i] if names.count(names[i]) == 1 else f"{i}: {names[i]}"
-        pair = ContactPair(name, shapes[B], shapes[A], 0.0, 0.0, rows=4, k=1)
-        pair = replace(pair, k=places_of(inspector, pair, (ids[A], ids[B]), R, t))
-        points = pair_closest_points(pair, R, t)
-        kept = np.flatnonzero(points.phi <= margin)
+        of_one = ContactPair(name, shapes[B], shapes[A], 0.0, 0.0, rows=4, k=1)
+        of_pair = replace(of_one, k=places_of(of_one, R, t))
+        points = pair_closest_points(of_pair, R, t)
+        kept = np.flatnonzero(points.phi <= margin).tolist()
         size = min(shapes[link].shape.extent for link in (A, B))
-        flat = (points.phi.min() <= 0) & (points.phi <= LIES_FLAT * size)
-        for k in kept.tolist():
-            J = jacobian(state, bodies, (points.alpha[k], points.beta[k]), points.n[k])
-            slip = slip_rate(J, points.n[k], v)
-            mu_v = friction(*rubs, slip, discrete, stiction_tolerance)
-            contacts.append(
-                Contact(name if len(kept) == 1 else f"{name}/{points.point[k]}", name,
-                        (ids[B], ids[A]), (bodies[0], bodies[1]), float(points.phi[k]),
-                        points.n[k], J, mu_v, bool(flat[k]))
-            )  # fmt: skip
-    return contacts
+        closed = (points.phi.min() <= 0) & (points.phi <= LIES_FLAT * size)
+        frames = np.stack([points.n, *tangents(points.n)], axis=1)
+        alpha, beta = (plant.GetBodyFromFrameId(inspector.GetFrameId(ids[k])) for k in (B, A))
+        bodies = (called(plant, alpha), called(plant, beta))
+        contacts = []
+        for k in kept:
+            J = jacobian(state, (alpha, beta), (points.alpha[k], points.beta[k]), points.n[k])
+            numbered = name if len(kept) == 1 else f"{name}/{points.point[k]}"
+            contact = StateContact(numbered, name, bodies, float(points.phi[k]), bool(closed[k]),
+                                   frames[k], J, mu_v=0.0)  # fmt: skip
+            slip = contact.slip(plant.GetVelocities(context))
+            mu_v = friction(state, inspector, (ids[A], ids[B]), slip, stiction_tolerance)
+            contacts.append(contact._replace(mu_v=mu_v))
+        if contacts:
+            pairs.append(Pair((ids[B], ids[A]), (alpha, beta), tuple(contacts)))
+    return pairs
+
+
+def called(plant: MultibodyPlant, body: RigidBody) -> str:
+    """The name of what a body is welded to; ``"world"`` for what cannot move."""
+    first = min(plant.GetBodiesWeldedTo(body), key=lambda one: int(one.index()))
+    if first.index() == plant.world_body().index():
+        return "world"
+    alone = plant.NumBodiesWithName(first.name()) == 1
+    return str(first.name() if alone else first.scoped_name())
 
 
 def shape_of(inspector: SceneGraphInspector, geometry: GeometryId) -> Shape:
@@ -223,35 +212,39 @@ def shape_of(inspector: SceneGraphInspector, geometry: GeometryId) -> Shape:
     return convex_hull(np.array([mesh.vertex(i) for i in range(mesh.num_vertices())]))
 
 
-def bounds_apart(
-    inspector: SceneGraphInspector,
-    ids: tuple[GeometryId, GeometryId],
-    places: tuple[object, object],
-) -> float:
-    """A lower bound on the gap of two geometries [m], from balls about their boxes."""
-    boxes = [inspector.GetObbInGeometryFrame(i) for i in ids]
-    if None in boxes:  # a half-space has none
+Ball = tuple[Array, float]
+"""A centre, (3,) [m], and a radius [m]."""
+
+
+def ball_about(
+    inspector: SceneGraphInspector, geometry: GeometryId, pose: RigidTransform
+) -> Ball | None:
+    """The ball about the box of a geometry at its pose; None of a half-space."""
+    box = inspector.GetObbInGeometryFrame(geometry)
+    if box is None:
+        return None
+    return pose @ box.center(), float(np.linalg.norm(box.half_width()))
+
+
+def balls_apart(a: Ball | None, b: Ball | None) -> float:
+    """The gap of the balls about two geometries, which have no smaller one [m]."""
+    if a is None or b is None:
         return -np.inf
-    centres = [X @ box.center() for X, box in zip(places, boxes, strict=True)]
-    radii = sum(float(np.linalg.norm(box.half_width())) for box in boxes)
-    return float(np.linalg.norm(centres[0] - centres[1])) - radii
+    return float(np.linalg.norm(a[0] - b[0])) - a[1] - b[1]
 
 
-def places_of(
-    inspector: SceneGraphInspector, pair: ContactPair, ids: tuple[GeometryId, GeometryId],
-    R: Array, t: Array,
-) -> int:  # fmt: skip
+def places_of(pair: ContactPair, R: Array, t: Array) -> int:
     """How many contacts two shapes have: one of what is round, two of a capsule, else a face's."""
-    kinds = {type(inspector.GetShape(i)).__name__ for i in ids}
-    if kinds & {*ROUND}:
+    shapes = (pair.alpha.shape, pair.beta.shape)
+    if any(isinstance(shape, Sphere | Ellipsoid) for shape in shapes):
         return 1
-    if "Capsule" in kinds:
+    if any(isinstance(shape, Capsule) for shape in shapes):
         return 2
     return max(FEWEST, number_within(pair, R, t, DEEP))
 
 
 def jacobian(
-    state: DrakeState, bodies: list[RigidBody], points: tuple[Array, Array], n: Array
+    state: DrakeState, bodies: tuple[RigidBody, RigidBody], points: tuple[Array, Array], n: Array
 ) -> Array:
     """J of Eq. :eq:`eq-3` along Drake's velocities, shape (4, nv), world frame.
 
@@ -268,63 +261,34 @@ def jacobian(
     return np.vstack([relative[3:], n @ relative[:3]])
 
 
-def friction_of(
-    drake: ModuleType, inspector: SceneGraphInspector, A: GeometryId, B: GeometryId
-) -> tuple[float, float]:
-    """Static and dynamic friction of two geometries [-]."""
-    properties = [
-        inspector.GetProximityProperties(i).GetProperty("material", "coulomb_friction")
-        for i in (A, B)
-    ]
-    both = drake.CalcContactFrictionFromSurfaceProperties(*properties)
-    return float(both.static_friction()), float(both.dynamic_friction())
-
-
 def friction(
-    mu_s: float, mu_d: float, slip: float, discrete: bool, stiction_tolerance: float
+    state: DrakeState,
+    inspector: SceneGraphInspector,
+    geometries: tuple[GeometryId, GeometryId],
+    slip: float,
+    stiction_tolerance: float,
 ) -> float:
-    """The friction that Drake has at a slip [-].
+    """The friction that Drake has of two geometries at a slip [-].
 
     A discrete plant knows dynamic friction alone. A continuous one has static friction up to the
     tolerance and dynamic friction from ``STRIBECK`` times it on, with a smooth step between.
 
     Parameters
     ----------
-    mu_s, mu_d : float
-        Static and dynamic friction [-].
+    state : DrakeState
+    inspector, geometries : object
+        Drake's.
     slip, stiction_tolerance : float
         [m/s].
-    discrete : bool
     """
-    if discrete:
+    properties = [
+        inspector.GetProximityProperties(i).GetProperty("material", "coulomb_friction")
+        for i in geometries
+    ]
+    both = state.drake.CalcContactFrictionFromSurfaceProperties(*properties)
+    mu_s, mu_d = float(both.static_friction()), float(both.dynamic_friction())
+    if state.plant.time_step():
         return mu_d
     x = (slip / stiction_tolerance - 1) / (STRIBECK - 1)
     x = min(max(x, 0.0), 1.0)
     return mu_s - (mu_s - mu_d) * x**3 * (10 + x * (6 * x - 15))
-
-
-def contacts(every: list[Contact], T: Array, closed: bool) -> Contacts:
-    """Contacts of a step, T (nv, n_v) [-]; if `closed`, no gap below zero or of a flat corner."""
-    n = np.array([contact.n for contact in every]).reshape(-1, 3)
-    phi = np.array([contact.phi for contact in every])
-    flat = np.array([contact.flat for contact in every], dtype=bool)
-    d1, d2 = tangents(n)
-    return Contacts(
-        name=tuple(contact.name for contact in every),
-        phi=np.where(flat, 0.0, phi) if closed else phi,
-        n=n,
-        d1=d1,
-        d2=d2,
-        J=np.array([contact.J @ T for contact in every]).reshape(-1, 4, T.shape[1]),
-        mu_v=np.array([contact.mu_v for contact in every]),
-        mu_omega=np.zeros(len(every)),
-        rows=np.full(len(every), 4),
-    )
-
-
-def contact_words(every: list[Contact]) -> Iterator[str]:
-    """The contacts of bodies that are deep in each other."""
-    for contact in every:
-        if contact.phi < -DEEP:
-            depth = f"its bodies penetrate by {-1e3 * contact.phi:.3g} mm"
-            yield f"contact[{contact.name}]: {depth}"

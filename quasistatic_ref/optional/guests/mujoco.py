@@ -5,21 +5,27 @@ No geometry is translated. Contacts, frames, friction, Jacobians, masses and for
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError, ModelError
-from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
+from quasistatic_ref.optional.guests.state_step import (
+    Coordinates,
+    contacts_of,
+    dropped,
+    quasi_dynamic_number,
+    step_from,
+    takes_as_is,
+)
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
+from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.extension import Rises
@@ -28,63 +34,8 @@ from quasistatic_ref.tolerances import FULL_RANK, LIGHT
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
-DEPTHS = ("closed", "as is")
 AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
 """Coordinates of a joint: of a free one, along the world's axes and about the body's own."""
-
-
-@dataclass(frozen=True, eq=False)
-class Coordinates(Plain):
-    """Where the coordinates of a step are in an engine, and what the step leaves out.
-
-    Parameters
-    ----------
-    names : tuple of str, length n_v
-        ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
-    T : ndarray, shape (nv, n_v)
-        The engine's displacement, per unit of delta_q [-]: what MuJoCo's ``mj_integratePos`` takes
-        is T delta_q, with dt = 1.
-    left_out : tuple of str
-        What the step does not have, or holds as it is: one sentence for each.
-    quasi_dynamic_number : float
-        Largest v / (mu_v g h) of the contacts with friction, of the speed v that was dropped [-]:
-        the drag of the model on that motion, over the friction. It is inf without gravity.
-    """
-
-    names: tuple[str, ...]
-    T: Array
-    left_out: tuple[str, ...]
-    quasi_dynamic_number: float
-
-    def __post_init__(self) -> None:
-        freeze_copies(self, "T")
-
-
-def step_from(
-    h: float, K_q: Array, M_u: Array, tau: Array, of_springs: Array, **rest: Any
-) -> StepData:
-    """A step of what an engine says of a state at rest, the actuated coordinates first.
-
-    Parameters
-    ----------
-    h : float
-        [s].
-    K_q, M_u : ndarray
-    tau, of_springs : ndarray, shape (n_v,)
-        Forces of all but springs, and of springs [N, N m].
-    **rest : object
-        Other fields of StepData.
-    """
-    n_a = len(K_q)
-    return StepData(
-        h=h,
-        K_q=K_q,
-        M_u=(M_u + M_u.T) / 2,
-        tau_a=tau[:n_a],
-        tau_u=tau[n_a:],
-        delta_q_bar_a=np.linalg.solve(K_q, of_springs[:n_a]),  # Eq. (1)
-        **rest,
-    )
 
 
 def mujoco_step(
@@ -143,9 +94,7 @@ def step_with(
     InputError, ModelError
         As of :func:`mujoco_step`.
     """
-    if depth not in DEPTHS:
-        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
-    as_is = depth == "as is"
+    as_is = takes_as_is(depth)
     state = mujoco_state(model, data)
     check(state)
     state.run()
@@ -160,14 +109,18 @@ def step_with(
     scale = Natural(state, T, coordinate_units(diagonal))
     held = constraints.equalities(state, tied, scale, as_is)
     limits, free_limits = constraints.limits(state, scale, held.basis, as_is)
-    contacts, free_contacts = touches.contacts(state, scale, held.basis, as_is)
+    every = touches.contacts(state)
+    free = touches.held(every, scale, held.basis)
+    kept = [contact for contact, is_free in zip(every, free, strict=True) if not is_free]
+    contacts = contacts_of(kept, T, as_is)
     forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
     extra = constraints.together(limits, held.rows)
-    cone, notes = default_cone(model, touches.rubs(state), extra)
+    cone, notes = default_cone(model, any(contact.mu_v for contact in every), extra)
     step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (
-        *of_state.left_out, *held.left_out, *free_limits, *free_contacts, *touches.words(state),
-        *velocity_words(data.qvel), *notes,
+        *of_state.left_out, *held.left_out, *free_limits,
+        *(f"contact[{every[i].name}]: {touches.HELD}" for i in np.flatnonzero(free)),
+        *touches.rolling_words(state, every), *dropped(data.qvel, every), *notes,
     )  # fmt: skip
     rises, rubbed = joint_friction(state, T, h * diagonal)
     if rubbed:
@@ -176,11 +129,7 @@ def step_with(
         step = with_rises(step, rises)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
     T = np.pad(T, ((0, 0), (0, len(rubbed))))
-    of_tangents = [touch.frame[3:].reshape(2, 3) @ touches.jacobian(state, touch)[:3] @ data.qvel
-                   for _, touch in touches.listed(state)]  # fmt: skip
-    slips = np.linalg.norm(np.reshape(of_tangents, (-1, 2)), axis=1)
-    mu_v = np.array([touches.friction(touch, name)[0] for name, touch in touches.listed(state)])
-    number = quasi_dynamic_number(slips, mu_v, model.opt.gravity, h)
+    number = quasi_dynamic_number(every, data.qvel, model.opt.gravity, h)
     return step, Coordinates(names, T, left_out, number)
 
 
@@ -276,27 +225,3 @@ def coordinate_name(state: MujocoState, dof: int) -> str:
     axes = AXES.get(kind_of(state, "jnt_type", joint))
     axis = f".{axes[dof - state.model.jnt_dofadr[joint]]}" if axes else ""
     return state.words("joint", joint) + axis
-
-
-def velocity_words(v: Array) -> Iterator[str]:
-    """That the velocity, (nv,), is dropped, where there is one."""
-    if v.any():
-        yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
-
-
-def quasi_dynamic_number(slips: Array, mu_v: Array, gravity: Array, h: float) -> float:
-    """Largest v / (mu_v g h) of contacts, v the speed at which one slides [-].
-
-    Parameters
-    ----------
-    slips : ndarray, shape (n_c,)
-        v [m/s].
-    mu_v : ndarray, shape (n_c,)
-    gravity : ndarray, shape (3,)
-    h : float
-    """
-    slides = (slips > 0) & (mu_v > 0)
-    if not slides.any():
-        return 0.0
-    g = float(np.linalg.norm(gravity))
-    return float((slips[slides] / mu_v[slides]).max()) / (g * h) if g else np.inf

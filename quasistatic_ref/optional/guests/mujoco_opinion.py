@@ -12,16 +12,17 @@ from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.fates import kind_of
 from quasistatic_ref.optional.guests.findings import Words, overlapping
-from quasistatic_ref.optional.guests.mujoco import Coordinates, step_with
+from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
 from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities
+from quasistatic_ref.optional.guests.state_step import Coordinates
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CREEP
 
 if TYPE_CHECKING:
-    from mujoco import MjContact, MjData, MjModel
+    from mujoco import MjData, MjModel
 
 
 DRAG = "dampers: their forces at the present velocity are loads"
@@ -56,6 +57,8 @@ def second_opinion(
         If `tolerance` is not positive.
     ModelError
         As of ``mujoco_step``, and if MuJoCo's simulation is unstable.
+    ContactError
+        Naming a pair of bodies in each other without a normal.
 
     Examples
     --------
@@ -80,7 +83,12 @@ def second_opinion(
     rest = state.data
     drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
     of_engine = EngineState(
-        touches=tuple(_touch(state, now, name, touch) for name, touch in touches.listed(state)),
+        touches=tuple(
+            Touch(contact.name, contact, (contact.name,), (contact,), wrench)
+            for contact, wrench in zip(
+                touches.contacts(state), touches.forces(state, now), strict=True
+            )
+        ),
         movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
         M=state.M,
         gravity=model.opt.gravity,
@@ -104,8 +112,11 @@ def second_opinion(
         first.run()
         deep += [(one, "at the start") for one in misplaced(first)]
     overlaps = [
-        overlapping(one.name, (_body(state, one.geoms[0]), _body(state, one.geoms[1])), one.depth,
-                    when, words)
+        overlapping(
+            one.name,
+            (touches.mover_name(state, one.geoms[0]), touches.mover_name(state, one.geoms[1])),
+            one.depth, when, words,
+        )
         for one, when in deep
     ]  # fmt: skip
     h = float(model.opt.timestep)
@@ -128,29 +139,6 @@ def _words(model: MjModel) -> Words:
         stiffer="change solref and solimp of the geoms, or take masses that differ less",
         apart="change size or pos, or add contact/exclude for bodies that may overlap",
     )
-
-
-def _touch(state: MujocoState, data: MjData, name: str, touch: MjContact) -> Touch:
-    """A contact of MuJoCo's, with the force that it has in the state itself."""
-    mu_v, mu_omega, _ = touches.friction(touch, name)
-    return Touch(
-        name=name,
-        pair=name.partition(": ")[2],
-        bodies=(_body(state, touch.geom[0]), _body(state, touch.geom[1])),
-        depth=max(0.0, -touches.gap(touch)),
-        mu_v=mu_v,
-        mu_omega=mu_omega,
-        of_step=(name,),
-        J=touches.jacobian(state, touch)[None],
-        tangents=touch.frame[3:].reshape(1, 2, 3),
-        wrench=touches.forces(state, data)[touches.number(name)],
-    )
-
-
-def _body(state: MujocoState, geom: int) -> str:
-    """The name of the body that a geom moves with."""
-    number = state.model.body_weldid[state.model.geom_bodyid[geom]]
-    return state.called("body", number) if number else "world"
 
 
 def _mover(state: MujocoState, b: int) -> Mover:

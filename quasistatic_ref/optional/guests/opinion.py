@@ -14,7 +14,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, EngineState
 from quasistatic_ref.optional.guests.findings import Named, Words, findings, not_unique
-from quasistatic_ref.optional.guests.mujoco import Coordinates
+from quasistatic_ref.optional.guests.state_step import Coordinates
 from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData

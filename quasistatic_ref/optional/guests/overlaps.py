@@ -1,26 +1,14 @@
 """Bodies that overlap in MuJoCo, by this package's distances."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import NamedTuple
 
 from quasistatic_ref.contact.distance import in_world
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.separations import gaps
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.errors import ContactError
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState
 from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
-from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import DEEP, PIERCES
-
-if TYPE_CHECKING:
-    pass
 
 
 class Overlap(NamedTuple):
@@ -71,19 +59,6 @@ def overlaps(state: MujocoState) -> Iterator[Overlap]:
 def depth_of(state: MujocoState, a: int, b: int) -> float:
     """How deep two geoms are in each other [m]; below zero where they are apart."""
     R = state.data.xmat.reshape(-1, 3, 3)
-    t = state.data.xpos
     sides = (placed(state, a), placed(state, b))
-    try:
-        pair = ContactPair(f"{a}/{b}", *sides, 0.0, 0.0, rows=4, k=1)
-        shapes = in_world(pair, R, t)
-        return -pair_and_gaps(pair.name, *shapes)[0].phi
-    except ContactError:  # no one normal: their middles coincide
-        return depth_along_axes(*shapes)
-
-
-def depth_along_axes(a: ShapeInWorld, b: ShapeInWorld) -> float:
-    """The least depth of two solids along 26 directions [m]: of round ones the depth itself."""
-    every: Array = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
-    directions = every / np.linalg.norm(every, axis=1, keepdims=True)
-    turned = np.concatenate([directions @ a.R.T, directions @ b.R.T])
-    return -float(gaps(a, b, turned).max())
+    pair = ContactPair(f"{a}/{b}", *sides, 0.0, 0.0, rows=4, k=1)
+    return -solid_pair(pair.name, *in_world(pair, R, state.data.xpos)).phi

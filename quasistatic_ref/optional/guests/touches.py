@@ -1,16 +1,16 @@
-"""The contacts that MuJoCo finds, as contacts of a step."""
+"""The contacts that MuJoCo finds."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
-from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.optional.guests.state_step import StateContact
+from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.tolerances import DEEP
 
 if TYPE_CHECKING:
@@ -21,90 +21,65 @@ USED_OR_IN_GAP = (0, 1)
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
 
 
-def listed(state: MujocoState) -> list[tuple[str, MjContact]]:
-    """MuJoCo's contacts with their names, without those between bodies that do not move.
-
-    A name has MuJoCo's number of the contact, and its geoms, or the bodies of geoms without names.
-    """
+def numbers(state: MujocoState) -> list[int]:
+    """MuJoCo's numbers of its contacts, without those between bodies that do not move."""
     if state.disables("CONSTRAINT"):
         return []
-    kept = [(i, t) for i, t in enumerate(state.data.contact) if t.exclude in USED_OR_IN_GAP]
-    return [(f"{i}: {geoms(state, touch)}", touch) for i, touch in kept]
+    return [i for i, touch in enumerate(state.data.contact) if touch.exclude in USED_OR_IN_GAP]
 
 
-def rubs(state: MujocoState) -> bool:
-    """Whether a contact has friction; without it, all cones are the same."""
-    return any(touch.dim > 1 for _, touch in listed(state))
+def contacts(state: MujocoState) -> list[StateContact]:
+    """MuJoCo's contacts of these numbers.
 
-
-def gap(touch: MjContact) -> float:
-    """The signed distance at which MuJoCo lets a contact push [m]."""
-    return float(touch.dist - touch.includemargin)
-
-
-def geoms(state: MujocoState, touch: MjContact) -> str:
-    """The geoms of a contact, or the bodies of those without names."""
-    bodies = state.model.geom_bodyid
-    named = (state.name("geom", g) or state.words("body", bodies[g]) for g in touch.geom)
-    return "/".join(named)
-
-
-def contacts(
-    state: MujocoState, scale: Natural, basis: Array, as_is: bool
-) -> tuple[Contacts, tuple[str, ...]]:
-    """The contacts of a state; gaps below zero count as zero unless `as_is`.
-
-    So do gaps of up to ``DEEP`` of a contact with adhesion: MuJoCo lets such a contact rest a
-    little off the surface.
-
-    A contact is left out where only rounding is left of its normal row: where its joints and the
-    equalities hold its bodies along the normal, they bear any force, and its friction has no bound.
-
-    Parameters
-    ----------
-    state : MujocoState
-    scale : Natural
-        Of the coordinates of the step.
-    basis : ndarray, shape (r, n)
-        Of the equalities [-], as of ``constraints.Held``.
-    as_is : bool
-
-    Returns
-    -------
-    Contacts
-    tuple of str
-        What is left out.
+    A name has MuJoCo's number, and the geoms, or the bodies of geoms without names. The gap is that
+    at which MuJoCo lets a contact push. A gap of up to ``DEEP`` of a contact with adhesion counts
+    as closed: MuJoCo lets such a contact rest a little off the surface.
 
     Raises
     ------
     ModelError
         Naming a contact whose friction differs in its two directions.
     """
-    every = listed(state)
-    J = np.array([jacobian(state, touch) for _, touch in every]).reshape(-1, 4, len(scale.T))
-    n = np.array([touch.frame[:3] for _, touch in every]).reshape(-1, 3)
-    empty = scale.empty(np.einsum("jc,jci->ji", n, J[:, :3]), basis)
-    left_out = [f"contact[{every[k][0]}]: {HELD}" for k in np.flatnonzero(empty)]
-    kept = np.flatnonzero(~empty)
-    names = tuple(every[k][0] for k in kept)
-    touches = [every[k][1] for k in kept]
-    frames = np.array([touch.frame.reshape(3, 3) for touch in touches]).reshape(-1, 3, 3)
-    phi = np.array([gap(touch) for touch in touches])
-    sticks = np.array([touch.adhesion > 0 for touch in touches], dtype=bool) & (phi <= DEEP)
-    rubs = [friction(touch, name) for name, touch in zip(names, touches, strict=True)]
-    mu_v, mu_omega, rows = np.array(rubs).reshape(-1, 3).T
-    at_rest = Contacts(
-        name=names,
-        phi=phi if as_is else np.where(sticks, 0.0, np.maximum(phi, 0.0)),
-        n=frames[:, 0],
-        d1=frames[:, 1],
-        d2=frames[:, 2],
-        J=J[kept] @ scale.T,
-        mu_v=mu_v,
-        mu_omega=mu_omega,
-        rows=rows.astype(np.int64),
-    )
-    return at_rest, tuple(left_out)
+    every = []
+    for i in numbers(state):
+        touch = state.data.contact[i]
+        pair = "/".join(
+            state.name("geom", g) or state.words("body", state.model.geom_bodyid[g])
+            for g in touch.geom
+        )
+        name = f"{i}: {pair}"
+        phi = float(touch.dist - touch.includemargin)
+        sticks = touch.adhesion > 0 and phi <= DEEP
+        frame = touch.frame.reshape(3, 3).copy()
+        bodies = (mover_name(state, touch.geom[0]), mover_name(state, touch.geom[1]))
+        every.append(
+            StateContact(name, pair, bodies, phi, phi <= 0 or sticks, frame,
+                         jacobian(state, touch), *friction(touch, name))
+        )  # fmt: skip
+    return every
+
+
+def mover_name(state: MujocoState, geom: int) -> str:
+    """The name of the body that a geom moves with; ``"world"`` if none."""
+    body = state.model.body_weldid[state.model.geom_bodyid[geom]]
+    return state.called("body", body) if body else "world"
+
+
+def held(every: Sequence[StateContact], scale: Natural, basis: Array) -> Mask:
+    """The contacts whose bodies joints and equalities hold along the normal, shape (n_c,).
+
+    Only rounding is left of their normal rows: they bear any force, and friction has no bound.
+
+    Parameters
+    ----------
+    every : sequence of StateContact
+    scale : Natural
+        Of the coordinates of the step.
+    basis : ndarray, shape (r, n)
+        Of the equalities [-], as of ``constraints.Held``.
+    """
+    rows = [contact.frame[0] @ contact.J[:3] for contact in every]
+    return scale.empty(np.array(rows).reshape(-1, len(scale.T)), basis)
 
 
 def friction(touch: MjContact, name: str) -> tuple[float, float, int]:
@@ -143,17 +118,15 @@ def jacobian(state: MujocoState, touch: MjContact) -> Array:
     return J
 
 
-def words(state: MujocoState) -> Iterator[str]:
-    """What a step leaves out of contacts."""
-    for called, touch in listed(state):
-        if touch.dim == 6:
-            yield f"contact[{called}]: rolling friction, for which there is no row"
-        if gap(touch) < -DEEP:
-            yield f"contact[{called}]: its bodies penetrate by {-1e3 * gap(touch):.3g} mm"
+def rolling_words(state: MujocoState, every: Sequence[StateContact]) -> Iterator[str]:
+    """What a step leaves out of contacts with ``condim`` 6."""
+    for i, contact in zip(numbers(state), every, strict=True):
+        if state.data.contact[i].dim == 6:
+            yield f"contact[{contact.name}]: rolling friction, for which there is no row"
 
 
 def forces(state: MujocoState, data: MjData) -> Array:
-    """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of all its contacts in a state, (ncon, 4) [N, N m].
+    """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of its contacts in a state, (n_c, 4) [N, N m].
 
     They include what balances adhesion, which MuJoCo takes off them.
     """
@@ -161,9 +134,4 @@ def forces(state: MujocoState, data: MjData) -> Array:
     for i in range(data.ncon):
         state.mujoco.mj_contactForce(state.model, data, i, its[i])
     its[:, 0] += data.contact.adhesion
-    return its[:, [1, 2, 0, 3]]
-
-
-def number(called: str) -> int:
-    """MuJoCo's number of a contact, by its name."""
-    return int(called.partition(":")[0])
+    return its[numbers(state)][:, [1, 2, 0, 3]]

@@ -181,6 +181,30 @@ def test_bodies_at_one_place_are_found_at_the_start(shape):
     assert start.numbers["depth_mm"] == pytest.approx(200, rel=1e-6)
 
 
+def test_a_rod_through_a_box_that_mujoco_lists_no_contact_of_is_found():
+    """It goes out across itself and an edge: by its radius, and by the box along that normal."""
+    half, radius = np.array([0.1, 0.05, 0.2]), 0.01
+    rod = f'<geom name="rod" type="capsule" size="{radius} .3" quat=".84 -.154 -.261 .45"/>'
+    box = f'<geom name="box" type="box" size="{" ".join(map(str, half))}"/>'
+    bodies = "".join(
+        f'<body name="{name}" pos="0 0 .5"><freejoint/>{geom}</body>'
+        for name, geom in (("rod", rod), ("box", box))
+    )
+    model = mujoco.MjModel.from_xml_string(scene(bodies))
+    data = settled(model, 0.0)
+    answer = qr.second_opinion(model, data)
+    assert answer.contacts == ()
+    (finding,) = answer.findings
+    mujoco.mj_forward(model, data)
+    across = np.cross(data.geom_xmat[0].reshape(3, 3)[:, 2], np.eye(3))
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    depth = (np.abs(across) @ half).min() + radius
+    assert finding.cause.startswith(
+        "rod/box: rod and box overlap by 64.1 mm now, without a contact"
+    )
+    assert finding.numbers["depth_mm"] == pytest.approx(1e3 * depth)
+
+
 def test_bodies_that_may_overlap_are_not_found():
     """By MuJoCo's own filters: excluded, of other groups of contacts, or one the other's parent."""
     body = '<body name="{}" pos="0 0 .1"><freejoint/><geom type="box" size=".1 .1 .1" {}/></body>'
