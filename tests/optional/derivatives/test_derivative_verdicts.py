@@ -6,31 +6,28 @@ import pytest
 from quasistatic_ref import (
     Body,
     Box,
+    Capsule,
+    ContactPair,
     Cylinder,
+    Ellipsoid,
     FastSimulator,
     PointCloud,
     Simulator,
     Sphere,
     System,
+    convex_hull,
     derivatives,
     load_scenario,
 )
 from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.tolerances import TIED
 from tests.closeness import assert_within
+from tests.contact.still import placed_shape
 from tests.model.urdf.urdf_texts import joint, link, robot
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, H, free, verdict
 
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
-
-
-def test_a_box_over_an_edge_is_borne_where_edges_cross():
-    # Two of its lower corners are over the other box, and two edges cross that one's.
-    simulator, q = free(Box((0.05, 0.04, 0.03)), (0.08, 0, 0.08), BOX, k=4)
-    found, kinds = verdict(simulator, q)
-    crossing = [why for why in found.reasons if why.kind == reason.CROSSING]
-    assert reason.CROSSING in kinds
-    assert len(crossing) == 2
-    assert {why.fields for why in crossing} == {("dq_dq",)}
+RAIL = robot(link("rail"), link("slider"), joint("slide", "rail", "slider", "prismatic", "0 0 1"))
 
 
 LOPSIDED = """<robot name="box"><link name="box"><inertial><origin xyz=".02 .02 0"/>
@@ -61,10 +58,47 @@ def test_a_turn_by_rounding_changes_no_corner_of_a_box_that_lies_flat(floor):
             assert_within(change, found.dq_dq @ turn, 1e-5)
 
 
+DOWN = np.array([0, 0, -1.0, 0, 0, 0])
+PILL = Capsule(0.03, 0.05)
+SLAB = Box((0.3, 0.3, 0.05))
+BAR = Box((0.02, 0.2, 0.05))
+BAR_ACROSS = Box((0.2, 0.02, 0.05))
+PYRAMID = convex_hull([[0.1, 0.1, 0], [0.1, -0.1, 0], [-0.1, 0.1, 0], [-0.1, -0.1, 0], [0, 0, 0.1]])
+PYRAMID_ON_ITS_TIP = convex_hull(-PYRAMID.vertices)
+TRIANGLE = ((-0.2, -0.2), (0.05, -0.05), (-0.05, 0.05))
+PRISM = convex_hull([[x, y, z] for x, y in TRIANGLE for z in (-0.05, 0.05)])
+POINT = PointCloud(np.zeros((1, 3)))
+
+
+def five_points(higher=0.0):
+    """Points 0 and 3 are level, but for how much higher 0 is [m]."""
+    angle = 2.4 * np.arange(5)
+    heights = np.array([0.02 + higher, 0.0, 0.01, 0.02, 0.03])
+    return PointCloud(np.stack([0.03 * np.cos(angle), 0.03 * np.sin(angle), heights], axis=1))
+
+
+def ball_on_ball(n):
+    """So slippery that it does not roll."""
+    at = 0.0999 * np.array(n) / np.linalg.norm(n)
+    return free(Sphere(0.05), at, Sphere(0.05), mu=(0.1, 0.01))
+
+
+def on_a_rail(fixed, shape, t, k):
+    """A body that can only rise."""
+    system = System([Body("rail", RAIL)])
+    lying = placed_shape(shape, system.link("rail/slider"), t=t)
+    pair = ContactPair("c0", placed_shape(fixed), lying, 0.5, 0.0, 4, k)
+    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0))), system.q_start
+
+
 KINKS = {
-    "two points that are equally near, of which one is kept": (
+    "of points that are equally near one is kept": (
         reason.POINTS,
         lambda: free(PointCloud([[0.1, 0, 0], [-0.1, 0, 0]]), (0, 0, 0), FLOOR),
+    ),
+    "of five points two are as near as the third": (
+        reason.POINTS,
+        lambda: free(five_points(0.001 * TIED), (0, 0, 0), FLOOR, k=3),
     ),
     "a ball over the rim of a face": (
         reason.FEATURE,
@@ -74,18 +108,30 @@ KINKS = {
         reason.MANY,
         lambda: free(BOX, (0, 0, 0.05), FLOOR),
     ),
-    "a point at a box's corner": (
-        reason.NO_NORMAL,
-        lambda: free(PointCloud(np.zeros((1, 3))), (0.1, 0.1, 0.05), BOX),
+    "faces that overlap in part, with one corner of either": (
+        reason.MANY,
+        lambda: free(BOX, (0.06, 0.05, 0.05), PYRAMID_ON_ITS_TIP, k=2),
     ),
+    "faces that overlap in part, with two corners of the upper one": (
+        reason.MANY,
+        lambda: free(PYRAMID, (0.29, 0, 0.05), SLAB, k=2),
+    ),
+    "faces that overlap in three corners, which are not all of either": (
+        reason.MANY,
+        lambda: free(BOX, (0, 0, 0.1), PRISM, k=2),
+    ),
+    "faces that cross without a corner": (
+        reason.MANY,
+        lambda: free(BAR_ACROSS, (0, 0, 0.1), BAR, k=4),
+    ),
+    "a point at a centre of curvature": (
+        reason.MANY,
+        lambda: free(POINT, ((0.3**2 - 0.1**2) / 0.3, 0, 0), Ellipsoid((0.3, 0.2, 0.1))),
+    ),
+    "a point at a box's corner": (reason.NO_NORMAL, lambda: free(POINT, (0.1, 0.1, 0.05), BOX)),
     "a normal as far from two axes of the world": (
         reason.TANGENTS,
-        lambda: free(  # so slippery that it does not roll
-            Sphere(0.05),
-            0.0999 * np.array([1.0, 1, 2]) / np.sqrt(6),
-            Sphere(0.05),
-            mu=(0.1, 0.01),
-        ),
+        lambda: ball_on_ball((1.0, 1.0 + 0.1 * TIED, 2.0)),
     ),
     "a cylinder that stands upright on its rim": (
         reason.RIM,
@@ -94,7 +140,15 @@ KINKS = {
     # Depths that tie by more than a step is refused for.
     "a point as deep below two faces": (
         reason.SURFACES,
-        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04 + 4e-12), BOX),
+        lambda: free(POINT, (0.09, 0, 0.04 + 4e-12), BOX),
+    ),
+    "a box over an edge": (
+        reason.CROSSING,
+        lambda: free(Box((0.05, 0.04, 0.03)), (0.08, 0, 0.08), BOX, k=4),
+    ),
+    "capsules that lie across each other": (
+        reason.CROSSING,
+        lambda: free(PILL, (0.0599, 0, 0), PILL, k=2, rpy=(np.pi / 2, 0, 0)),
     ),
 }
 
@@ -102,7 +156,7 @@ KINKS = {
 @pytest.mark.parametrize(("kind", "scene"), KINKS.values(), ids=KINKS)
 def test_a_constructed_kink_is_named(kind, scene):
     simulator, q = scene()
-    found, kinds = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
+    found, kinds = verdict(simulator, q, DOWN)
     assert kind in kinds, [str(why) for why in found.reasons]
     assert not found.differentiable
     assert np.isnan(found.dq_dq).all()
@@ -110,12 +164,42 @@ def test_a_constructed_kink_is_named(kind, scene):
     assert all(why.where[0].startswith("c0") for why in found.reasons if why.kind == kind)
 
 
+NO_KINKS = {
+    "of five points the fourth is a little higher": (
+        lambda: free(five_points(10 * TIED), (0, 0, 0), FLOOR, k=3)
+    ),
+    "of five points those that are level are kept": (
+        lambda: free(five_points(), (0, 0, 0), FLOOR, k=4)
+    ),
+    "all corners of the upper face": lambda: free(BOX, (0, 0, 0.1), SLAB, k=4),
+    "all corners of the lower face": lambda: free(SLAB, (0, 0, 0.1), BOX, k=4),
+    "all corners of a mesh's face": lambda: free(PYRAMID, (0, 0, 0.05), SLAB, k=4),
+    "a normal nearly as far from two axes": lambda: ball_on_ball((1.0, 1.0 + 10 * TIED, 2.0)),
+    "a normal along an axis": lambda: ball_on_ball((0.0, 0.0, 1.0)),
+    "a cylinder that stands upright and can only rise": lambda: on_a_rail(
+        FLOOR, Cylinder(0.04, 0.06), (0, 0, 0.06), 4
+    ),
+    "faces that overlap in part and can only come nearer": (
+        lambda: on_a_rail(PYRAMID_ON_ITS_TIP, BOX, (0.06, 0.05, 0.05), 1)
+    ),
+    "a box that lies flat, but far away": lambda: free(BOX, (0, 0, 0.5), FLOOR),
+}
+
+
+@pytest.mark.parametrize("scene", NO_KINKS.values(), ids=NO_KINKS)
+def test_what_is_nearly_a_kink_is_none(scene):
+    simulator, q = scene()
+    found, kinds = verdict(simulator, q, DOWN[: simulator.system.n_v])
+    assert kinds == set()
+    assert found.differentiable
+
+
 @pytest.mark.parametrize(("distance", "kinds"), [(1e-9, 1), (1e-7, 1), (1e-5, 0)])
 def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kinds):
     # Places are right to 1e-16 m, and the normal to that over the distance.
     at = np.array([0.02, 0.1, 0.05]) + distance * np.array([0.0, 0.6, 0.8])
-    simulator, q = free(PointCloud(np.zeros((1, 3))), at, BOX)
-    found, named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
+    simulator, q = free(POINT, at, BOX)
+    found, named = verdict(simulator, q, DOWN)
     assert named == ({reason.NO_NORMAL} if kinds else set())
     assert np.isnan(found.dq_dq).all() == np.isnan(found.dq_dtau).all() == bool(kinds)
 
@@ -123,20 +207,9 @@ def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kind
 @pytest.mark.parametrize(("tilt", "kind"), [(1e-8, True), (3e-6, True), (1e-4, False)])
 def test_a_rim_so_level_that_float64_does_not_know_its_lowest_point(tilt, kind):
     simulator, q = free(Cylinder(0.04, 0.06), (0, 0, 0.06), FLOOR, k=4, rpy=(tilt, 0, 0))
-    named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))[1]
+    found, named = verdict(simulator, q, DOWN)
     assert (reason.RIM in named) == kind
-
-
-def test_a_kink_of_a_contact_that_is_far_away_does_not_matter():
-    simulator, q = free(BOX, (0, 0, 0.5), FLOOR)
-    found, kinds = verdict(simulator, q)
-    assert kinds == set()
-    assert np.allclose(found.dq_dq, np.eye(6), atol=1e-2)
-
-
-def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0999), Sphere(0.05))
-    assert verdict(simulator, q, np.array([1.0, 0.2, 0, 0, 0, 0]))[1] == set()
+    assert np.isnan(found.dq_dtau).all() == kind
 
 
 def test_a_target_half_a_turn_away_is_named():

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.step.data import Array, Contacts
-from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
+from quasistatic_ref.tolerances import LEVEL, SPLIT, UNIQUE
 
 
 def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:
@@ -47,16 +47,13 @@ def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:
 
 
 def nearly_level(couple: Couple) -> bool:
-    """Whether a contact is on a rim that is level but for more than rounding."""
-    for body, end in zip(couple.of.bodies, couple.points, strict=True):
-        radius = body.shape.rim_radius
-        if radius is not None:
-            x = body.R.T @ (end - body.t)
-            n = body.R.T @ couple.n
-            on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * radius
-            if on_rim and SPLIT < np.hypot(*n[:2]) <= LEVEL:
-                return True
-    return False
+    """Whether a contact is of a rim that is level but for more than rounding."""
+    tilts = [
+        np.hypot(*(body.R.T @ couple.n)[:2])
+        for body in couple.of.bodies
+        if body.shape.rim_radius is not None
+    ]
+    return any(SPLIT < tilt <= LEVEL for tilt in tilts)
 
 
 def dependent(features: tuple[Feature, Feature]) -> bool:

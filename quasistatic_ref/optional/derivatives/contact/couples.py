@@ -53,14 +53,9 @@ class PairInWorld:
 
     @cached_property
     def extents(self) -> tuple[float, float]:
-        """How large the bodies are [m]: a cloud as the box about it; of a half-space, infinity."""
-        first, second = (
-            float(np.ptp(body.shape.points, axis=0).max())
-            if isinstance(body.shape, PointCloud)
-            else body.shape.extent
-            for body in self.bodies
-        )
-        return first, second
+        """How large the bodies are [m]; of a half-space, infinity."""
+        first, second = self.bodies
+        return first.shape.extent, second.shape.extent
 
     @cached_property
     def size(self) -> float:

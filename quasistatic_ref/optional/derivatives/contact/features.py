@@ -123,7 +123,7 @@ def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
     height = abs(x[2] - shape.radius * n[2])  # of the point of the segment
     bend = ball(shape.radius, n).bend
     if height < shape.half_length - ON_RIM * (shape.half_length + shape.radius):
-        return Feature(bend - shape.radius * np.outer(axis, axis), axis)
+        return Feature(bend, axis)
     return Feature(bend, ends=axis if abs(n[2]) <= ON_RIM else NONE)
 
 

@@ -1,11 +1,22 @@
-"""How closest points and tangents change; points that slide along a common straight line."""
+"""How closest points, corners on rims and tangents change; points that slide along a line."""
 
 from itertools import combinations_with_replacement
 
 import numpy as np
 import pytest
 
-from quasistatic_ref import Body, Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere, System
+from quasistatic_ref import (
+    Body,
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    Sphere,
+    System,
+    convex_hull,
+)
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -31,11 +42,11 @@ EDGE, FACE = (Feature(free=free) for free in (DIAGONAL[None], ACROSS))
 
 def feature_rates(features, v, omega):
     """Of two bodies at the origin and at PHI N that move by v and turn by omega, one coordinate."""
-    own = np.array(v)[:, None, :, None]
+    velocity = np.array(v)[:, None, :, None]
     turn = np.array(omega)[:, None, :, None]
     phi = np.array([PHI])
     size = np.array([1.0])
-    return closest_point_rates(phi, N[None], [*features], own, turn, size)
+    return closest_point_rates(phi, N[None], [*features], velocity, turn, size)
 
 
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])
@@ -54,52 +65,65 @@ def test_an_edge_on_a_face_may_turn_about_itself_and_about_nothing_else(features
         assert_within(as_one.n[0, :, 0], np.cross(way, N), ROUNDING)
 
 
-def test_each_of_several_pairs_slides_along_its_own_line():
-    """Of a face on an edge along y, and an edge along x on a face: it alone turns, about x."""
-    features = [FACE, Feature(free=X[None]), Feature(free=Y[None]), FACE]
-    omega = np.zeros((2, 2, 3, 1))
-    omega[:, 1, :, 0] = X, 0 * X
-    n = np.array([N, N])
-    rates = closest_point_rates(
-        np.full(2, PHI), n, features, np.zeros((2, 2, 3, 1)), omega, np.ones(2)
-    )
-    assert rates.unique.all()
-    assert_within(rates.n, 0.0, ROUNDING)  # the faces do not turn
-
-
 SHAPES = (
     Sphere(0.05), Capsule(0.03, 0.05), Box((0.03, 0.05, 0.04)), Cylinder(0.04, 0.06),
-    Cone(0.04, 0.06), Ellipsoid((0.03, 0.05, 0.04)),
+    Cone(0.04, 0.06), Ellipsoid((0.03, 0.05, 0.04)), convex_hull(np.eye(4, 3) * 0.1 - 0.02),
 )  # fmt: skip
 PAIRS = list(combinations_with_replacement(SHAPES, 2))
+
+
+def assert_changes_as_differences_say(one, system, e):
+    """All closest points of a pair, as the system moves along e; none is at a kink by chance."""
+    where = system.kinematics(system.q_start)
+    points = closest_points([one], where)
+    kept = couples([one], points, where.R, where.t)
+    rates = contact_rates(kept, MotionRates(where, system.column_map).J)
+    assert rates.unique.all()
+
+    def moved(t):
+        there = closest_points([one], system.kinematics(system.integrate(system.q_start, t * e)))
+        columns = np.hstack([there.phi[:, None], there.n, there.alpha, there.beta])
+        return columns[np.argsort(there.point)]  # contacts come as they rank
+
+    of_phi = rates.phi[:, None]
+    closed_form = np.concatenate([of_phi, rates.n, rates.alpha, rates.beta], axis=1) @ e
+    expected = rate(moved)
+    size = np.abs(expected).max()
+    assert_within(closed_form[np.argsort(points.point)], expected, DIFFERENCE_OF_STEPS * size)
 
 
 @pytest.mark.parametrize(
     "shapes", PAIRS, ids=["-".join(type(s).__name__ for s in two) for two in PAIRS]
 )
 def test_r29_random_pairs_change_as_differences_say(shapes, rng):
-    """Both bodies move; where there are such derivatives, nothing is at a kink by chance."""
     bodies = [
         Body.of_shape(name, Sphere(0.05), 0.3, xyz=xyz, rpy=rng.uniform(-3, 3, 3))
         for name, xyz in (("a", np.zeros(3)), ("b", 0.16 * unit(rng, 3)))
     ]
     system = System(bodies)
     one = pair(*(placed_shape(s, system.link(b.name)) for s, b in zip(shapes, bodies, strict=True)))
-    where = system.kinematics(system.q_start)
-    points = closest_points([one], where)
-    kept = couples([one], points, where.R, where.t)
-    rates = contact_rates(kept, MotionRates(where, system.column_map).J)
-    assert rates.unique.all()
-    e = rng.normal(size=12)
+    assert_changes_as_differences_say(one, system, rng.normal(size=12))
 
-    def moved(t):
-        there = closest_points([one], system.kinematics(system.integrate(system.q_start, t * e)))
-        return np.concatenate([there.phi, *there.n, *there.alpha, *there.beta])
 
-    found = np.concatenate([rates.phi[0, None], rates.n[0], rates.alpha[0], rates.beta[0]]) @ e
-    expected = rate(moved)
-    size = np.abs(expected).max()
-    assert_within(found, expected, DIFFERENCE_OF_STEPS * size)
+FLOOR = HalfSpace((0.0, 0.0, 1.0), 0.0)
+CORNERS = {
+    "quarters of two rims": (FLOOR, Cylinder(0.04, 0.06), (0.01, 0.02, 0.08), (0.4, 0.3, 0.2), 8),
+    "ends of a capsule": (FLOOR, Capsule(0.03, 0.05), (0.0, 0.0, 0.2), (0.4, 0.3, 0.2), 2),
+    "tips and rims of two cones": (
+        Cone(0.05, 0.06), Cone(0.03, 0.04), (0.01, 0.0, -0.1001), (np.pi - 0.1, 0.05, 0.0), 6
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("first", ["fixed", "moving"])
+@pytest.mark.parametrize("corners", CORNERS)
+def test_corners_of_a_tilted_body_change_as_differences_say(corners, first, rng):
+    """The first corner of a rim is its point nearest to the other body, and slides along it."""
+    fixed, moving, xyz, rpy, k = CORNERS[corners]
+    system = System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=xyz, rpy=rpy)])
+    sides = [placed_shape(fixed), placed_shape(moving, system.link("body"))]
+    one = pair(*(sides if first == "fixed" else sides[::-1]), k)
+    assert_changes_as_differences_say(one, system, rng.normal(size=6))
 
 
 def test_r34_tangents_change_as_written(rng):

@@ -8,7 +8,6 @@ from quasistatic_ref import (
     Box,
     Capsule,
     Cone,
-    ContactError,
     Cylinder,
     Ellipsoid,
     PointCloud,
@@ -70,12 +69,12 @@ def couple_of(alpha, beta, a, b):
     """The contact of two shapes at poses (R, t), at their closest points."""
     p = pair(placed_shape(alpha, 1), placed_shape(beta, 2))
     R, t = (np.array([x, y, z]) for x, y, z in zip(STILL, a, b, strict=True))
-    (found,) = couples([p], pair_closest_points(p, R, t), R, t)
-    return found
+    (couple,) = couples([p], pair_closest_points(p, R, t), R, t)
+    return couple
 
 
-def depth_tie_words(alpha, beta, a=STILL, b=STILL):
-    """What `depth_tie` says of them."""
+def tied(alpha, beta, a=STILL, b=STILL):
+    """Whether they have two ways out."""
     return depth_tie(couple_of(alpha, beta, a, b))
 
 
@@ -83,9 +82,9 @@ def inside(solid, p, body, pose):
     """The same of a body whose middle is at p in the frame of a solid, either one first."""
     R, t = pose
     there = np.eye(3), R @ np.array(p, dtype=float) + t
-    found = depth_tie_words(solid, body, pose, there)
-    assert depth_tie_words(body, solid, there, pose) == found
-    return found
+    solid_first = tied(solid, body, pose, there)
+    assert tied(body, solid, there, pose) == solid_first
+    return solid_first
 
 
 @pytest.mark.parametrize("name", TIES)
@@ -96,9 +95,6 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name):
     assert inside(solid, near, Sphere(0.01), (TURNED, AT))
     for off in (0.75 * TIED / solid.extent, -AWAY):
         assert not inside(solid, p + off * np.array(way), POINT, (TURNED, AT))
-    if not isinstance(solid, Ellipsoid):  # whose two normals are never equal to the last digits
-        with pytest.raises(ContactError, match=r"p: the bodies are as deep in each other along \["):
-            inside(solid, p, POINT, STILL)
 
 
 @pytest.mark.parametrize("name", NO_TIES)
@@ -112,9 +108,7 @@ LOG = Cylinder(0.2, 0.2)
 LONG = Capsule(0.05, 0.2)
 PAIRS = {
     "two boxes": (BOX, B, (0.3 - D, 0.4 - D, 0.1)),
-    "a cylinder in a box": (LOG, B, (0.4 - D, 0.0, 0.4 - D)),
     "two upright cylinders": (LOG, LOG, (0.4 - D, 0.0, 0.4 - D)),
-    "a mesh and a box": (convex_hull(B.corners(AT)[0]), B, (0.4 - D, 0.05, 0.4 - D)),
     # The axis of the capsule is D deep: its side and its lower end leave by as much.
     "a box and a capsule": (B, LONG, (0.2 - D, 0.02, 0.4 - D)),
 }
@@ -127,12 +121,10 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name):
     way = np.eye(3)[0]
     size = max(a.extent, b.extent)
     near = np.array(t) + NEAR * size * way
-    assert depth_tie_words(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
+    assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
     for off in (0.75 * TIED / size, -AWAY):
         moved = TURNED @ (np.array(t) + off * way) + AT
-        assert not depth_tie_words(a, b, (TURNED, AT), (TURNED, moved))
-    with pytest.raises(ContactError, match="as deep in each other along"):
-        depth_tie_words(a, b, STILL, (np.eye(3), np.array(t)))
+        assert not tied(a, b, (TURNED, AT), (TURNED, moved))
 
 
 # Its two upper faces fall by atan(0.1) from the ridge, an angle within FACING.
@@ -149,16 +141,16 @@ def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side):
     If n were opposite, the one face would count that is level.
     """
     shapes = (ROOF, BOX) if side == 0 else (BOX, ROOF)
-    found = couple_of(*shapes, STILL, (np.eye(3), np.eye(3)[0]))
-    corner = found.of.bodies[side].t + np.array([0.0, 0.03, -0.02])
+    couple = couple_of(*shapes, STILL, (np.eye(3), np.eye(3)[0]))
+    corner = couple.of.bodies[side].t + np.array([0.0, 0.03, -0.02])
     n = np.array([0.0, 0.0, 1.0 if side == 0 else -1.0])
-    assert depth_tie(found._replace(n=n, centre=(side, corner)))
-    assert not depth_tie(found._replace(n=-n, centre=(side, corner)))
+    assert depth_tie(couple._replace(n=n, centre=(side, corner)))
+    assert not depth_tie(couple._replace(n=-n, centre=(side, corner)))
 
 
 def test_boxes_that_touch_at_their_edges_are_not_in_penetration():
     edge = np.array([0.2 + 0.2, 0.0, 0.2 + 0.2])
-    assert not depth_tie_words(B, B, STILL, (np.eye(3), edge))
+    assert not tied(B, B, STILL, (np.eye(3), edge))
 
 
 def test_a_capsule_whose_axis_is_above_the_edge_of_a_box_has_one_normal():
@@ -168,7 +160,7 @@ def test_a_capsule_whose_axis_is_above_the_edge_of_a_box_has_one_normal():
     """
     off = 1e-7
     above = np.array([B.half_extents[0] + off, 0.013, 0.4 + 1e-3])
-    assert not depth_tie_words(B, LONG, STILL, (np.eye(3), above))
+    assert not tied(B, LONG, STILL, (np.eye(3), above))
 
 
 def test_capsules_are_tied_where_their_axes_cross():
@@ -179,22 +171,14 @@ def test_capsules_are_tied_where_their_axes_cross():
     across = TURNED @ Rotation.from_euler("x", 1.0).as_matrix()
     near = NEAR * a.extent
     for off in (near, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
-        found = depth_tie_words(a, b, (TURNED, AT), (across, AT + TURNED[:, 0] * off))
-        assert found == (off == near)
-
-
-def test_a_rim_that_touches_an_edge_has_two_normals():
-    rim = Cylinder(0.25, 0.25)
-    half = Box((0.25, 0.25, 0.25))
-    found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
-    assert depth_tie(found)
-    assert depth_tie(found._replace(phi=0.0))
+        there = across, AT + TURNED[:, 0] * off
+        assert tied(a, b, (TURNED, AT), there) == (off == near)
 
 
 def test_ellipsoids_that_leave_each_other_to_either_side_are_tied():
     """Both ways are mirrored in the plane y = 0 and along no axis; off it one is shorter."""
     narrow = Ellipsoid((0.25, 0.12, 0.4))
     wide = Ellipsoid((0.3, 0.1, 0.4))
-    for off, tied in ((NEAR * wide.extent, True), (AWAY, False)):
+    for off, expected in ((NEAR * wide.extent, True), (AWAY, False)):
         there = np.eye(3), np.array([0.05, off, 0.0])
-        assert depth_tie_words(wide, narrow, STILL, there) == tied
+        assert tied(wide, narrow, STILL, there) == expected
