@@ -32,7 +32,7 @@ from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.standard_form import inequalities, linear_term
+from quasistatic_ref.step.standard_form import standard_form
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
@@ -366,8 +366,8 @@ def programs(steps: Sequence[StepData]) -> StepArrays:
         By the notation's names [in its units].
     """
     arrays: StepArrays = {name: _of_all(steps, name) for name in PROGRAM if name not in FORMED}
-    arrays["g"] = np.array([linear_term(step) for step in steps])
-    arrays["A"], arrays["b"] = inequalities(steps)
+    forms = [standard_form(step) for step in steps]
+    arrays |= {name: _of_all(forms, name) for name in ("g", "A", "b")}
     arrays["J"] = np.array([step.contacts.J for step in steps])
     if steps[0].extra.names:
         extra = [step.extra for step in steps]

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import cast
 
 import numpy as np
 
@@ -15,9 +14,6 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.ordered import total
-
-FEW = 4
-"""Times between two waypoints: of as many, positions are formed sooner all at once than singly."""
 
 
 def piecewise_linear(times: Array, values: Array, t: float | Array) -> Array:
@@ -77,24 +73,16 @@ class JointTrack(Plain):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
             return np.array([joint.at(position) for position in positions.tolist()])
         intervals, shares = _interval(self.times, t)
-        at_times = self.values[intervals].astype(np.float64)
-        changes = (np.flatnonzero(np.diff(intervals)) + 1).tolist()
-        for first, end in pairwise([0, *changes, len(t)]):
-            s = shares[first:end]
-            if not s.any():
-                continue
-            start = at_times[first].tolist()
-            way = self._ways[intervals[first]]
-            # The geodesic of (+): a screw when the base both moves and turns.
-            if joint.in_c is None or len(s) < FEW or any(way[joint.lengths :]):
-                at_times[first:end] = [
-                    joint.moved(start, [x * y for y in way]) if x else start for x in s.tolist()
-                ]
-            else:  # all at once: only lengths depend on time
-                moved = joint.moved(start, [cast("float", s) * y if y else 0.0 for y in way])
-                for entry, values in enumerate(moved):
-                    at_times[first:end, entry] = np.where(s > 0, values, start[entry])
-        return at_times
+        each = zip(intervals.tolist(), shares.tolist(), strict=True)
+        return np.array([self._within(i, s) for i, s in each], dtype=np.float64)
+
+    def _within(self, i: int, s: float) -> list[float]:
+        """Where it is in interval i, a share s of which has passed: nq entries of q."""
+        start: list[float] = self.values[i].tolist()
+        if s == 0:
+            return start
+        # The geodesic of (+): a screw when the base both moves and turns.
+        return self.joint.moved(start, [s * x for x in self._ways[i]])
 
     @cached_property
     def _ways(self) -> list[list[float]]:

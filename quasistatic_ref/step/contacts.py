@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -166,29 +164,6 @@ class Contacts(Plain, Shown):
             field = self.name[j]
             value = axes[:, j].tolist()
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
-
-
-class Frames(NamedTuple):
-    """The contacts of several steps, one after the other, as far as rows are made of them.
-
-    Parameters
-    ----------
-    phi, n, d1, d2, mu, J : ndarray, shape (n_c, ...)
-        As in :class:`Contacts`, n_c contacts in all.
-    """
-
-    phi: Array
-    n: Array
-    d1: Array
-    d2: Array
-    mu: Array
-    J: Array
-
-    @classmethod
-    def of_all(cls, contacts: Sequence[Contacts]) -> Frames:
-        """Those of the contacts of each step."""
-        each = ([getattr(c, name) for c in contacts] for name in cls._fields)
-        return cls(*(arrays[0] if len(arrays) == 1 else np.concatenate(arrays) for arrays in each))
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:

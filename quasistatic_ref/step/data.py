@@ -120,14 +120,11 @@ class RowLayout(NamedTuple):
         Which of the cone's rows each contact has.
     offsets : ndarray of int, shape (n_c + 1,)
         Where each contact's rows start.
-    numbers : ndarray of int, shape (m,)
-        Of the rows that the contacts have, among all n_c R.
     """
 
     counts: Indices
     mask: Mask
     offsets: Indices
-    numbers: Indices
 
 
 @lru_cache(maxsize=32)
@@ -136,8 +133,7 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     counts = cone_of(cone_name).counts(np.frombuffer(rows, np.int64))
     mask = np.arange(len(cone_of(cone_name).row_names)) < counts[:, None]
     offsets = np.concatenate([[0], np.cumsum(counts)])
-    numbers = np.flatnonzero(mask)
-    return RowLayout(*map(read_only, (counts, mask, offsets, numbers)))
+    return RowLayout(read_only(counts), read_only(mask), read_only(offsets))
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
@@ -248,15 +244,13 @@ class StepData(Plain, HasPage):
         """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
         return self.M_u[np.ix_(u, u)]
 
-    def coupled(self) -> tuple[Indices, Indices]:
-        """Both coordinates of each entry below the diagonal of H that a term of it may have."""
-        first, second = _coupled(
-            (self.K_q != 0).tobytes(), (self.M_u != 0).tobytes(), self.n_a, self.n_u
-        )
-        if self.extra.cost is None:
-            return first, second
-        one, other = np.argwhere(np.tril(self.extra.cost[0], -1)).T
-        return np.append(first, one), np.append(second, other)
+    def coupled(self) -> Mask:
+        """Which entries of H a term of it may have, shape (n_v, n_v)."""
+        coupled = np.zeros((self.n_v, self.n_v), dtype=bool)
+        coupled[: self.n_a, : self.n_a] = self.K_q != 0
+        coupled[self.n_a :, self.n_a :] = self.M_u != 0
+        cost = self.extra.cost
+        return coupled if cost is None else coupled | (cost[0] != 0)
 
     @property
     def n_a(self) -> int:
@@ -298,14 +292,6 @@ class StepData(Plain, HasPage):
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets
 
-    def present(self, rows: Array, steps: int = 1) -> Array:
-        """The rows that contacts have, shape (steps, m, ...), of all, (steps n_c, R, ...).
-
-        Of one step it is ``rows[mask]``, in half the time.
-        """
-        flat = rows.reshape(steps, self.mask.size, *rows.shape[2:])
-        return flat.take(self.row_layout.numbers, axis=1)
-
     @cached_property
     def H(self) -> Array:
         """H of Eq. :eq:`eq-13` and of a user's cost, shape (n_v, n_v)."""
@@ -322,15 +308,6 @@ def _length(value: ArrayLike, name: str) -> int:
     """Number of entries of a vector, of rows of a matrix [-]."""
     array = checked_numbers(value, name)
     return len(array) if array.ndim else 1
-
-
-@lru_cache(maxsize=64)
-def _coupled(K_q: bytes, M_u: bytes, n_a: int, n_u: int) -> tuple[Indices, Indices]:
-    """The same, from which entries of K_q and M_u are not zero."""
-    of_a = np.argwhere(np.tril(np.frombuffer(K_q, np.bool_).reshape(n_a, n_a), -1))
-    of_u = np.argwhere(np.tril(np.frombuffer(M_u, np.bool_).reshape(n_u, n_u), -1))
-    one, other = np.concatenate([of_a, of_u + n_a]).T
-    return read_only(one), read_only(other)
 
 
 KIND: dict[str, Callable[[StepData], ArrayLike]] = {

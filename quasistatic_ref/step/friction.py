@@ -6,16 +6,16 @@ import numpy as np
 
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.contacts import Contacts, Frames
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout
 
 
-def frame_jacobian(contacts: Contacts | Frames, J: Array) -> tuple[Array, Array, Array, Array]:
+def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:
     """J_n, J_1, J_2 and J_w: J of Eq. :eq:`eq-3` in the contact's frame.
 
     Parameters
     ----------
-    contacts : Contacts or Frames
+    contacts : Contacts
     J : ndarray, shape (n_c, 4, w)
         Any columns of J: all of them, or those of blocks.
 
@@ -36,12 +36,12 @@ def scaled_by(contacts: Contacts) -> Array:
     return np.concatenate([np.ones((contacts.n_c, 1)), contacts.mu], axis=1)
 
 
-def friction_rows(contacts: Contacts | Frames, name: str = PYRAMID) -> Array:
+def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, for each contact all that the cone has.
 
     Parameters
     ----------
-    contacts : Contacts or Frames
+    contacts : Contacts
     name : str
         The cone. A curved one has no inequality rows: J_n, J_1, J_2 and J_w.
 
@@ -51,12 +51,7 @@ def friction_rows(contacts: Contacts | Frames, name: str = PYRAMID) -> Array:
         [m] per unit of delta_q. A contact uses those of ``StepData.mask``: with the paper's
         cone six, or the first four.
     """
-    return rows_along(contacts, contacts.J, name)
-
-
-def rows_along(contacts: Contacts | Frames, J: Array, name: str = PYRAMID) -> Array:
-    """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
-    J_n, J_1, J_2, J_w = frame_jacobian(contacts, J)
+    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
     friction_cone = cone(name)
     mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
     rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
@@ -64,7 +59,7 @@ def rows_along(contacts: Contacts | Frames, J: Array, name: str = PYRAMID) -> Ar
     return np.concatenate(rows, axis=1).reshape(len(J_n), len(rows), J_n.shape[1])
 
 
-def row_constants(contacts: Contacts | Frames, name: str = PYRAMID) -> Array:
+def row_constants(contacts: Contacts, name: str = PYRAMID) -> Array:
     """The constant term of each row [m]: phi; in a curved cone phi in the row J_n, otherwise 0.
 
     Returns

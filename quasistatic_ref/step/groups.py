@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Indices, Mask, StepData
 
 
@@ -56,72 +57,61 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     list of Group
         At least one.
     """
-    near = np.ones(step.contacts.n_c, dtype=bool) if near is None else near
-    contact, of_contact = np.nonzero(step.contacts.J.any(axis=1))
-    extra_row, of_extra = np.nonzero(step.extra.A)
-    pairs = (contact, of_contact, extra_row, of_extra, *step.coupled(), step.counts)
-    pattern = [np.asarray(entries, np.int64).tobytes() for entries in pairs]
-    return [*_groups(step.n_v, len(step.extra.names), near.tobytes(), *pattern)]
+    n_c = step.contacts.n_c
+    near = np.ones(n_c, dtype=bool) if near is None else near
+    contacts = step.contacts.J.any(axis=1) & near[:, None]
+    couplings = np.concatenate([contacts, step.extra.A != 0, step.coupled()])
+    return [*_groups(couplings.tobytes(), couplings.shape, near.tobytes(), step.counts.tobytes())]
 
 
 @lru_cache(maxsize=64)
-def _groups(n_v: int, n_extra: int, near_contacts: bytes, *pattern: bytes) -> tuple[Group, ...]:
+def _groups(
+    couplings: bytes, shape: tuple[int, int], near_contacts: bytes, row_counts: bytes
+) -> tuple[Group, ...]:
     """The groups of all steps whose numbers differ from zero in the same places.
 
     Parameters
     ----------
-    n_v, n_extra : int
-        Numbers of coordinates and of the user's own rows.
+    couplings : bytes
+        Which coordinates move a contact, or a row of the user's own, or have an entry in a row of
+        H: a mask of that shape.
+    shape : (int, int)
     near_contacts : bytes
         Of the mask `near` of :func:`groups`.
-    *pattern : bytes
-        Of pairs: contact and coordinate, own row and coordinate, both coordinates of an entry of H;
-        and of the number of rows of each contact.
+    row_counts : bytes
+        Of the number of rows of each contact.
     """
     near = np.frombuffer(near_contacts, np.bool_)
-    n_c = len(near)
-    contact, of_contact, extra_row, of_extra, first, second, counts = (
-        np.frombuffer(entries, np.int64) for entries in pattern
-    )
-    is_near = near[contact]
-    contact, of_contact = contact[is_near], of_contact[is_near]
-    of_hessian = np.arange(len(first)) + n_c + n_extra
-    coupling = np.concatenate([contact, n_c + extra_row, of_hessian, of_hessian])
-    coordinate = np.concatenate([of_contact, of_extra, first, second])
-    count = n_c + n_extra + len(first)
-    label, of_coupling = labels(n_v, count, coupling, coordinate)
-    firsts = np.unique(label) if n_v else np.zeros(1, np.int64)
-    of_contacts = np.where(near, of_coupling[:n_c], -1)
-    of_extra_rows = of_coupling[n_c : n_c + n_extra]
+    n_v = shape[1]
+    label, of_coupling = labels(np.frombuffer(couplings, np.bool_).reshape(shape))
+    of_contacts = np.where(near, of_coupling[: len(near)], -1)
+    of_extra_rows = of_coupling[len(near) : shape[0] - n_v]
+    counts = np.frombuffer(row_counts, np.int64)
     of_rows = np.concatenate([np.repeat(of_contacts, counts), of_extra_rows])
-    members = []
-    for entries in (
-        label,
-        of_contacts,
-        of_extra_rows,
-        of_rows,
-    ):  # which entries have each of the labels `firsts`, ascending
-        order = np.argsort(entries, kind="stable")
-        order.setflags(write=False)
-        members.append(np.split(order, np.searchsorted(entries[order], firsts))[1:])
-    return tuple(Group(*parts) for parts in zip(*members, strict=True))
+    parts = (label, of_contacts, of_extra_rows, of_rows)
+    firsts = np.unique(label) if n_v else np.zeros(1, np.int64)
+    return tuple(
+        Group(*(read_only(np.flatnonzero(part == first)) for part in parts)) for first in firsts
+    )
 
 
-def labels(
-    n: int, couplings: int, coupling: Indices, coordinate: Indices
-) -> tuple[Indices, Indices]:
+def labels(couplings: Mask) -> tuple[Indices, Indices]:
     """The first coordinate of the group of each coordinate, (n,), and of each coupling.
 
-    A coupling is a contact, a row of the user's own, or an entry of H off its diagonal. Each pair
-    (coupling, coordinate) says that the coupling has this coordinate. Each coordinate takes the
-    least label among those that share a coupling with it, until no label changes.
+    Each coordinate takes the least label among those that share a coupling with it, until no label
+    changes. A coupling without coordinates has label 0.
+
+    Parameters
+    ----------
+    couplings : ndarray of bool, shape (couplings, n)
+        Which coordinates each coupling has.
     """
+    n = couplings.shape[1]
     label = np.arange(n)
     while True:
-        least = np.full(couplings, n)
-        np.minimum.at(least, coupling, label[coordinate])
-        lower = label.copy()
-        np.minimum.at(lower, coordinate, least[coupling])
+        least = np.where(couplings, label, n).min(axis=1, initial=n)
+        lower = np.where(couplings, least[:, None], n).min(axis=0, initial=n)
+        lower = np.minimum(label, lower)
         lower = lower[lower]  # a label is a coordinate of the same group
         if np.array_equal(lower, label):
             return label, np.where(least < n, least, 0)

@@ -4,12 +4,10 @@ r"""Eq. :eq:`eq-13` as the matrices H, g, A, b that solvers see.
           \quad\text{s.t.}\quad A\,\delta q \ge b
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.contacts import Frames
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_constants
 from quasistatic_ref.step.ordered import product
@@ -53,19 +51,17 @@ def standard_form(step: StepData) -> StandardForm:
     >>> form.H.shape, form.A.shape
     ((6, 6), (6, 6))
     """
-    A, b = inequalities([step])
-    return StandardForm(step.H, linear_term(step), A[0], b[0])
+    A, b = inequalities(step)
+    return StandardForm(step.H, linear_term(step), A, b)
 
 
-def inequalities(steps: Sequence[StepData]) -> tuple[Array, Array]:
-    """A, shape (steps, m, n_v), and b, (steps, m), of steps whose contacts have the same rows."""
-    first = steps[0]
-    contacts = Frames.of_all([step.contacts for step in steps])
-    A = first.present(friction_rows(contacts, first.cone), len(steps))  # Eq. (8)
-    b = -first.present(row_constants(contacts, first.cone), len(steps))  # Eq. (8)
-    if first.extra.names:
-        A = np.concatenate([A, [step.extra.A for step in steps]], axis=1)
-        b = np.concatenate([b, [step.extra.b for step in steps]], axis=1)
+def inequalities(step: StepData) -> tuple[Array, Array]:
+    """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's own rows."""
+    A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    b = -row_constants(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    if step.extra.names:
+        A = np.concatenate([A, step.extra.A])
+        b = np.concatenate([b, step.extra.b])
     return A, b
 
 

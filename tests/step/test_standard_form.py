@@ -5,9 +5,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, standard_form
-from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.step.standard_form import inequalities
 from tests.closeness import assert_close
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
@@ -56,14 +54,6 @@ def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
     ours = np.column_stack([form.A, form.b])[[*by_row, m, m + 1]]
     _, _, rows_of_cvxpy = by_cvxpy(step)
     assert_close(rows_of_cvxpy, ours, ROUNDING)
-
-
-@pytest.mark.parametrize("name", [*CONES, "ellipsoid"])
-def test_rows_of_several_steps_at_once_are_those_of_each(name, rng):
-    steps = [with_extra(random_step(rng, 3, 4, (6, 4, 6)).replace(cone=name), rng) for _ in "abc"]
-    A, b = inequalities(steps)
-    for step, own in zip(steps, zip(A, b, strict=True), strict=True):
-        assert bits(own) == bits(standard_form(step)[2:])
 
 
 def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):

@@ -71,7 +71,9 @@ def default_backend(
     moves = system.column_map.moves[:, 0] > 0
     moved = [moves[pair.alpha.link] | moves[pair.beta.link] for pair in pairs]
     pair, joint = np.nonzero(np.reshape(moved, (len(pairs), moves.shape[1])))
-    of_coordinate, of_pair = labels(system.n_v, len(pairs), pair, system.column_map.owner[joint])
+    couplings = np.zeros((len(pairs), system.n_v), dtype=bool)
+    couplings[pair, system.column_map.owner[joint]] = True
+    of_coordinate, of_pair = labels(couplings)
     n_c = np.array([one.n_c for one in pairs], dtype=np.int64)
     sizes = np.bincount(of_coordinate)
     entries = 4 * np.bincount(of_pair, n_c, len(sizes)) * sizes

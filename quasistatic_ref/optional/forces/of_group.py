@@ -106,19 +106,10 @@ def sides(step: StepData) -> list[Indices]:
     -------
     list of ndarray of int, shape (n,)
     """
-    first, second = step.coupled()
-    moved = np.asarray(step.contacts.J.any(axis=1))  # (n_c, n_v)
-    alike: dict[bytes, int] = {}
-    kinds = [alike.setdefault(one.tobytes(), v) for v, one in enumerate(moved.T)]
-    same = np.array(kinds, dtype=np.int64)
-    some = np.flatnonzero(moved.any(axis=0))
-    entries = np.arange(len(first))
-    label, _ = labels(
-        step.n_v,
-        len(first) + step.n_v,
-        coupling=np.concatenate([entries, entries, len(first) + same[some]]),
-        coordinate=np.concatenate([first, second, some]),
-    )
+    moved = step.contacts.J.any(axis=1)  # (n_c, n_v)
+    _, kind = np.unique(moved, axis=1, return_inverse=True)
+    alike = (np.arange(step.n_v)[:, None] == kind) & moved.any(axis=0)
+    label, _ = labels(np.concatenate([step.coupled(), alike]))
     label[: step.n_a] = 0
     label[label < step.n_a] = 0
     return [np.flatnonzero(label == side) for side in np.unique(label)]

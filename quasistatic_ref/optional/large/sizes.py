@@ -125,7 +125,7 @@ def row_sizes(step: StepData, J: Array) -> Array:
     J = np.abs(J)
     motion = np.concatenate([axes @ J[:, :3], J[:, 3:]], axis=1)
     rows = np.abs(cone_matrix(step.cone)) @ (scaled_by(contacts)[:, :, None] * motion)
-    return np.asarray(step.present(rows)[0])
+    return np.asarray(rows[step.mask])
 
 
 def step_sizes(step: StepData, A: Matrix, units: Units) -> TermSizes:

@@ -64,7 +64,7 @@ def test_sizes_of_rows_have_eight_roundings_at_most(cone, monkeypatch):
     numbers = SimpleNamespace(n=counted(c.n), d1=counted(c.d1), d2=counted(c.d2))
     monkeypatch.setattr(of, "scaled_by", lambda _: counted(scaled_by(c)))
     monkeypatch.setattr(of, "cone_matrix", lambda _: counted(cone_matrix(cone)))
-    step_of_counts = SimpleNamespace(contacts=numbers, cone=cone, present=step.present)
+    step_of_counts = SimpleNamespace(contacts=numbers, cone=cone, mask=step.mask)
     sizes = row_sizes(step_of_counts, counted(c.J))
     assert max(size.count or 0 for size in sizes.ravel()) <= 8
 
