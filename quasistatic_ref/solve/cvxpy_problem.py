@@ -13,7 +13,7 @@ from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
 
 Additions = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
-"""Constraints, or scalar costs, of a user's own."""
+"""Constraints and scalar costs of a user's own."""
 
 
 class CvxpyProblem(StepProblem):
@@ -23,9 +23,9 @@ class CvxpyProblem(StepProblem):
     ----------
     template : StepData
         A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
-    constraints, costs : callable, optional
-        Functions of this problem that return a list of additional constraints, or costs. Where
-        a cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
+    additions : callable, optional
+        A function of this problem that returns additional constraints and scalar costs. Where a
+        cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
 
     Attributes
     ----------
@@ -33,9 +33,7 @@ class CvxpyProblem(StepProblem):
         The rows of the step's own ``extra``: one constraint, or none.
     """
 
-    def __init__(
-        self, template: StepData, constraints: Additions = none, costs: Additions = none
-    ) -> None:
+    def __init__(self, template: StepData, additions: Additions = none) -> None:
         super().__init__(template)
         if template.cone != PYRAMID:
             self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
@@ -50,9 +48,13 @@ class CvxpyProblem(StepProblem):
             self.parameters |= {"H_extra": H_extra, "g_extra": g_extra}
             quadratic = cp.quad_form(self.delta_q, H_extra) / 2
             objective += cp.Minimize(quadratic - g_extra @ self.delta_q)
-        for cost in costs(self):
-            objective += cp.Minimize(cost)
-        self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
+        constraints = [*self.contact_rows, *self.extra]
+        for term in additions(self):
+            if isinstance(term, cp.Constraint):
+                constraints.append(term)
+            else:
+                objective += cp.Minimize(term)
+        self.problem = cp.Problem(objective, constraints)
 
     def check_kind(self) -> None:
         """Accept every cone, rows and costs of a user's own: this problem states them all."""

@@ -10,7 +10,7 @@ the step, too.
 import warnings
 from collections.abc import Callable
 from dataclasses import asdict
-from functools import cache
+from functools import partial
 from typing import Any
 
 import cvxpy as cp
@@ -29,7 +29,7 @@ from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
 from quasistatic_ref.solve.compiled import CANON
-from quasistatic_ref.solve.cvxpy_problem import Additions, CvxpyProblem
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.units import Units, driven, in_si, natural_step, natural_units
@@ -62,7 +62,9 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     if extension.terms is none:
         return no_rows(step.n_v)
     problem = CvxpyProblem(step)
-    constraints, costs = _added_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
+    terms = _terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0), problem)
+    costs = [term for term in terms if isinstance(term, cp.Expression)]
+    constraints = [term for term in terms if isinstance(term, cp.Constraint)]
     unknowns = (problem.delta_q_a, problem.delta_q_u)
     problem.fill(step)
     for x in unknowns:
@@ -71,7 +73,7 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
     A = [np.zeros((0, step.n_v))]
     b = [np.zeros(0)]
     others: list[cp.Constraint] = []
-    for k, constraint in enumerate(constraints(problem)):
+    for k, constraint in enumerate(constraints):
         equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
         plain = equation or isinstance(constraint, cp.constraints.Inequality)
         of_delta_q = not {v.id for v in constraint.variables()} - {x.id for x in unknowns}
@@ -86,9 +88,9 @@ def extension_data(step: StepData, extension: Extension) -> Extra | None:
             A.append(sign * row)
             b.append(sign * value)
     rows = Extra(tuple(names), np.vstack(A), np.concatenate(b))
-    if not (others or costs(problem)):
+    if not (others or costs):
         return rows
-    program = quadratic_program(costs(problem), others, unknowns)
+    program = quadratic_program(costs, others, unknowns)
     return None if program is None else joined(rows, program)
 
 
@@ -210,7 +212,7 @@ def extended_solution(
     if not driven(step):  # nothing but the extension drives it
         units = units._replace(size=1.0)
     natural = natural_step(step, units)
-    problem = CvxpyProblem(natural, *_added_terms(extension, step, units))
+    problem = CvxpyProblem(natural, partial(_terms, extension, step, units))
     problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
@@ -230,24 +232,18 @@ def extended_solution(
     raise failure
 
 
-def _added_terms(extension: Extension, step: StepData, units: Units) -> tuple[Additions, Additions]:
-    """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
-
-    @cache  # its terms are formed once: further variables of its own are in both
-    def terms(problem: CvxpyProblem) -> list[cp.Constraint | cp.Expression]:
-        symbols = _symbols(problem, step, units, len(extension.rises))
-        return checked_terms(extension, symbols)
-
-    def constraints(problem: CvxpyProblem) -> list[cp.Constraint]:
-        return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
-
-    def costs(problem: CvxpyProblem) -> list[cp.Expression]:
-        return [t / units.size**2 for t in terms(problem) if not isinstance(t, cp.Constraint)]
-
-    return constraints, costs
+def _terms(
+    extension: Extension, step: StepData, units: Units, problem: CvxpyProblem
+) -> list[cp.Constraint | cp.Expression]:
+    """Constraints and costs of an extension, in the variables of a problem in `units`."""
+    symbols = _symbols(problem, step, units, len(extension.rises))
+    return [
+        term if isinstance(term, cp.Constraint) else term / units.size**2
+        for term in checked_terms(extension, symbols)
+    ]
 
 
-def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int = 0) -> Symbols:
+def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int) -> Symbols:
     """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
     public = step.n_v - private
     unactuated = step.n_u - private

@@ -17,9 +17,10 @@ import cvxpy.settings as words
 import numpy as np
 from flint import fmpq_mat
 
-from quasistatic_ref.certify.form import fraction
+from quasistatic_ref.certify.form import exact_matrix
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.optional.extensions.conic import conic_program
+from quasistatic_ref.optional.gap import rational
 from quasistatic_ref.solve.compiled import CANON
 from quasistatic_ref.step.data import Array, Extra
 
@@ -67,15 +68,15 @@ def quadratic_program(
     # With w = (y, delta_q, 1) the cost is w'Qw / 2; equations are R w = 0, inequalities R w >= 0.
     Q = np.block([[P, c[:, None]], [c[None], np.zeros((1, 1))]])
     R = np.column_stack([-A, program.b])
-    solved, rank = _exact(R[: program.zero]).rref()
+    solved, rank = rational(exact_matrix(R[: program.zero])).rref()
     equations = solved.tolist()[:rank]
     if [row[:k] for row in equations[:k]] != _identity(k):
         return None
     bound = [-v for row in equations[:k] for v in row[k:]]  # y, as rows of (delta_q, 1)
     same = [v for row in _identity(n + 1) for v in row]
     W = fmpq_mat(k + n + 1, n + 1, [*bound, *same])
-    cost = _rounded(W.transpose() * _exact(Q) * W)
-    inequalities = _rounded(_exact(R[program.zero :]) * W)
+    cost = _rounded(W.transpose() * rational(exact_matrix(Q)) * W)
+    inequalities = _rounded(rational(exact_matrix(R[program.zero :])) * W)
     left = _rounded(fmpq_mat(rank - k, n + 1, [v for row in equations[k:] for v in row[k:]]))
     rows = np.vstack([inequalities, left, -left])
     names = [f"extension bound[{i}]" for i in range(len(inequalities))]
@@ -95,12 +96,6 @@ def _columns(unknowns: Sequence[cp.Variable], first: Mapping[int, int], absent: 
 
 def _identity(k: int) -> list[list[int]]:
     return [[int(i == j) for j in range(k)] for i in range(k)]
-
-
-def _exact(M: Array) -> fmpq_mat:
-    """Float64 numbers as they stand, shape (rows, columns) [any unit]."""
-    rows, columns = M.shape
-    return fmpq_mat(rows, columns, [fraction(v) for v in M.ravel().tolist()])
 
 
 def _rounded(M: fmpq_mat) -> Array:

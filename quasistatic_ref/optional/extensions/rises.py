@@ -1,19 +1,16 @@
 """Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R40)."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.plain import field_values
-from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.joints import BASES
-from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.tolerances import LIGHT
@@ -41,16 +38,14 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
     extra = step.extra
     H, g = extra.cost or (None, None)
-    lies = rises.coordinates.tolist()
-    names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in lies)
-    A = np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows])
+    names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in rises.coordinates)
     return step.replace(
         M_u=M_u,
         tau_u=np.concatenate([step.tau_u, -rises.loads]),
-        contacts=Contacts(**(field_values(contacts) | {"J": J})),
+        contacts=replace(contacts, J=J),
         extra=Extra(
             extra.names + names,
-            A,
+            np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows]),
             np.concatenate([extra.b, np.zeros(2 * c)]),
             H=None if H is None else np.pad(H, (0, p)),
             g=None if g is None else np.pad(g, (0, p)),
@@ -65,8 +60,8 @@ def private_rises(
     h: float,
     K_q: Array,
     gravity: Sequence[float] | Array,
-    friction: Mapping[str, float] | None = None,
-    support: Mapping[str, tuple[float, float]] | None = None,
+    friction: Mapping[str, float],
+    support: Mapping[str, tuple[float, float]],
 ) -> tuple[tuple[ContactPair, ...], Rises]:
     """Pairs with a contact more for each support, and the rises of an extension.
 
@@ -84,25 +79,20 @@ def private_rises(
         [N/m, N m/rad]
     gravity : array_like, shape (3,)
         [m/s^2], world frame.
-    friction : mapping of str to float, optional
+    friction : mapping of str to float
         Force at which a coordinate slides, by its name: ``cabinet/drawer``, ``slider/base.x``
         [N, N m].
-    support : mapping of str to (float, float), optional
+    support : mapping of str to (float, float)
         mu_v [-] and mu_omega [m] of bodies with a planar base on their floor, by their names: at
         one point below the centre of mass as it is at the start, which bears the body's weight.
 
     Raises
     ------
     InputError
-        If a name or a base is another, or gravity presses no body down.
+        If gravity does not press such a body down.
     """
-    friction = {name: load for name, load in (friction or {}).items() if load}
-    support = support or {}
+    friction = {name: load for name, load in friction.items() if load}
     numbers = {coordinate.name: i for i, coordinate in enumerate(system.coordinates)}
-    for name in friction:
-        if name not in numbers:
-            known = suggestion(name, numbers)
-            raise InputError(f"is not a coordinate{known}", field="joint_friction", value=name)
     coordinates = [numbers[name] for name in friction]
     heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(system.M_u(system.q_start))])
     supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
@@ -123,12 +113,6 @@ def private_rises(
 
 def _support(system: System, name: str, mu_v: float, mu_omega: float) -> ContactPair:
     """The contact of a planar base with the horizontal plane through its origin."""
-    bases = {body.name: body.base for body in system.bodies}
-    if name not in bases:
-        raise InputError(f"is not a body{suggestion(name, bases)}", field="support", value=name)
-    if BASES.get(bases[name]) is not Planar:
-        problem = 'is for a body with base = "planar"'
-        raise InputError(problem, field="support", value=name)
     root = system.link(name)
     at = system.kinematics(system.q_start)
     links = [i for i, link in enumerate(system.links) if link.startswith(f"{name}/")]
@@ -147,16 +131,10 @@ def urdf_friction(system: System, name: str) -> dict[str, float]:
 
     A joint that mimics another adds its own times the size of its multiplier to that of the other.
     """
-    (text,) = (t for body, t in zip(system.bodies, system.texts, strict=True) if body.name == name)
-    moves = {coordinate.name: (coordinate.name, 1.0) for coordinate in system.coordinates}
-    moves |= {mimic.name: (mimic.of, mimic.multiplier) for mimic in system.mimics}
     frictions: dict[str, float] = {}
-    for joint in xml_root(text).iter("joint"):
-        dynamics = joint.find("dynamics")
-        moved = moves.get(f"{name}/{joint.get('name')}")
-        if dynamics is not None and moved is not None:
-            says = Tag(dynamics, f"{name}: joint[{joint.get('name')}].dynamics")
-            coordinate, factor = moved
-            friction = abs(factor) * says.number("friction", default=0.0)
-            frictions[coordinate] = frictions.get(coordinate, 0.0) + friction
+    for joint in urdf_joints(system, [name]):
+        dynamics = joint.tag.perhaps("dynamics")
+        if dynamics is not None:
+            friction = abs(joint.multiplier) * dynamics.number("friction", default=0.0)
+            frictions[joint.leader] = frictions.get(joint.leader, 0.0) + friction
     return frictions

@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.solve.units import in_si
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.problem import StepProblem
@@ -27,16 +25,13 @@ def solved_page(page: StepProblem, step: StepData, name: str, accuracy: float) -
     -------
     ndarray, shape (n_v,)
     """
-    solver = solver_for(step, name.lower() if name != NONE else name)
-    both = solver.in_both_units(step)
-    answer = solver.answer(both, accuracy)
-    delta_q, lam = in_si(answer.natural_delta_q, answer.natural_lam, both.units)
-    page.delta_q_a.save_value(delta_q[: step.n_a])
-    page.delta_q_u.save_value(delta_q[step.n_a :])
+    answer = solve_step(step, name.lower(), accuracy=accuracy, certify="off")
+    page.delta_q_a.save_value(answer.delta_q[: step.n_a])
+    page.delta_q_u.save_value(answer.delta_q[step.n_a :])
     if cone(step.cone).polyhedral:
         of_rows = np.zeros(step.mask.shape)
-        of_rows[step.mask] = lam[: len(lam) - len(step.extra.names)]
+        of_rows[step.mask] = answer.lam
         present = np.flatnonzero(step.mask.any(axis=0)).tolist()
         for row, i in zip(page.contact_rows, present, strict=True):
             row.save_dual_value(of_rows[step.mask[:, i], i])
-    return delta_q
+    return answer.delta_q

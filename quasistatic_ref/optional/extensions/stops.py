@@ -9,7 +9,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.joints import JOINTS
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.optional.extensions.urdf_joints import urdf_joints
 from quasistatic_ref.step.arrays import freeze_copies
 from quasistatic_ref.step.data import Array, Extra, Indices
 
@@ -82,37 +82,30 @@ def urdf_limits(system: System, bodies: Collection[str]) -> JointLimits:
         If a lower limit is above the upper one, or a joint has no position within its limits and
         those of the joints that mimic it; or one that stands still is beyond its limits.
     """
-    joints = {joint.name: joint for joint in system.joints}
-    moves = {name: (name, 1.0, 0.0) for name in joints}
-    moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
     limits: dict[str, tuple[float, float]] = {}
-    for body, text in zip(system.bodies, system.texts, strict=True):
-        for joint in xml_root(text).iter("joint") if body.name in bodies else ():
-            limit = joint.find("limit")
-            name = f"{body.name}/{joint.get('name')}"
-            kind = JOINTS.get(joint.get("type", ""))
-            if limit is None or kind is None or kind.unit or name not in moves:
-                continue
-            says = Tag(limit, f"{body.name}: joint[{joint.get('name')}].limit")
-            ends = says.position_limits()
-            if ends is None:
-                continue
-            if ends[0] > ends[1]:
-                problem = f"its lower limit is above its upper one, {ends[1]:.6g}"
-                raise InputError(problem, field=name, value=ends[0])
-            of, multiplier, offset = moves[name]
-            if multiplier == 0:
-                if not ends[0] <= offset <= ends[1]:
-                    problem = f"stands still beyond its limits, {ends[0]:.6g} to {ends[1]:.6g}"
-                    raise InputError(problem, field=name, value=offset)
-                continue
-            low, high = sorted((end - offset) / multiplier for end in ends)
-            before = limits.get(of, (-np.inf, np.inf))
-            limits[of] = max(low, before[0]), min(high, before[1])
+    for joint in urdf_joints(system, bodies):
+        limit = joint.tag.perhaps("limit")
+        if limit is None or JOINTS[joint.tag.text("type")].unit:  # it has no place of one number
+            continue
+        ends = limit.position_limits()
+        if ends is None:
+            continue
+        if ends[0] > ends[1]:
+            problem = f"its lower limit is above its upper one, {ends[1]:.6g}"
+            raise InputError(problem, field=joint.name, value=ends[0])
+        if joint.multiplier == 0:
+            if not ends[0] <= joint.offset <= ends[1]:
+                problem = f"stands still beyond its limits, {ends[0]:.6g} to {ends[1]:.6g}"
+                raise InputError(problem, field=joint.name, value=joint.offset)
+            continue
+        low, high = sorted((end - joint.offset) / joint.multiplier for end in ends)
+        before = limits.get(joint.leader, (-np.inf, np.inf))
+        limits[joint.leader] = max(low, before[0]), min(high, before[1])
     for name, (low, high) in limits.items():
         if low > high:
             problem = "has no position within its limits and those of the joints that mimic it"
             raise InputError(problem, field=name, value=[low, high])
+    joints = {joint.name: joint for joint in system.joints}
     limited = [joints[name] for name in limits]
     return JointLimits(
         names=tuple(limits),

@@ -49,7 +49,7 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     x = delta_q / (units.size * units.coordinate)
     problem.delta_q_a.value = x[:3]
     problem.delta_q_u.value = x[3:]
-    found = np.concatenate([slack.value for slack in _symbols(problem, step, units).slack])
+    found = np.concatenate([slack.value for slack in _symbols(problem, step, units, 0).slack])
     slack = form.A @ delta_q - form.b  # by contacts; an extension has them by rows
     order = [0, 6, 1, 7, 2, 8, 3, 9, 4, 5]
     np.testing.assert_allclose(found, slack[order], rtol=ROUNDING, atol=16 * ROUNDING)

@@ -18,7 +18,7 @@ from quasistatic_ref import (
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.thresholds import exact
-from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
+from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.step.extension import Rises
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.closeness import assert_relative, assert_within
@@ -255,8 +255,7 @@ def test_r40_random_loads_slide_what_is_not_held(seed):
             assert_relative(answer.wrench[0, 2], N, CLOSED_FORM)
 
 
-def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
-    system = scene(tmp_path, DRAWN).system
+def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused():
     one = random_step(np.random.default_rng(0))
     assert with_rises(one, Extension().rises) is one
     assert len(Rises([0.0], [1.0], [0])) == 1
@@ -264,9 +263,6 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
         Rises([-1.0], [1.0], [0])
     with pytest.raises(StepDataError, match=r"rises.masses: must have shape \(1,\)"):
         Rises([1.0], [], [0])
-    given = {"h": H, "K_q": np.zeros((0, 0)), "gravity": (0.0, 0.0, -G)}
-    with pytest.raises(InputError, match=r"support: is not a body; .*cabinet"):
-        private_rises(system, [], **given, support={"none": (0.5, 0.0)})
 
 
 TILTED = "pose = { rpy = [0.1, 0, 0] }\nsupport ="

@@ -1,0 +1,39 @@
+"""The joints in the URDFs of bodies, with the joint that moves each of them."""
+
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+
+
+class UrdfJoint(NamedTuple):
+    """A joint of one axis, whose position is multiplier * q + offset, q being its leader's.
+
+    Parameters
+    ----------
+    name, leader : str
+        ``body/joint``; a joint that mimics no other leads itself.
+    multiplier, offset : float
+        [-, or m/rad or rad/m], [m, rad].
+    tag : Tag
+        Its element.
+    """
+
+    name: str
+    leader: str
+    multiplier: float
+    offset: float
+    tag: Tag
+
+
+def urdf_joints(system: System, bodies: Collection[str]) -> Iterator[UrdfJoint]:
+    """The joints of one axis that move, of the bodies of these names."""
+    moves = {coordinate.name: (coordinate.name, 1.0, 0.0) for coordinate in system.coordinates}
+    moves |= {mimic.name: (mimic.of, mimic.multiplier, mimic.offset) for mimic in system.mimics}
+    for body, text in zip(system.bodies, system.texts, strict=True):
+        for joint in xml_root(text).iter("joint") if body.name in bodies else ():
+            name = f"{body.name}/{joint.get('name')}"
+            if name in moves:
+                tag = Tag(joint, f"{body.name}: joint[{joint.get('name')}]")
+                yield UrdfJoint(name, *moves[name], tag)
