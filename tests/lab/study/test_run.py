@@ -103,13 +103,13 @@ def test_ctrl_c_ends_the_command_with_130_and_says_that_it_goes_on(study, small,
 
 LIMITED = """
 time_limit = 0.3
-warm_up = 2.0
+warm_up = 3.0
 memory = 0.3
-budget = 4.0
-repetitions = 2
+budget = 3.0
+repetitions = 1
 [problems]
 set = "contact-qp"
-families = { contacts = { count = 3, most = 12 } }
+families = { contacts = { count = 2, most = 12 } }
 [solvers]
 sleeps.function = "solvers.py:sleeps"
 eats.function = "solvers.py:eats"
@@ -126,13 +126,12 @@ def test_a_solver_that_exceeds_its_limits_is_ended_and_costs_itself_only(run, tm
     outcomes = {row.solver: [] for row in rows}
     for row in rows:
         outcomes[row.solver].append(row.outcome)
-    assert outcomes["sleeps"][0] == "timeout"
-    assert outcomes["sleeps"][-1] == "not run"  # 4 s are two calls
+    assert outcomes["sleeps"] == ["timeout", "not run"]  # a call takes longer than the budget
     assert outcomes["eats"][0] == "out of memory"
-    assert outcomes["exits"] == ["crashed"] * 3
-    assert outcomes["honest"] == ["solved"] * 3
+    assert outcomes["exits"][0] == "crashed"
+    assert outcomes["honest"] == ["solved"] * 2
     assert has_ended(int((tmp_path / "child").read_text()))
-    assert {row.status for row in rows if row.solver == "exits"} == {"ended with 7"}
+    assert "ended with 7" in {row.status for row in rows if row.solver == "exits"}
 
 
 def test_on_a_cluster_the_rows_are_the_same(run, small, whole, tmp_path):

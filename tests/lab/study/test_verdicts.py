@@ -32,10 +32,10 @@ def dual_gradient(form, accuracy, sweeps=4000):
     raise AssertionError("did not converge")
 
 
-def row_of(problem, x, lam, units="natural", solver=MINE, setting=TIGHT):
-    promise = solver.promise(setting, {} if solver is MINE else solver.settings_of(setting, 1.0))
+def row_of(problem, x, lam, units="natural", setting=TIGHT):
+    promise = MINE.promise(setting, {})
     reply = Reply(x, lam, True, "optimal")
-    return grades(problem_forms(problem), units, reply, solver, promise, setting.accuracy)
+    return grades(problem_forms(problem), units, reply, MINE, promise, setting.accuracy)
 
 
 @pytest.fixture(scope="module")

@@ -71,18 +71,6 @@ def test_an_answer_that_was_changed_is_refuted(members, kind):
     assert refutation(replace(one, answer=changed)) is not None
 
 
-def test_the_code_of_the_readme_reads_what_the_package_reads(members):
-    problems = readme_reader()
-    for family in ("ellipsoid", "capped_wedge", "jammed"):
-        own = [one for one in members if one.facts["family"] == family]
-        found = list(problems(FOLDER, family))
-        assert len(found) == len(own)
-        for (facts, numbers), one in zip(found, own, strict=True):
-            np.testing.assert_array_equal(numbers["A"].toarray(), one.A.toarray())
-            if not facts["farkas"]:
-                np.testing.assert_array_equal(numbers["net"], one.answer.net)
-
-
 def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
     shutil.copytree(FOLDER, tmp_path / "set")
     path = tmp_path / "set" / NUMBERS / "limits.npz"
