@@ -22,7 +22,7 @@ from quasistatic_ref.formats.files import (
     writable_folder,
 )
 from quasistatic_ref.formats.resources import scenario_path
-from quasistatic_ref.lab.lock import Lock
+from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.parallel import InThisProcess, results, workers
 from quasistatic_ref.lab.run_settings import fingerprint, run_settings
 from quasistatic_ref.optional.doctor.telling import measures
@@ -106,7 +106,7 @@ def simulate_many(
         digests = list(executor.map(run_digest, [source] * count, changes))
         files = [_file(path.stem, digest, list(grid)) for digest in digests]
         folder = Path(folder)
-        with Lock(folder):
+        with locked(folder):
             _check_folder(folder, {*files})
             writable_folder(folder / RUNS)
             # Workers of a scheduler may not see the folder.

@@ -8,7 +8,7 @@ import pytest
 
 from quasistatic_ref import InputError, Scenario, load_scenario, trajectory_read
 from quasistatic_ref.lab import run_settings
-from quasistatic_ref.lab.lock import Lock
+from quasistatic_ref.lab.lock import locked
 from quasistatic_ref.lab.sweep import TABLE, simulate_many, swept_values
 from tests.optional.doctor.mistake_scenes import scenes_written
 from tests.scenes import BALL, PUSH, written_scenario
@@ -113,7 +113,7 @@ def test_a_table_of_something_else_is_refused(tmp_path):
 
 
 def test_a_folder_that_another_sweep_writes_into_is_refused(tmp_path):
-    with Lock(tmp_path), pytest.raises(InputError, match="is being written by another sweep"):
+    with locked(tmp_path), pytest.raises(InputError, match="is being written by another sweep"):
         swept("block_incline", tmp_path)
 
 
