@@ -10,7 +10,6 @@ from scipy.sparse import csr_matrix
 from quasistatic_ref.certify.norm import error_length, single_loads
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
-from quasistatic_ref.lab.study.problems.difficulty import measures, tags
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
@@ -70,10 +69,8 @@ def _run(scenario: Scenario) -> Trajectory:
         raise
 
 
-def problem_of(
-    step: StepData, name: str, k: int = 0, warm: Sequence[int] = (), dial: float | None = None
-) -> Problem:
-    """A problem from a step: what it is, how hard it is, its exact answer.
+def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Problem:
+    """A problem from a step: what it is, and its exact answer.
 
     Its matrices are sparse from where PIQP gets sparse ones in a simulation.
 
@@ -83,12 +80,10 @@ def problem_of(
     name : str
         Of the problem; its first part is the family.
     k : int
-        Closest points per pair; 0 where nothing was selected.
+        Closest points per pair.
     warm : sequence of int
         Rows that the exact method starts from, such as those that bear load in the exact step: in
         its float64 numbers, of which the problem is, they are nearly the same.
-    dial : float, optional
-        Of its family [the dial's unit].
     """
     form = standard_form(step)
     H, g, A, b = form
@@ -103,8 +98,7 @@ def problem_of(
         "contacts": step.contacts.n_c,
         "h": step.h,
         "k": k,
-        "mass_ratio": mass_ratio(step),
-        "dial": dial,
+        "dial": None,
         "sequence": None,
         "length": error_length(H, g, x, single_loads(step)),
         "status": answer.status,
@@ -115,20 +109,7 @@ def problem_of(
             "unique_multipliers": answer.unique,
             "differentiable": answer.differentiable,
         },
-        "tags": [],
+        "tags": [SPARSE] * (step.contacts.J.size >= SPARSE_FROM),
     }
     units = units_of(form, hessian_in_both_units(form.H))
-    problem = Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
-    numbers = measures(problem)
-    sparse = [SPARSE] * (step.contacts.J.size >= SPARSE_FROM)
-    facts |= {"tags": [*tags(problem, numbers), *sparse], "measures": numbers}
-    return problem
-
-
-def mass_ratio(step: StepData) -> float:
-    """Largest over smallest diagonal entry of M_u; 1 where nothing is un-actuated [-].
-
-    Entries have different units, so a single body has one too.
-    """
-    masses = np.diag(step.M_u)
-    return float(masses.max() / masses.min()) if masses.size else 1.0
+    return Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
