@@ -46,6 +46,7 @@ from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.user_functions import Target
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
@@ -108,6 +109,11 @@ class Scenario(Settings, Plain, Shown):
         return FastSimulator(simulator)
 
     @property
+    def target(self) -> Target:
+        """q_bar_a as :func:`~quasistatic_ref.simulate.rollout.rollout` takes it."""
+        return self.targets
+
+    @property
     def force(self) -> Callable[[float, Array], Array] | None:
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         return Loads(self.system, self.wrenches) if self.wrenches else None
@@ -145,7 +151,7 @@ class Scenario(Settings, Plain, Shown):
         return rollout(
             self.simulator(),
             self.system.q_start,
-            self.targets,
+            self.target,
             self.steps,
             force=self.force,
             record=self.record,

@@ -70,7 +70,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
             else target_value
         )
 
-    if type(target) is Targets:  # a subclass may ask for q
+    if isinstance(target, Targets):
         return _by_blocks(system, h, target, checked)
     if callable(target):
         goal = _returning(with_all_arguments(target, "target"), unnamed, (n,), "target")

@@ -17,7 +17,7 @@ from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.optional.guests.settled import numbered
 from quasistatic_ref.optional.guests.system import MujocoSystem
-from quasistatic_ref.simulate.target import Targets, piecewise_linear
+from quasistatic_ref.simulate.target import piecewise_linear
 from quasistatic_ref.step.arrays import Array
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ Driven = Callable[[float], Mapping[str, float]] | str | Path | Sequence[str] | N
 
 
 @dataclass(frozen=True, eq=False)
-class Drive(Targets):
+class Drive:
     """q_bar_a, and the forces of motors, as functions of time and of where a step starts.
 
     Parameters
@@ -57,13 +57,13 @@ class Drive(Targets):
             self.acts.append(_activations_after(self.system, self.acts[-1], values))
         return self.values(t), self.acts[k]
 
-    def __call__(self, t: float, q: Array) -> Array:  # type: ignore[override]  # a Targets has t alone
+    def __call__(self, t: float, q: Array) -> Array:
         """q_bar_a at time t [s], of a step from q, shape (n_q_a,)."""
-        return _target(self.system, q, *self.at(t))
+        return _q_bar_a(self.system, q, *self.at(t))
 
     def force(self, t: float, q: Array) -> Array:
         """The force of motors at time t [s] and q, shape (n_v,) [N, N m]."""
-        return _motors(self.system, q, *self.at(t))
+        return _motor_force(self.system, q, *self.at(t))
 
 
 def _actuator_forces(
@@ -91,12 +91,12 @@ def _actuator_forces(
     return force, others
 
 
-def _motors(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
+def _motor_force(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
     """The force of all actuators but servos, shape (n_v,) [N, N m]."""
     return np.asarray(system.T.T @ _actuator_forces(system, q, values, act)[1]) + 0.0
 
 
-def _target(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
+def _q_bar_a(system: MujocoSystem, q: Array, values: Array, act: Array) -> Array:
     """q_bar_a at which springs have the forces that MuJoCo's have at q, shape (n_q_a,)."""
     force = _actuator_forces(system, q, values, act)[0] + system.state(q).data.qfrc_spring
     short = values[system.model.nu :] - system.qpos(q)[system.driven_entries]
@@ -152,33 +152,37 @@ def drive_of(system: MujocoSystem, data: MjData, T: float, targets: Driven) -> D
         return values
 
     values: Callable[[float], Array] = partial(piecewise_linear, np.zeros(1), start[None])
-    idle: tuple[str, ...] = ()
+    idle: list[str] = []
     if callable(targets):
-        row(targets(0.0))  # refuses wrong names before the run
-        values = partial(_of_function, targets, row)
+        function = targets
+        row(function(0.0))  # refuses wrong names before the run
+
+        def values(t: float) -> Array:
+            return row(function(t))
+
     elif isinstance(targets, str | Path):
         with about_file(Path(targets)):
             columns, times, table = table_read(Path(targets))
             rows = [row(dict(zip(columns, numbers, strict=True))) for numbers in table.tolist()]
-            values = partial(piecewise_linear, times, np.array(rows))
-            ends = {
-                name: [row({name: end}) for end in {column.min(), column.max()}]
-                for name, column in zip(columns, table.T, strict=True)
-            }
-        idle = tuple(name for name, rows in ends.items() if _is_idle(system, rows, data.act))
+        values = partial(piecewise_linear, times, np.array(rows))
+        for name, column in zip(columns, table.T.tolist(), strict=True):
+            ends = [row({name: end}) for end in {min(column), max(column)}]
+            if (
+                len(ends) > 1
+                and len({_forces_at_start(system, end, data.act) for end in ends}) == 1
+            ):
+                idle.append(name)
     elif targets is not None:
         values = _of_keyframes(system, start, T, targets)
-    q_a = system.q_start[: system.n_q_a]
-    return Drive(q_a, (), system, values, [data.act.copy()], idle)
+    return Drive(system, values, [data.act.copy()], tuple(idle))
 
 
-def _of_function(
-    function: Callable[[float], Mapping[str, float]],
-    row: Callable[[Mapping[str, float]], Array],
-    t: float,
-) -> Array:
-    """The controls and targets that a user's function names at a time [s]."""
-    return row(function(t))
+def _forces_at_start(system: MujocoSystem, values: Array, act: Array) -> bytes:
+    """All that servos and motors do where a run starts, of values and activations of a Drive."""
+    q = system.q_start
+    after = _activations_after(system, act, values)
+    target = _q_bar_a(system, q, values, after)
+    return np.concatenate([target, _motor_force(system, q, values, after)]).tobytes()
 
 
 def _of_keyframes(
@@ -199,17 +203,6 @@ def _of_keyframes(
     rows[:, : model.nu] = model.key_ctrl[keys]
     times = np.linspace(0.0, T, len(keys)) if len(keys) > 1 else np.zeros(1)
     return partial(piecewise_linear, times, rows)
-
-
-def _is_idle(system: MujocoSystem, rows: Sequence[Array], act: Array) -> bool:
-    """Whether controls differ, and yet have the same forces where the run starts."""
-    q = system.q_start
-    forces = set()
-    for values in rows:
-        after = _activations_after(system, act, values)
-        both = _target(system, q, values, after), _motors(system, q, values, after)
-        forces.add(tuple(force.tobytes() for force in both))
-    return len(rows) > 1 and len(forces) == 1
 
 
 def table_read(path: Path) -> tuple[list[str], Array, Array]:

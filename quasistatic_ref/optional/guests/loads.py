@@ -46,10 +46,11 @@ class Loads:
     others: Array
     left_out: tuple[str, ...]
 
-    def heavy(self, M: Array, h: float) -> Array:
-        """Diagonal of H of all joints, shape (nv,), from M (nv, nv) and h [s]."""
-        k = sum((spring.k * spring.m**2 for spring in self.springs), np.zeros(len(M)))
-        return np.where(k > 0, h * k, np.diag(M) / h)
+
+def diagonal_of_H(springs: Iterable[Spring], M: Array, h: float) -> Array:
+    """Diagonal of H of all joints, shape (nv,), from M (nv, nv) and h [s]."""
+    k = sum((spring.k * spring.m**2 for spring in springs), np.zeros(len(M)))
+    return np.where(k > 0, h * k, np.diag(M) / h)
 
 
 def loads(state: MujocoState) -> Loads:

@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
-from quasistatic_ref.optional.guests.loads import Spring, loads
+from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
 from quasistatic_ref.optional.guests.state_step import (
     Coordinates,
@@ -99,8 +99,9 @@ def step_with(
     check(state)
     state.run()
     of_state = loads(state)
-    kinds = () if as_is else ("JOINT",)
-    tied = constraints.tied_joints(state, kinds, of_state.heavy(state.M, h))
+    every_joint = constraints.Tied(np.arange(model.nv), np.eye(model.nv), ())
+    heavy = diagonal_of_H(of_state.springs, state.M, h)
+    tied = every_joint if as_is else constraints.tied_joints(state, heavy)
     order, n_a, K_q = actuated(state, of_state.springs, tied.T)
     tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
     T = tied.T
@@ -114,7 +115,8 @@ def step_with(
     kept = [contact for contact, is_free in zip(every, free, strict=True) if not is_free]
     contacts = contacts_of(kept, T, as_is)
     forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
-    extra = constraints.together(limits, held.rows)
+    rows = [row for row in (*limits, *held.rows) if row.holds]
+    extra = constraints.extra_of(rows, T.shape[1])
     cone, notes = default_cone(model, any(contact.mu_v for contact in every), extra)
     step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
     left_out = (

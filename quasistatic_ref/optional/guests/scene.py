@@ -28,6 +28,7 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.settings import usable_backend
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -61,7 +62,7 @@ class MujocoScenario(Scenario):
     of_mujoco : MujocoSystem
         Its system.
     drive : Drive
-        What drives it.
+        What drives it; `targets` are where it starts.
     """
 
     of_mujoco: MujocoSystem
@@ -74,6 +75,11 @@ class MujocoScenario(Scenario):
         system = self.of_mujoco
         rows = system.extension if system.rows.names or len(system.rises) else None
         return MujocoSimulator(**self.settings(), extension=rows)
+
+    @property
+    def target(self) -> Drive:
+        """q_bar_a, (t, q) -> (n_q_a,)."""
+        return self.drive
 
     @property
     def force(self) -> Callable[[float, Array], Array]:
@@ -181,7 +187,6 @@ def mujoco_scenario(
     overlaps = overlapped_children(system.state(system.q_start), system.places)
     system.notes = (*system.notes, *overlaps)
     certify = value(solver, SOLVER, "certify")
-    drive = drive_of(system, data, steps * h, targets)
     gravity = (
         np.zeros(3)
         if system.state(system.q_start).disables("GRAVITY")
@@ -197,14 +202,14 @@ def mujoco_scenario(
         pairs=system.places.pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
-        targets=drive,
+        targets=Targets(system.q_start[: system.n_q_a], ()),
         backend=usable_backend(value(solver, SOLVER, "backend"), cone, certify),
         accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
         record=value(top, TOP, "record"),
         cone=cone,
         limits=Limits(value(limits, LIMITS, "penetration"), value(limits, LIMITS, "reach")),
-        drive=drive,
+        drive=drive_of(system, data, steps * h, targets),
     )
 
 

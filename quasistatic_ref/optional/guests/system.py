@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from quasistatic_ref.optional.guests.fates import check, check_run, kind_of, nam
 from quasistatic_ref.optional.guests.loads import (
     Spring,
     check_stiff,
+    diagonal_of_H,
     disabled,
     loads,
     passive_springs,
@@ -157,8 +158,7 @@ class MujocoSystem(Mechanism):
         self.springs = self._springs()
         check_stiff(self.springs)
         of_state = loads(state)
-        masses = replace(of_state, springs=self.springs).heavy(state.M, h)
-        tied = constraints.tied_joints(state, ("JOINT",), masses)
+        tied = constraints.tied_joints(state, diagonal_of_H(self.springs, state.M, h))
         self._follow = constraints.followers(state, tied)
         order, n_a, self.K_q = actuated(state, self.springs, tied.T)
         self._tied = tied._replace(dofs=tied.dofs[order], T=tied.T[:, order])
@@ -350,9 +350,9 @@ class MujocoSystem(Mechanism):
 
     def _rows(self, state: MujocoState) -> Extra:
         """Limits, and equalities that take no coordinate away."""
-        held = constraints.equalities(state, self._tied, self.scale, as_is=True, in_place=True)
-        limits, _ = constraints.limits(state, self.scale, held.basis, as_is=True, in_place=True)
-        return constraints.together(limits, held.rows)
+        held = constraints.equalities(state, self._tied, self.scale, as_is=True)
+        limits, _ = constraints.limits(state, self.scale, held.basis, as_is=True)
+        return constraints.extra_of([*limits, *held.rows], self.n_v)
 
     def extension(self, q: Array) -> Extension:
         """Limits, equalities and joint friction at q."""

@@ -87,7 +87,7 @@ def test_the_step_is_that_of_the_state():
     data.ctrl[:] = [0.01, 0.013, 0.02]
     data.qpos[1:3] = 0.0175
     scene = mujoco_scenario(of_both, data)
-    step = scene.simulator().step(scene.system.q_start, scene.targets(0.01, scene.system.q_start))
+    step = scene.simulator().step(scene.system.q_start, scene.target(0.01, scene.system.q_start))
     expected, _ = mujoco_step(of_both, data, scene.h, depth="as is")
     for name in ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"):
         np.testing.assert_allclose(getattr(step.step, name), getattr(expected, name), atol=1e-14)
