@@ -11,12 +11,10 @@ from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import (
     _symbols,
     extended_solution,
-    extended_step,
     extension_data,
     simulated_solution,
 )
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
 from tests.closeness import assert_within
@@ -77,11 +75,6 @@ def test_an_extension_that_cannot_be_met_is_not_solved():
 
 
 LOOSE = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
-
-
-def test_a_curved_extension_is_solved_by_the_default_where_no_backend_is_named(rng):
-    answer = extended_step(random_step(rng), LOOSE, None, False, 1e-10, "residual")
-    assert answer.statistics.backend == DEFAULT
 
 
 def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
