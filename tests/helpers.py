@@ -31,7 +31,7 @@ def changed(contacts, **changes):
 
 def residuals_of(step, delta_q, lam):
     """The residuals of an answer in the step's own cone."""
-    judge = cone(step.cone).judge(step)
+    judge = cone(step.cone).judge(step.contacts.mu)
     return optimality_residuals(standard_form(step), delta_q, lam, judge)
 
 

@@ -1,6 +1,7 @@
 """Exact numbers in decimal digits."""
 
 from collections.abc import Sequence
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 from quasistatic_ref.certify.form import ExactForm
@@ -36,14 +37,8 @@ def decimal_string(x: Fraction, digits: int) -> str:
     >>> decimal_string(Fraction(-1, 3), 5)
     '-3.3333e-01'
     """
-    if not x:
-        return f"0.{'0' * (digits - 1)}e+00"
-    size = abs(x)
-    exponent = len(str(size.numerator)) - len(str(size.denominator))
-    exponent -= size < Fraction(10) ** exponent  # now 10**exponent <= size
-    scaled = round(size / Fraction(10) ** (exponent - digits + 1))  # half to even
-    if scaled == 10**digits:
-        scaled = scaled // 10
-        exponent = exponent + 1
-    text = str(scaled)
-    return f"{'-' if x < 0 else ''}{text[0]}.{text[1:]}e{exponent:+03d}"
+    with localcontext(prec=digits):
+        value = Decimal(x.numerator) / Decimal(x.denominator)
+    sign = "-" if x < 0 else ""
+    figures = "".join(map(str, value.as_tuple().digits)).ljust(digits, "0")
+    return f"{sign}{figures[0]}.{figures[1:]}e{value.adjusted():+03d}"

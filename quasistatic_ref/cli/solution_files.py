@@ -14,6 +14,7 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.rounding import nearest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.files import json_read, json_text
@@ -193,11 +194,5 @@ def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     of_rows = impulses(contacts, lam, name)
     mu = kind.row_coefficients(contacts.mu)
     wrench = wrenches(exact(of_rows), exact(kind.matrix), exact(mu)) / Fraction(h)
-    return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
-
-
-def _nearest(x: Fraction) -> float:
-    try:
-        return float(x)
-    except OverflowError:
-        return float("inf") if x > 0 else float("-inf")
+    rounded = [nearest(x.numerator, x.denominator) for x in wrench.ravel()]
+    return np.reshape(rounded, (-1, 4)).astype(np.float64)

@@ -1,13 +1,8 @@
 """The law of friction that steps obey: the model's own, or Coulomb's of ``optional/coulomb``."""
 
-from typing import TYPE_CHECKING
-
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import needing
-
-if TYPE_CHECKING:
-    pass
 
 CONVEX = "convex"
 COULOMB = "coulomb"
@@ -15,7 +10,6 @@ LAWS = (CONVEX, COULOMB)
 ITERATED = ("s", "s_residual", "s_iterations")
 """What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];
 by how much that is not its own [m]; and how many convex steps were solved."""
-
 
 COULOMB_LAW = f'law = "{COULOMB}"'
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.errors import InputError, QuasistaticError
-from quasistatic_ref.formats.kinds import checked_items
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
@@ -92,8 +91,7 @@ def rollout(
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
-    watching = checked_items(observers, Observer, "observers")
-    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *watching])
+    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
     recorder.tracks = getattr(target, "tracks", ())
     recorder.idle_columns = getattr(target, "idle", ())
     q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)

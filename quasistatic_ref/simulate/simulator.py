@@ -17,9 +17,7 @@ from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, InputError
-from quasistatic_ref.formats.kinds import check_kind, checked_items
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.model.mechanism import StepSystem
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needing
 from quasistatic_ref.simulate.finding import Finding
@@ -156,8 +154,7 @@ class Simulator(Settings, Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, the extension is no function, or the law is unknown or does not take
-        `certify`.
+        If `fast` is wanted, or the law is unknown or does not take `certify`.
 
     Examples
     --------
@@ -190,22 +187,14 @@ class Simulator(Settings, Shown):
         if fast:
             problem = "is no argument; write qr.FastSimulator(qr.Simulator(...))"
             raise InputError(problem, field="fast", value=fast)
-        if not isinstance(system, StepSystem):
-            problem = "must be a System, qr.System([body, ...])"
-            raise InputError(problem, field="system", value=system)
-        checked = checked_items(pairs, ContactPair, "pairs")
+        pairs = tuple(pairs)
         check_accuracy(accuracy)
         check_certify(backend, certify)
         check_law(law, certify)
-        if extension is not None and not callable(extension):
-            problem = "must be a function of q that returns an Extension, such as lambda q: own"
-            raise InputError(problem, field="extension", value=type(extension).__name__)
-        limits = Limits() if limits is None else limits
-        check_kind(limits, Limits, "limits")
         acts = np.zeros(system.n_a) if gravity_acts is None else np.asarray(gravity_acts) * 1.0
         super().__init__(
             system=system,
-            pairs=checked,
+            pairs=pairs,
             h=seconds(h),
             K_q=stiffness_matrix(system, K_q),
             gravity=checked_array(gravity, "gravity", (3,)),
@@ -215,12 +204,12 @@ class Simulator(Settings, Shown):
             certify=certify,
             cone=cone,
             law=law,
-            limits=limits,
+            limits=Limits() if limits is None else limits,
         )
         self.extension = extension
         self.named_backend = backend
-        self.scene = Scene(system, checked)
-        self.layout = contact_layout(checked)
+        self.scene = Scene(system, pairs)
+        self.layout = contact_layout(pairs)
         self.gravity_factor = np.concatenate([self.gravity_acts, np.ones(system.n_u)])
         self.solver: Solver | None = None
         self.spares: dict[str, Solver] = {}

@@ -40,9 +40,6 @@ class ContactsOverSteps(NamedTuple):
 
     def check(self, scene: HasScene) -> None:
         """Refuse another scene than theirs: InputError."""
-        if not (hasattr(scene, "system") and hasattr(scene, "pairs")):
-            problem = "must be a Scenario or a Simulator; pairs are the keys of what is returned"
-            raise InputError(problem, field="scene", value=scene)
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
             problem = "is another one than that of the steps: numbers of contacts or of q differ"

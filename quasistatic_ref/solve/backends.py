@@ -140,13 +140,9 @@ def _piqp(accuracy: float) -> OptionSets:
     return (common | gap, common | rounded, common | rounded | regularised)
 
 
-def at_accuracy(*names: str, **others: Any) -> Callable[[float], Options]:
-    """Options of which some are the accuracy, and others are what they are."""
-    return lambda accuracy: dict.fromkeys(names, accuracy) | others
-
-
-def _once(options: Callable[[float], Options]) -> Callable[[float], OptionSets]:
-    return lambda accuracy: (options(accuracy),)
+def at_accuracy(*names: str, **others: Any) -> Callable[[float], OptionSets]:
+    """One set of options, of which some are the accuracy, and others are what they are."""
+    return lambda accuracy: (dict.fromkeys(names, accuracy) | others,)
 
 
 # ProxQP has no time limit. Each of its outer iterations may take 1,500 inner ones of 20 us each, a
@@ -177,16 +173,16 @@ BACKENDS: dict[str, Backend] = {
                 warm=BOTH, required=True),
         Backend("piqp", "proximal interior point", _piqp, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
-        Backend("daqp", "dual active set", _once(_daqp), warm=("qpsolvers",), required=True),
-        Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=("qpsolvers",),
+        Backend("daqp", "dual active set", _daqp, warm=("qpsolvers",), required=True),
+        Backend("proxqp", "augmented Lagrangian", _proxqp, warm=("qpsolvers",),
                 package="proxsuite"),
-        Backend("scs", "operator splitting", _once(_scs), time_limit="time_limit_secs",
+        Backend("scs", "operator splitting", _scs, time_limit="time_limit_secs",
                 warm=BOTH, cones=True),
         Backend("highs", "active set", _highs, floor=1e-10,
                 time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
         Backend("quadprog", "dual active set", lambda _: ({},), cvxpy=False, returns=False),
-        Backend("qpalm", "augmented Lagrangian", _once(_qpalm), warm=("cvxpy",),
+        Backend("qpalm", "augmented Lagrangian", _qpalm, warm=("cvxpy",),
                 steps=False),
     )
 }  # fmt: skip

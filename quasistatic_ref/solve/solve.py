@@ -17,7 +17,6 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver, solver_for
@@ -101,7 +100,6 @@ def solve_step(
     >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
     True
     """
-    check_kind(step, StepData, "step")
     check_accuracy(accuracy)
     if isinstance(solver, Solver) and fast:
         problem = "has no effect on an existing solver; pass it to solver_for"
@@ -127,7 +125,7 @@ def solved_step(step: StepData, solver: Solver, accuracy: float, certify: str) -
 
 def check_accuracy(accuracy: float) -> None:
     """Refuse an accuracy that no answer can have: InputError."""
-    if not isinstance(accuracy, int | float) or not accuracy > 0:
+    if not accuracy > 0:
         raise InputError("must be a number greater than 0", field="accuracy", value=accuracy)
 
 

@@ -175,7 +175,17 @@ def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
     g = np.ldexp(form.g, -power) if power else form.g
     square = max(float(g.dot(hessian.H_inverse).dot(g)), 0.0)
     free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
-    return units_from(hessian.coordinate, squares, free_length, form.b)
+    length = _power_of_two(_median_length(squares))
+    b = form.b
+    push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
+    size = max(free_length, push_out)
+    softest = float(hessian.coordinate.max(initial=0.0))
+    if size == 0:  # no load, no penetration: the optimum is zero
+        size = UNMOVED / softest if hessian.coordinate.size else UNMOVED
+    if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
+        size = math.nan
+    size = _power_of_two(max(size, SMALLEST * max(1.0, softest)))
+    return Units(hessian.coordinate, length, size)
 
 
 def small_power(y: Array) -> int:
@@ -189,30 +199,6 @@ def small_power(y: Array) -> int:
     if y.dot(y) > VANISHING:
         return 0
     return math.frexp(np.abs(y).max(initial=0.0))[1]
-
-
-def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:
-    """Natural units from their parts.
-
-    Parameters
-    ----------
-    coordinate : ndarray, shape (n_v,)
-        Diagonal of S [m or rad, per (N m s)^0.5].
-    squares : ndarray, shape (m,)
-        Squared lengths of the rows of A S [m^2/(N m s)], ascending.
-    free_length : float
-        Length of the unconstrained step in the norm of H, ||H^-1 g||_H [(N m s)^0.5].
-    b : ndarray, shape (m,)
-    """
-    length = _power_of_two(_median_length(squares))
-    push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
-    size = max(free_length, push_out)
-    softest = float(coordinate.max(initial=0.0))
-    if size == 0:  # no load, no penetration: the optimum is zero
-        size = UNMOVED / softest if coordinate.size else UNMOVED
-    if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
-        size = math.nan
-    return Units(coordinate, length, _power_of_two(max(size, SMALLEST * max(1.0, softest))))
 
 
 def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
@@ -381,7 +367,9 @@ class StepInBothUnits:
             self.units = units or units_of(self.si_form, self.hessian)
         except np.linalg.LinAlgError:
             raise out_of_range(si_step) from None
-        check_units(self.units, si_step, self.hessian.usable)
+        _, length, size = self.units
+        if not (self.hessian.usable and 0 < length < math.inf and 0 < size < math.inf):
+            raise out_of_range(si_step)
 
     @cached_property
     def natural_step(self) -> StepData:
@@ -405,19 +393,8 @@ class StepInBothUnits:
 
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        judge = cone(self.si_step.cone).judge(self.si_step)
+        judge = cone(self.si_step.cone).judge(self.si_step.contacts.mu)
         return optimality_residuals(self.natural_form, delta_q, lam, judge)
-
-
-def check_units(units: Units, step: StepData, usable: bool = True) -> None:
-    """Refuse a step whose units, or those of its coordinates, are not finite and positive.
-
-    Raises
-    ------
-    StepDataError
-    """
-    if not (usable and 0 < units.length < math.inf and 0 < units.size < math.inf):
-        raise out_of_range(step)
 
 
 def out_of_range(step: StepData) -> StepDataError:

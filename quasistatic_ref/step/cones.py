@@ -37,8 +37,6 @@ from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 if TYPE_CHECKING:
     import cvxpy as cp
 
-    from quasistatic_ref.step.data import StepData
-
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
 Violations: TypeAlias = "tuple[Array, Array, Array]"
@@ -120,8 +118,13 @@ class FrictionCone(ABC):
         """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
 
     @abstractmethod
-    def judge(self, step: StepData) -> Judge:
+    def judge(self, mu: Array) -> Judge:
         """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
+
+        Parameters
+        ----------
+        mu : ndarray, shape (n_c, 3)
+            As of contacts.
 
         Returns
         -------
@@ -151,8 +154,8 @@ class PolyhedralCone(FrictionCone):
             lam[mask[:, i], i] = row.dual_value
         return lam[mask]
 
-    def judge(self, step: StepData) -> Judge:
-        """See :func:`row_violations`."""
+    def judge(self, mu: Array) -> Judge:
+        """See :func:`row_violations`; `mu`, (n_c, 3) [-, -, m], is not used."""
         return row_violations
 
 

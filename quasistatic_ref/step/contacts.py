@@ -75,11 +75,6 @@ class Contacts(Plain, Shown):
     rows: Indices
 
     def __post_init__(self) -> None:
-        self._check_all_but_J()
-        n_v = column_count(self.J, "contacts.J", 3)
-        check_and_freeze(self, {"J": (len(self.name), 4, n_v)}, "contacts.")
-
-    def _check_all_but_J(self) -> None:
         object.__setattr__(self, "name", checked_names(self.name, "contacts.name"))
         n_c = len(self.name)
         scalars = dict.fromkeys(("phi", "mu_v", "mu_omega"), (n_c,))
@@ -88,6 +83,8 @@ class Contacts(Plain, Shown):
         self._check_rows(n_c)
         self._check_friction()
         self._check_frames(n_c)
+        n_v = column_count(self.J, "contacts.J", 3)
+        check_and_freeze(self, {"J": (n_c, 4, n_v)}, "contacts.")
 
     @cached_property
     def n_v(self) -> int:

@@ -201,8 +201,6 @@ class StepData(Plain, HasPage):
         extra: Extra | None = None,
     ) -> None:
         cone_of(cone)  # refuses a name that it does not know
-        if not isinstance(contacts, Contacts):
-            raise StepDataError("must be Contacts", field="contacts", value=contacts)
         # Of three that have one length, two outvote the third, which is then refused by its name.
         of_a = {"K_q": K_q, "tau_a": tau_a, "delta_q_bar_a": delta_q_bar_a}
         n_a = sorted(_length(value, key) for key, value in of_a.items())[1]

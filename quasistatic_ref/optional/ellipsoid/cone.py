@@ -75,12 +75,17 @@ class EllipsoidCone(CurvedCone):
         f_n, scaled = constraints[0].dual_value
         return np.column_stack([f_n, mu * scaled.T]).ravel()
 
-    def judge(self, step: StepData) -> Judge:
+    def judge(self, mu: Array) -> Judge:
         """As of the base; of each contact with motion s and impulse f in one number each.
 
         (10) reads s_n >= ||mu o s_t||, (11) f_n >= ||f_t / mu|| and (12) f's = 0.
+
+        Parameters
+        ----------
+        mu : ndarray, shape (n_c, 3)
+            As of contacts [-, -, m].
         """
-        return lambda slack, lam: cone_violations(step.contacts.mu, slack, lam)
+        return lambda slack, lam: cone_violations(mu, slack, lam)
 
     def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosure | None:
         """The enclosure of the optimum; None where none can be certified.
