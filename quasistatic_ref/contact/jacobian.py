@@ -136,12 +136,8 @@ def contact_jacobian(
     beta: Array,
     n: Array,
 ) -> Array:
-    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,).
-
-    A link of the kinematics moves.
-    """
+    """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,)."""
     nothing = np.zeros(len(n))
     layout = ContactLayout((), link_alpha, link_beta, nothing, nothing, link_alpha)
-    assert kinematics.column_map is not None
     geometry = ContactGeometry(layout, kinematics.column_map)
     return geometry.jacobian(kinematics.columns, alpha, beta, n)

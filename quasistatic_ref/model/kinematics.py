@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
@@ -25,14 +23,14 @@ class Kinematics:
         velocity of the body that the joint moves, per unit of the joint's coordinate. Rows 0-2:
         velocity of the point fixed to the body that is now at the world's origin [m]; rows 3-5:
         angular velocity [rad].
-    column_map : ColumnMap, optional
-        Which columns move a link; without it nothing moves.
+    column_map : ColumnMap
+        Which columns move a link.
     """
 
     R: Array
     t: Array
     columns: Array
-    column_map: ColumnMap | None = None
+    column_map: ColumnMap
 
     @cached_property
     def J(self) -> Array:
@@ -41,8 +39,6 @@ class Kinematics:
         Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
         frame, per unit of delta_q.
         """
-        if self.column_map is None:
-            return np.zeros((len(self.t), 6, 0))
         J = self.column_map.of_coordinates(self.columns * self.column_map.moves)
         J[:, :3] += crossed(J[:, 3:], self.t[:, :, None])  # nu + omega x t
         return J

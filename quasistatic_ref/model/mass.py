@@ -110,7 +110,6 @@ def mass_matrix(
         Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
     """
     column_map = kinematics.column_map
-    assert column_map is not None
     n_u = column_map.n_v - n_a
     constant = np.zeros(column_map.n_v, dtype=bool)
     nothing = np.zeros((n_u, n_u))

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import freeze_array
-from quasistatic_ref.shapes.hull import distance_to_hull, levels
-from quasistatic_ref.shapes.shape import Shape, coal_polytope, lengths
+from quasistatic_ref.shapes.shape import CHUNK, Shape, coal_polytope, lengths
 from quasistatic_ref.step.arrays import Array, Indices
-from quasistatic_ref.step.ordered import dot, product
+from quasistatic_ref.step.ordered import dot, norm, product
+from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 CONVEX_EXCESS: Final = 1e-3
 """Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
@@ -79,13 +79,80 @@ class ConvexMesh(Shape):
         return coal_polytope(self.vertices, self.triangles)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], to planes inside and to triangles outside."""
-        return distance_to_hull(points, self)
+        """Of `points`, shape (N, 3) [m].
+
+        Inside, the largest of the signed distances to the planes of its faces, which is exact;
+        outside, the distance to the nearest triangle. The normal is that of a face, unless an edge
+        or a corner is the closest feature. Each point is computed by itself: its bits do not depend
+        on which other points are given.
+        """
+        phi = np.empty(len(points))
+        normal = np.empty((len(points), 3))
+        count = max(1, CHUNK // len(self.triangles))
+        for start in range(0, len(points), count):
+            some = slice(start, start + count)
+            phi[some], normal[some] = self._distance(points[some])
+        return phi, normal
+
+    def _distance(self, points: Array) -> tuple[Array, Array]:
+        """Of points few enough to be handled at once."""
+        level, _ = self.faces(points)
+        face = level.argmax(axis=1)
+        phi = level[np.arange(len(points)), face]
+        normal = self.normals[face].copy()
+        outside = np.flatnonzero(phi > 0)
+        if len(outside):
+            away = self._nearest_offsets(points[outside])
+            distance = norm(away)
+            # Near the surface p - x is all rounding; the face's normal is right to that distance.
+            size = np.abs(self.vertices).max()
+            sideways = norm(away - phi[outside, None] * normal[outside])
+            edge = (sideways > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
+            at = outside[edge]
+            phi[at] = distance[edge]
+            normal[at] = away[edge] / distance[edge, None]
+        return phi, normal
+
+    def _nearest_offsets(self, points: Array) -> Array:
+        """From the nearest point of the surface's triangles to each point outside, shape (N, 3)."""
+        corners = self.vertices[self.triangles]
+        best = np.full(len(points), np.inf)
+        offset = np.zeros((len(points), 3))
+        rows = np.arange(len(points))
+        n = self.normals
+        within = np.ones((len(points), len(n)), dtype=bool)
+        for k in range(3):
+            # The nearest point of an edge, clamped to its ends.
+            tail = corners[:, k]
+            along = corners[:, (k + 1) % 3] - corners[:, k]
+            arm = points[:, None] - tail
+            s = np.clip(dot(arm, along) / dot(along, along), 0.0, 1.0)
+            away = arm - s[..., None] * along
+            square = dot(away, away)
+            i = square.argmin(axis=1)
+            nearer = square[rows, i] < best
+            best = np.where(nearer, square[rows, i], best)
+            offset = np.where(nearer[:, None], away[rows, i], offset)
+            # Whether the projection on a face's plane is on its side of the edge.
+            within &= dot(arm, np.cross(n, along)) >= 0
+        level = dot(points[:, None] - corners[:, 0], n)
+        above = within & (level > 0)
+        # A point above the inside of a face is nearest to that face. If an edge seems nearer, that
+        # is rounding, and the edge's direction is the less accurate one. For a point on a face,
+        # rounding decides the sign of its level.
+        some = np.asarray(above.any(axis=1))
+        best = np.where(some, np.inf, best)
+        square = np.where(np.where(some[:, None], above, within), level * level, np.inf)
+        i = square.argmin(axis=1)
+        nearer = square[rows, i] < best
+        return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the planes of all triangles."""
-        shape = (len(points), *self.normals.shape)
-        return levels(points, self), np.broadcast_to(self.normals, shape)
+        n = self.normals
+        x, y, z = points.T[:, :, None]
+        heights = x * n[:, 0] + y * n[:, 1] + z * n[:, 2] - self.offsets
+        return heights, np.broadcast_to(n, (*heights.shape, 3))
 
     def support_point(self, direction: Array) -> Array:
         """The first vertex farthest along a `direction`; both of shape (3,), [m] and [-]."""

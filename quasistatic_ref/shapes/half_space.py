@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import coal
 import numpy as np
-from coal import CollisionGeometry
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import finite, freeze_array
@@ -48,11 +46,6 @@ class HalfSpace(Shape):
         unit.setflags(write=False)
         object.__setattr__(self, "normal", unit)
         object.__setattr__(self, "offset", offset / size)
-
-    @cached_property
-    def coal(self) -> CollisionGeometry:
-        """The same shape as a coal geometry."""
-        return coal.Halfspace(self.normal, self.offset)
 
     @cached_property
     def extent(self) -> float:

@@ -11,6 +11,8 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.arrays import Array, Indices
 
 AXES = np.concatenate([np.eye(3), -np.eye(3)])
+CHUNK = 1 << 17
+"""Points times faces handled at once: some tens of megabytes."""
 
 
 class Shape(Plain):

@@ -15,7 +15,7 @@ def standing_links(*poses):
     """Links at given poses (R, t), the world first; nothing moves."""
     R = np.array([np.eye(3), *(pose[0] for pose in poses)])
     t = np.array([np.zeros(3), *(pose[1] for pose in poses)])
-    return Kinematics(R, t, np.zeros((6, 0)))
+    return Kinematics(R, t, np.zeros((6, 0)), None)
 
 
 def pair(alpha, beta, k=1):

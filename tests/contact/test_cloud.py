@@ -57,7 +57,7 @@ def cylinder_distance(shape, point):
     return max(beyond_side, beyond_cap)
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("name", ["sphere", "capsule", "box", "cylinder"])
 def test_a_distance_is_that_of_coal_or_of_the_plane_of_radius_and_height(name, rng):
     shape = SHAPES[name]
     points = rng.uniform(-0.8, 0.8, size=(400, 3))

@@ -13,7 +13,7 @@ from quasistatic_ref.contact.distance import (
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.tolerances import FILLED
 from tests.closeness import assert_within
-from tests.contact.still import found_for, pair, placed_shape, standing_links
+from tests.contact.still import found_for, placed_shape, standing_links
 from tests.tolerances import EXACT, SIGNED_DISTANCE
 
 X, _, Z = np.eye(3)
@@ -58,26 +58,8 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     assert_within(gap, found.phi[:, None] * found.n, SIGNED_DISTANCE)
 
 
-def test_pairs_follow_one_another_each_nearest_first(rng):
-    floor = placed_shape(FLOOR)
-    ball = placed_shape(Sphere(0.1), 2)
-    cloud = placed_shape(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
-    kinematics = standing_links(random_pose(rng, 0.2), random_pose(rng, 0.3))
-    pairs = [pair(floor, cloud, 3), pair(floor, ball), pair(ball, cloud, 2)]
-    found = closest_points(pairs, kinematics)
-    assert found.phi.shape == (6,)
-    start = 0
-    for one in pairs:
-        alone = closest_points([one], kinematics)
-        part = slice(start, start + one.n_c)
-        for key in ("phi", "alpha", "beta", "n", "point"):
-            np.testing.assert_array_equal(getattr(found, key)[part], getattr(alone, key))
-        assert (np.diff(alone.phi) >= 0).all()
-        start += one.n_c
-
-
 def test_a_pose_that_is_not_finite_is_refused():
-    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
+    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)), None)
     with pytest.raises(ContactError, match="poses: must be finite"):
         closest_points([], still)
 

@@ -41,15 +41,6 @@ def test_d1_is_the_projection_of_the_world_axis_farthest_from_n_and_d2_is_n_x_d1
         assert_within(tangents(n[None]), expected, ROUNDING)
 
 
-def test_equal_normals_have_equal_tangents_in_any_company(rng):
-    n = rng.normal(size=(33, 3))
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    together = np.array(tangents(n))
-    for j in range(len(n)):
-        alone = np.array(tangents(n[j : j + 1]))
-        np.testing.assert_array_equal(alone[:, 0], together[:, j])
-
-
 def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     system = chain_scene(tmp_path)
     box = system.link("box/box")

@@ -16,6 +16,7 @@ from quasistatic_ref.contact.distance import (
     rounded_gaps,
 )
 from quasistatic_ref.contact.pairs import RANKED
+from quasistatic_ref.contact.separations import OF_CLOUD
 from quasistatic_ref.tolerances import REPEATED
 from tests.contact.still import found_for, pair, placed_shape, standing_links
 
@@ -226,3 +227,22 @@ def test_a_hull_of_many_corners_takes_no_memory_in_the_square_of_their_number():
     assert tracemalloc.get_traced_memory()[1] < 20 * 2**20  # an eighth of 4000^2 numbers
     tracemalloc.stop()
     assert abs(found.phi[0]) < 1e-15
+
+
+def test_of_two_corners_that_are_one_contact_alpha_s_is_kept():
+    # Two equal cubes, one on the other: the four corners of either's face are in the same places.
+    # Alpha's corners are 0 to 7 (binary: x lowest), so that its upper ones are 4 to 7.
+    there = standing_links((np.eye(3), 0.1 * Z))
+    found = found_for(placed_shape(CUBE), placed_shape(CUBE, 1), there, 4)
+    assert sorted(found.point.tolist()) == [4, 5, 6, 7]
+
+
+def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
+    # Two points are on an edge. Above the face x = 0.1 the lowest of all is at 0, above z = 1 at
+    # -0.5.
+    t = np.array([5.0, 0.0, 0.0])
+    cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
+    solid = placed_shape(Box((0.1, 1.0, 1.0)))
+    found = found_for(solid, placed_shape(cloud, 1), standing_links((np.eye(3), t)), 2)
+    np.testing.assert_allclose(found.n, [[1, 0, 0]] * 2, atol=1e-12)
+    assert found.tie.tolist() == [OF_CLOUD] * 2

@@ -4,7 +4,6 @@ import math
 
 import mpmath
 import numpy as np
-import pytest
 
 from quasistatic_ref.model.angles import angle_of, cos_sin
 
@@ -31,31 +30,6 @@ def nearest(x):
     return float(mpmath.mpf(x))
 
 
-def test_cosine_and_sine_are_the_nearest_float64():
-    angles = [*HARD, *np.random.default_rng(1).normal(scale=10, size=300).tolist()]
-    with mpmath.workdps(700):
-        expected = [(nearest(mpmath.cos(a)), nearest(mpmath.sin(a))) for a in angles]
-    assert [cos_sin(a) for a in angles] == expected
-    assert [cos_sin(-a) for a in angles] == [(c, -s) for c, s in expected]
-
-
-def test_the_angle_of_a_vector_is_the_nearest_float64():
-    vectors = np.random.default_rng(2).normal(size=(300, 2)).tolist()
-    vectors += [(0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (5e-324, 1.0), (1e-200, -1e-200), (0.0, 0.0)]
-    with mpmath.workdps(60):
-        expected = [nearest(mpmath.atan2(*v)) for v in vectors]
-    assert [angle_of(*v) for v in vectors] == expected
-
-
-@pytest.mark.parametrize("angle", [math.inf, math.nan])
-def test_no_angle_has_no_sine(angle):
-    assert all(map(math.isnan, cos_sin(angle)))
-
-
-def test_a_vector_that_is_no_number_has_no_angle():
-    assert math.isnan(angle_of(math.nan, 1.0))
-
-
 def small_angles():
     """Angles of both signs up to SMALL [rad]: most of them where the last terms count most."""
     generator = np.random.default_rng(3)
@@ -63,14 +37,15 @@ def small_angles():
     return (generator.choice([-1, 1], powers.size) * 2.0**powers).tolist()
 
 
-def test_small_angles_are_correctly_rounded():
-    every = [*small_angles(), *OPEN, SMALL, -SMALL]
-    with mpmath.workdps(60):
-        expected = [(nearest(mpmath.cos(a)), nearest(mpmath.sin(a))) for a in every]
-    assert [cos_sin(a) for a in every] == expected
+def test_cosine_and_sine_are_the_nearest_float64():
+    angles = [*HARD, *np.random.default_rng(1).normal(scale=10, size=300).tolist()]
+    angles += [*small_angles(), *OPEN, SMALL, -SMALL]
+    with mpmath.workdps(700):
+        expected = [(nearest(mpmath.cos(a)), nearest(mpmath.sin(a))) for a in angles]
+    assert [cos_sin(a) for a in angles] == expected
 
 
-def test_angles_of_vectors_near_the_x_axis_are_correctly_rounded():
+def test_the_angle_of_a_vector_is_the_nearest_float64():
     generator = np.random.default_rng(4)
     tangents = small_angles()
     lengths = generator.uniform(0.5, 2, len(tangents)) * 2.0 ** generator.integers(-2, 5)
@@ -79,9 +54,16 @@ def test_angles_of_vectors_near_the_x_axis_are_correctly_rounded():
     every += [OPEN_VECTOR, (3.4808974014242475e-307, 0.3160055184876183), (1e-310, 1e-300)]
     every += [(5e-324, 0.9), (1e290, 1e300)]
     every += [(s * y, x) for y, x in ((LEAST, 0.3), (LEAST / 3, 0.3)) for s in (1, -1)]
+    every += np.random.default_rng(2).normal(size=(300, 2)).tolist()
+    every += [(0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (5e-324, 1.0), (1e-200, -1e-200), (0.0, 0.0)]
     with mpmath.workdps(60):
         expected = [nearest(mpmath.atan2(*v)) for v in every]
     assert [angle_of(*v) for v in every] == expected
+
+
+def test_what_is_no_number_has_no_sine_and_no_angle():
+    answers = [*cos_sin(math.inf), *cos_sin(math.nan), angle_of(math.nan, 1.0)]
+    assert all(map(math.isnan, answers))
 
 
 def test_zero_has_the_positive_sign():

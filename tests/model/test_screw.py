@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.model.joints.continuous import Continuous
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.model.screw import linear_part
 from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
@@ -40,13 +39,6 @@ def screw(v, w):
 def quaternion_about(axis, angle):
     """[axis sin(angle / 2), cos(angle / 2)]."""
     return [*(axis * np.sin(angle / 2)), np.cos(angle / 2)]
-
-
-@pytest.mark.parametrize("angle", ANGLES)
-def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle):
-    w = (angle * AXIS).tolist()
-    v = linear_part(LINEAR, w)
-    assert_within(screw(v, w)[1], LINEAR, 4 * ROUNDING)
 
 
 @pytest.mark.parametrize("angle", ANGLES)

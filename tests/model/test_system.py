@@ -1,10 +1,9 @@
 """System: the paper's order, twists in the body frame, poses and Jacobians of links."""
 
 import numpy as np
-import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Body, ModelError, System
+from quasistatic_ref import Body, System
 from tests.closeness import assert_close, assert_within
 from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, urdf_of_text
 from tests.tolerances import ROUNDING
@@ -46,16 +45,6 @@ def test_difference_is_the_inverse_of_integrate(scene, q, rng):
         if each.free:  # x and -x are the same orientation
             part[3:] *= np.sign(part[3:] @ other[3:])
         assert np.abs(part - other).max() < ROUNDING
-
-
-def test_actuated_entries_are_replaced_and_the_others_kept(scene, q):
-    q_a = scene.q_start[: scene.n_q_a]
-    mixed = scene.with_actuated(q, q_a)
-    assert np.array_equal(mixed[: scene.n_q_a], q_a)
-    assert np.array_equal(mixed[scene.n_q_a :], q[scene.n_q_a :])
-    assert not np.array_equal(mixed, q)
-    with pytest.raises(ModelError, match=r"q_a: must have shape \(10,\)"):
-        scene.with_actuated(q, q)
 
 
 def test_actuated_coordinates_change_whatever_comes_after_them():

@@ -22,8 +22,6 @@ from quasistatic_ref.tolerances import ORTHONORMAL
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
-TEXT = "big"
-
 
 def sheared_matrix(by):
     """A matrix R with R'R - I = [0 by 0; by by^2 0; 0 0 0]."""
@@ -32,35 +30,16 @@ def sheared_matrix(by):
 
 REFUSED = [
     ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
-    ("infinite radius", lambda: Sphere(np.inf), "radius: must be a finite number"),
     ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
-    ("text", lambda: Sphere(TEXT), r"radius: must be a finite number \(got 'big'\)"),
     ("a radius below a proton's", lambda: Sphere(0.9 * SHORT), "radius: must be at least 1e-15 m"),
-    (
-        "extent too large to double",
-        lambda: Box((1, 1.7e308, 1)),
-        "half_extents: must be three positive lengths",
-    ),
-    (
-        "an extent below a proton's",
-        lambda: Box((1, 0.9 * SHORT, 1)),
-        "half_extents: must be at least 1e-15 m",
-    ),
     ("flat box", lambda: Box((1, 0, 1)), "half_extents: must be three positive lengths"),
     ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
-    ("short capsule", lambda: Capsule(1.0, -1.0), "half_length: must be a positive length"),
     ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
     ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must contain at least one point"),
-    ("plane points", lambda: PointCloud(np.zeros((4, 2))), r"points: must have shape \(4, 3\)"),
-    (
-        "inf point",
-        lambda: PointCloud(np.full((1, 3), np.inf)),
-        "points: must contain finite numbers",
-    ),
     (
         "reflection",
-        lambda: PlacedShape("a#0", 0, np.diag([1.0, 1.0, -1.0]), np.zeros(3), Sphere(1.0)),
+        lambda: PlacedShape.in_world("a#0", Sphere(1.0), R=np.diag([1.0, 1.0, -1.0])),
         "a#0.R: must be a rotation",
     ),
     (
@@ -91,18 +70,6 @@ def test_coal_sees_the_sizes_as_written():
     assert Cylinder(0.1, 0.4).coal == coal.Cylinder(0.1, 0.8)
     assert Capsule(0.1, 0.4).coal == coal.Capsule(0.1, 0.8)
     assert Capsule(0.1, 0.4).coal != coal.Capsule(0.1, 0.4)
-
-
-def test_the_normal_of_a_half_space_points_out_of_the_solid():
-    floor = HalfSpace((0.0, 0.0, 2.0), 0.6)
-    result = coal.DistanceResult()
-    centre = coal.Transform3s(np.eye(3), np.array([0.0, 0.0, 1.0]))
-    ball = coal.Sphere(0.25)
-    request = coal.DistanceRequest()
-    distance = coal.distance(floor.coal, coal.Transform3s(), ball, centre, request, result)
-    # 2 z <= 0.6 is solid up to z = 0.3; the ball's lowest point is at 0.75.
-    assert distance == pytest.approx(0.45, abs=ROUNDING)
-    assert result.normal == pytest.approx([0, 0, 1], abs=ROUNDING)
 
 
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 3.0, 1e200])

@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import (
     Body,
-    Box,
     ModelError,
     ScenarioError,
     System,
@@ -17,13 +16,11 @@ from quasistatic_ref import (
     trajectory_read,
     verify,
 )
-from quasistatic_ref.model.joints.ball import Ball
 from tests.closeness import assert_within
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, mimic, robot
 from tests.oracles.differences import after, rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
-BALL = Ball("ball", False, slice(0, 4), slice(0, 3))
 CENTRE = np.array([0.0, 0.05, -0.3])
 MOMENTS = np.array([0.02, 0.03, 0.04])
 BOB = link(
@@ -32,24 +29,6 @@ BOB = link(
     inertial("2", ("0.02", "0.03", "0.04"), '<origin xyz="0 0.05 -0.3"/>'),
 )
 HANGING = robot(link("hook"), BOB, joint("ball", "hook", "bob", "ball", "1 0 0"))
-
-
-def turn(rng, angle):
-    """A rotation vector of random direction."""
-    axis = rng.normal(size=3)
-    return angle * axis / np.linalg.norm(axis)
-
-
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 3.0])
-def test_a_ball_turns_by_its_rotation_vector_in_its_own_frame(angle, rng):
-    q = Rotation.from_rotvec(turn(rng, 1.3))
-    w = turn(rng, angle)
-    after = BALL.moved(q.as_quat().tolist(), w.tolist())
-    expected = (q * Rotation.from_rotvec(w)).as_matrix()
-    found = Rotation.from_quat(after).as_matrix()
-    assert_within(found, expected, 4 * ROUNDING)
-    back = BALL.change(q.as_quat().tolist(), after)
-    assert_within(back, w, 8 * ROUNDING)
 
 
 def pendulum(base):
@@ -171,10 +150,3 @@ def test_what_a_ball_cannot_is_refused():
         scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
         pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
-
-
-def test_a_solid_turns_about_its_middle_as_a_base():
-    box = System([Body.of_shape("box", Box((0.1, 0.2, 0.3)), 1.0, base="ball")])
-    assert (box.n_q, box.n_v) == (4, 3)
-    placed = box.placed({"box": {"rpy": [0, 0, np.pi / 2]}})
-    np.testing.assert_allclose(placed, [0, 0, np.sqrt(0.5), np.sqrt(0.5)], atol=ROUNDING)

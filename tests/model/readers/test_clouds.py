@@ -83,24 +83,17 @@ def npz(**arrays):
 GOOD = {
     "xyz": (".xyz", b"# a comment\n0.1 -0.2 0.3\n\n1.0\t2e-3   -0.5 # end\n"),
     "xyz with CRLF and a mark": (".XYZ", b"\xef\xbb\xbf0.1 -0.2 0.3\r\n1 2e-3 -.5\r\n"),
-    "csv": (".csv", b"0.1,-0.2,0.3\n1.0,2e-3,-0.5\n"),
     "csv with a header": (".csv", b"x,y,z\n0.1, -0.2, 0.3\n1.0,2e-3,-0.5\n"),
     "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
     "ascii ply": (".ply", PLY_ASCII.encode()),
     "binary ply in float64": (".ply", binary_ply("double", "d")),
     "ascii pcd": (".pcd", pcd("ascii", PCD_BODY)),
-    "pcd with an empty line": (".pcd", pcd("ascii", PCD_BODY, f"\n{PCD_HEADER}")),
-    "pcd with a number of 18 digits": (
-        ".pcd",
-        pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", f"WIDTH {2:018}")),
-    ),
     "pcd without COUNT": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT 1 1 1 1\n", "")),
     ),
     "binary pcd": (".pcd", pcd("binary", binary_body("<B3d"))),
     "npy": (".npy", npy(POINTS)),
-    "npy of another order": (".npy", npy(np.asfortranarray(POINTS))),
     "npy of Python 2": (".npy", npy(POINTS).replace(b"(2, 3), }  ", b"(2L, 3L), }")),
     "npz of one array": (".npz", npz(cloud=POINTS)),
     "npz of several": (".npz", npz(colours=np.ones((2, 4)), points=POINTS)),
@@ -125,7 +118,6 @@ def test_a_binary_ply_in_float32_gives_the_rounded_points(tmp_path):
 
 NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD = {
-    "pcd without an end": (".pcd", PCD_HEADER.encode(), "cannot be read as PCD"),
     "pcd of other words": (
         ".pcd",
         b"solid thing\n",
@@ -137,32 +129,12 @@ BAD = {
         pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
         "cannot be read as PCD",
     ),
-    "pcd without z": (
-        ".pcd",
-        pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
-        "cannot be read as PCD: no field of name z",
-    ),
-    "ascii pcd with a short line": (
-        ".pcd",
-        pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0\n"),
-        "cannot be read as PCD: .* at row 2",
-    ),
-    "pcd with a width of nothing": (
-        ".pcd",
-        pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", "WIDTH")),
-        "header: lacks or misstates these lines .got 'WIDTH'",
-    ),
     "npy of a pickle": (
         ".npy",
         npy(np.array([{}], dtype=object)),
         "is a pickle",
     ),
     "npy cut off": (".npy", npy(POINTS)[:-1], "does not have the size that it says"),
-    "npy of a size that is not there": (
-        ".npy",
-        npy(POINTS).replace(b"(2, 3)", b"(9**9,"),
-        "is not an array of NumPy",
-    ),
     "npy of pairs": (
         ".npy",
         npy(POINTS[:, :2]),
@@ -175,6 +147,8 @@ BAD = {
     ),
     "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
     "empty xyz": (".xyz", b"\n# nothing\n", "points: must contain at least one point"),
+    "nothing that was seen": (".xyz", b"nan nan nan\n", "must contain at least one point"),
+    "infinity": (".xyz", b"0 0 0\n0 inf 0\n", "line 2: must be a finite decimal number"),
     "two numbers": (".xyz", b"0 0 0\n1 2\n", r"line 2: must be three numbers, x y z.*'1 2'"),
     "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
     "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
@@ -186,35 +160,15 @@ BAD = {
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
         r"points: must be 2 \(got 1\)",
     ),
-    "ascii ply with a short line": (
-        ".ply",
-        PLY_ASCII.replace(" -0.5 0", "").encode(),
-        "cannot be read as a mesh",
-    ),
     "a count beyond 64 bits": (
         ".ply",
         PLY_ASCII.replace("vertex 2", "vertex 9999999999999999999").encode(),
         "points: must be 9999999999999999999",
     ),
-    "no property z": (
-        ".ply",
-        PLY_ASCII.replace("property double z\n", "").encode(),
-        "cannot be read as a mesh: 'z'",
-    ),
-    "a property before any element": (
-        ".ply",
-        PLY_ASCII.replace("element vertex", "property double w\nelement vertex").encode(),
-        "cannot be read as a mesh: Property defined before",
-    ),
     "faces first": (
         ".ply",
         b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
         "points: must contain at least one",
-    ),
-    "impossible count": (
-        ".ply",
-        binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),
-        "cannot be read as a mesh",
     ),
 }
 
@@ -231,30 +185,21 @@ def test_a_defect_is_one_sentence_that_names_the_file(tmp_path, suffix, content,
 POINTS_OF_BYTES = "element vertex 1000001\nproperty char x\nproperty char y\nproperty char z\n"
 
 
-def npy_of_bytes():
-    file = io.BytesIO()
-    np.save(file, np.zeros((1_000_001, 3), np.int8))
-    return file.getvalue()
-
-
 @pytest.mark.parametrize(
-    ("name", "content", "says"),
+    ("name", "content"),
     [
-        ("c.xyz", b"\n" * 2_000_001, "holds more than 2000000 lines"),
-        ("c.xyz", b" " * (64 * 2**20 + 1), "is a text of more than 64 MiB"),
         (
             "c.ply",
             f"ply\nformat binary_little_endian 1.0\n{POINTS_OF_BYTES}end_header\n".encode()
             + bytes(3_000_003),
-            "holds more than 1000000 points",
         ),
-        ("c.npy", npy_of_bytes(), "holds more than 1000000 points"),
+        ("c.npy", npy(np.zeros((1_000_001, 3), np.int8))),
     ],
 )
-def test_more_points_or_text_than_a_cloud_may_have_are_refused(tmp_path, name, content, says):
+def test_more_points_than_a_cloud_may_have_are_refused(tmp_path, name, content):
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(ModelError, match=f"{name}: {says}"):
+    with pytest.raises(ModelError, match=f"{name}: holds more than 1000000 points"):
         point_cloud(path)
 
 
@@ -351,29 +296,12 @@ def test_what_others_read_is_read(tmp_path, name):
     assert unseen == (2 if name == "unseen.xyz" else 0)
 
 
-def test_points_alone_that_were_not_seen_are_no_cloud(tmp_path):
-    path = tmp_path / "a.xyz"
-    path.write_text("nan nan nan\n")
-    with pytest.raises(ModelError, match="must contain at least one point"):
-        point_cloud(path)
-    path.write_text("0 0 0\n0 inf 0\n")
-    with pytest.raises(ModelError, match="line 2: must be a finite decimal number"):
-        point_cloud(path)
-
-
 def test_a_compressed_pcd_that_is_cut_off_or_of_another_number_is_refused(tmp_path):
     path = tmp_path / "a.pcd"
     for content in (compressed(EIGHT)[:-3], compressed(EIGHT).replace(b"POINTS 8", b"POINTS 9")):
         path.write_bytes(content)
         with pytest.raises(ModelError, match="cannot be read as PCD"):
             point_cloud(path)
-
-
-def test_vertices_that_a_ply_lacks_are_missed(tmp_path):
-    path = tmp_path / "a.ply"
-    path.write_text(OTHERS["list.ply"].replace("vertex 8", "vertex 9") + "\n")
-    with pytest.raises(ModelError, match=r"points: must be 9|cannot be read"):
-        point_cloud(path)
 
 
 def test_las_is_read_in_metres_and_a_broken_one_is_refused(tmp_path):

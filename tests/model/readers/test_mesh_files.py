@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from quasistatic_ref import Body, ModelError, System
-from quasistatic_ref.model.readers.mesh_files import Mesh, loaded_mesh, mesh_hull, mesh_path
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_hull, mesh_path
 from quasistatic_ref.model.urdf import urdf_shapes
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
@@ -48,17 +48,6 @@ def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path):
         "a#0: mesh replaced by its convex hull, 4 corners; "
         "it is not convex (by 40 %), so a contact with it must say hull = true"
     )
-
-
-def test_a_mesh_may_be_as_large_as_the_largest(tmp_path, monkeypatch):
-    urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
-    size = (tmp_path / "a.obj").stat().st_size
-    for most in (size, size - 1):
-        monkeypatch.setattr("quasistatic_ref.model.readers.mesh_files.LARGEST_MESH", most)
-        if most == size:
-            assert mesh_path("a.obj", tmp_path, ()).stat().st_size == size
-    with pytest.raises(ModelError, match="is larger than"):
-        mesh_path("a.obj", tmp_path, ())
 
 
 def test_a_package_address_is_looked_for_in_package_dirs(tmp_path):
@@ -141,13 +130,6 @@ MALFORMED = {
     "an index that is not there": ("0 3 2 1", "0 3 99 1"),
     "no XML": ("</COLLADA>", ""),
 }
-
-
-def test_a_collada_mesh_is_loaded(tmp_path):
-    urdf_of_text(tmp_path, COLLADA, "a.dae")
-    hull = mesh_hull(mesh_path("a.dae", tmp_path, ()), np.ones(3))
-    assert len(hull.vertices) == len(hull.triangles) == 4
-    assert_within(hull.volume, 1 / 6, CLOSED_FORM)
 
 
 @pytest.mark.parametrize(("right", "wrong"), MALFORMED.values(), ids=MALFORMED)
@@ -249,19 +231,6 @@ def test_a_format_is_read_as_trimesh_wrote_it(tmp_path, kind):
 
 def _bytes(content):
     return content.encode() if isinstance(content, str) else content
-
-
-def test_a_mesh_that_is_named_often_is_read_once(tmp_path, monkeypatch):
-    urdf_of_text(tmp_path, TETRAHEDRON, "a.obj")
-    read = []
-    monkeypatch.setattr(urdf_shapes, "loaded_mesh", lambda path: read.append(path) or MESH)
-    meshes = "".join(collision(f'<mesh filename="a.obj" scale="{k} 1 1"/>') for k in (1, 2, 3))
-    urdf = loaded_urdf(urdf_of_text(tmp_path, robot(link("a", meshes))))
-    assert [round(6 * shape.shape.volume) for shape in urdf.shapes] == [1, 2, 3]
-    assert len(read) == 1
-
-
-MESH = Mesh(CORNERS.astype(float), np.array([[0, 2, 3], [0, 3, 1], [0, 1, 2], [3, 2, 1]]))
 
 
 def test_a_mesh_that_is_named_five_times_is_read_once_and_has_one_hull(tmp_path, monkeypatch):

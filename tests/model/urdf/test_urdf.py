@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref import Body, Box, Capsule, Cylinder, ModelError, Sphere, System
+from quasistatic_ref import Body, Capsule, ModelError, Sphere, System
 from quasistatic_ref.model.urdf import urdf as urdf_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.model.urdf.urdf_texts import (
     BOX,
     CHAIN,
-    collision,
     inertial,
     joint,
     link,
@@ -33,20 +32,6 @@ def test_a_chain_is_loaded_as_written(tmp_path):
     # The tool is welded on: its shape is still placed in its own frame.
     assert urdf.shapes[2].shape == Capsule(0.02, 0.05)
     assert urdf.shapes[2].t == pytest.approx([0, 0, 0], abs=ROUNDING)
-
-
-def test_every_primitive_keeps_its_sizes(tmp_path):
-    shapes = (
-        '<box size="0.1 0.2 0.3"/>',
-        '<sphere radius="1.5"/>',
-        '<cylinder radius="0.2" length="3"/>',
-        '<capsule radius="0.2" length="3"/>',
-    )
-    text = robot(link("a", "".join(collision(shape) for shape in shapes)))
-    box, *others = (placed.shape for placed in loaded_urdf(urdf_of_text(tmp_path, text)).shapes)
-    assert isinstance(box, Box)
-    assert np.array_equal(box.half_extents, np.array([0.1, 0.2, 0.3]) / 2)
-    assert others == [Sphere(1.5), Cylinder(0.2, 1.5), Capsule(0.2, 1.5)]
 
 
 def test_a_path_with_any_letters_is_read(tmp_path):
@@ -103,13 +88,6 @@ def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path):
     (note,) = loaded_urdf(urdf_of_text(tmp_path, massless), base="floating").notes
     whole = "the inertia of all links welded to it is that of a body"
     assert note == f"link[b].inertial.mass: must be greater than 0; accepted, because {whole}"
-
-
-@pytest.mark.parametrize("base", ["floating", "planar"])
-def test_a_base_that_needs_a_mass_is_named_by_its_kind(tmp_path, base):
-    path = urdf_of_text(tmp_path, robot(link("a", inertial="")))
-    with pytest.raises(ModelError, match=f"is missing, but the {base} base moves this link"):
-        loaded_urdf(path, base=base)
 
 
 def test_an_axis_that_is_not_written_is_x():
