@@ -97,9 +97,6 @@ def free(name, geom, at):
 
 BOX = 'type="box" size=".05 .06 .04"'
 HEALTHY = {
-    "box": free("box", BOX, "0 0 .04"),
-    "ball": free("ball", 'size=".1"', "0 0 .1"),
-    "cylinder": free("can", 'type="cylinder" size=".03 .05"', "0 0 .05"),
     "capsule": free("rod", 'type="capsule" size=".02 .1" euler="0 90 0"', "0 0 .02"),
     "three boxes": "".join(free(f"b{i}", BOX, f"0 0 {0.04 + 0.08 * i}") for i in range(3)),
     "plank": free("a", BOX, "-.2 0 .04") + free("b", BOX, ".2 0 .04")
@@ -109,7 +106,6 @@ HEALTHY = {
     "a door on its limit": free("box", BOX, "0 0 .04")
     + '<body pos="1 0 1"><joint axis="0 1 0" range="-20 20" damping=".5"/>'
     '<geom type="box" size=".2 .2 .01" pos=".2 0 0" mass="1"/></body>',
-    "ellipsoid": free("egg", 'type="ellipsoid" size=".05 .04 .03"', "0 0 .03"),
     "a box that is pushed": free("box", BOX, "0 0 .04")
     + '<body pos="-.1 0 .03"><joint name="x" type="slide" axis="1 0 0" damping="50"/>'
     '<geom size=".03" mass=".2"/></body>',
