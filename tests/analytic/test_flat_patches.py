@@ -5,6 +5,7 @@ import pytest
 
 from quasistatic_ref import solve_step
 from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.lab.thresholds import threshold
 from tests.oracles.balance import balances
 
 HEIGHT = 0.02
@@ -38,15 +39,11 @@ def patch_step(points, d1, held, mass=1.0, mu_v=0.5):
 
 def held_torque(points, d1):
     """The largest torque, over mu times the weight, that forces in the pyramids balance [m]."""
-    low = 0.0
-    high = 2 * np.hypot(*np.transpose(points)).max()
-    while high - low > 1e-6 * high:
-        middle = (low + high) / 2
-        if balances(patch_step(points, d1, middle), np.zeros(6)):
-            low = middle
-        else:
-            high = middle
-    return low
+
+    def slips(held):
+        return not balances(patch_step(points, d1, held), np.zeros(6))
+
+    return threshold(slips, 0.0, 2 * np.hypot(*np.transpose(points)).max(), 1e-6)
 
 
 def on_circle(angles, radius=1.0):

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.tables import PAIR, table_read
+from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.data import Array
 
 COLUMNS: Mapping[str, str] = {
@@ -63,7 +63,7 @@ def loads_read(folder: Path, pairs: list[Pair]) -> dict[str, Loads]:
     InputError
         If the file is missing or not as it must be.
     """
-    table = table_read(folder / "loads.csv", COLUMNS, {}, tuple(PAIR))
+    table = table_read(folder / "loads.csv", COLUMNS, {})
     loads = {}
     for pair in pairs:
         rows = table.rows(pair.name)

@@ -11,7 +11,7 @@ from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.reality.outline import Outline
-from quasistatic_ref.lab.reality.tables import PAIR, table_read
+from quasistatic_ref.lab.reality.tables import table_read
 
 FINGER = 0.00475
 """Radius of the finger of the MIT pushes [m]; of other data, a column of patches.csv."""
@@ -20,7 +20,7 @@ COLUMNS: Mapping[str, str] = {"mu_pusher_used": "[-] friction of the finger"}
 MATRIX = tuple(f"A{i}{j}" for i in "123" for j in "123")
 OPTIONAL: Mapping[str, str] = {
     "rho": "[m] length by which the published fit scales torques",
-    "mu_pusher_fitted": "[-] friction of the finger that was fitted to pushes",
+    "mu_pusher_fitted": "[-] friction of the finger that was fitted to pushes; not used",
     "samples": "[-] number of loads",
     "finger_radius": "[m] 0.00475 where it is not given",
     **dict.fromkeys(MATRIX, "[1/N^2, up to scale] published ellipsoid w' A w = 1"),
@@ -37,9 +37,7 @@ class Pair:
         surface/shape.
     outline : Outline
     mu_finger : float
-        The friction of the finger that is used [-].
-    mu_fitted : float or None
-        What was fitted to pushes: shown as a sensitivity, never used [-].
+        The friction of the finger [-].
     radius : float
         Of the finger [m].
     published : float or None
@@ -49,7 +47,6 @@ class Pair:
     name: str
     outline: Outline
     mu_finger: float
-    mu_fitted: float | None
     radius: float
     published: float | None
 
@@ -63,7 +60,7 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
         If a file or a pair is missing, or a number is not usable.
     """
     path = folder / "patches.csv"
-    table = table_read(path, COLUMNS, OPTIONAL, tuple(PAIR))
+    table = table_read(path, COLUMNS, OPTIONAL)
     for name in only:
         if name not in table.pairs:
             problem = f"is not a pair of {path}{suggestion(name, table.pairs)}"
@@ -83,10 +80,8 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
         for key, value in (("mu_pusher_used", row["mu_pusher_used"]), ("finger_radius", radius)):
             if value < 0:
                 raise InputError("must be >= 0", file=path, field=f"{name}, {key}", value=value)
-        fitted = row.get("mu_pusher_fitted")
-        published = published_ratio(row)
-        fields = shapes[shape], row["mu_pusher_used"], fitted, radius, published
-        pairs.append(Pair(name, *fields))
+        mu_finger = row["mu_pusher_used"]
+        pairs.append(Pair(name, shapes[shape], mu_finger, radius, published_ratio(row)))
     return pairs
 
 

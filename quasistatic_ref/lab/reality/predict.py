@@ -59,7 +59,7 @@ def prediction(of: Pushed, pose: Array, path: Array, certify: str = "full") -> P
         As of :func:`~quasistatic_ref.solve.solve.solve_step`; Coulomb's law is certified in full.
     """
     R = rotation(pose[2])
-    body = np.zeros(of.n_u)
+    body = np.zeros(4)
     body[:2], body[3] = pose[:2] + R @ of.outline.centre, pose[2]
     kinds = Counter[str]()
     error = 0.0

@@ -36,7 +36,6 @@ def predicted_pushes(
     path: Path,
     *,
     jobs: int | None = None,
-    certify: str = "full",
     progress: bool = True,
 ) -> dict[str, list[Row]]:
     """Predict pushes, or what is left of them.
@@ -53,8 +52,6 @@ def predicted_pushes(
         Where rows are kept.
     jobs : int, optional
         Processes; by default as many as there are cores. With 1 it is this one.
-    certify : str
-        As of :func:`~quasistatic_ref.solve.solve.solve_step`.
     progress : bool
 
     Returns
@@ -72,12 +69,11 @@ def predicted_pushes(
     scenes = {pair.name: pushed_scene(settings, pair, ratios[pair.name]) for pair in pairs}
     header = FORMAT | {
         "settings": settings.record(),
-        "certify": certify,
         "mu_omega_over_mu_v": {pair.name: float(ratios[pair.name]) for pair in pairs},
     }
     log = Log(path, lambda row: (row["pair"], row["push"]), header)
     chunks = list(_chunks(pairs, pushes, log.by_key))
-    calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
+    calls = [(name, scenes[name], tasks) for name, tasks in chunks]
     total = sum(pushes[pair.name].number.size for pair in pairs)
     left = sum(len(tasks) for _, tasks in chunks)
     jobs = min(jobs or cpu_count() or 1, max(1, len(chunks)))
@@ -108,9 +104,7 @@ def _chunks(
             yield pair.name, left[k : k + CHUNK]
 
 
-def rows_of(
-    name: str, scene: Pushed, tasks: Sequence[tuple[int, Array, Array]], certify: str
-) -> list[Row]:
+def rows_of(name: str, scene: Pushed, tasks: Sequence[tuple[int, Array, Array]]) -> list[Row]:
     """Predict some pushes of a pair.
 
     Parameters
@@ -120,11 +114,10 @@ def rows_of(
     scene : Pushed
     tasks : sequence of (int, ndarray of shape (3,), ndarray of shape (n, 2))
         Number, pose before [m, rad] and path of the finger [m] of each.
-    certify : str
     """
     rows = []
     for number, pose, path in tasks:
-        end = prediction(scene, pose, path, certify)
+        end = prediction(scene, pose, path)
         rows.append({
             "pair": name, "push": number, "pose": end.pose, "steps": end.kinds,
             "error_bound": end.error_bound, "sticks": end.sticks, "slides": end.slides,

@@ -19,15 +19,8 @@ from quasistatic_ref.lab.scenes.slider import turned
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 
-PATCH = ((0.0, 0.0),)
-"""One contact, below the centre of mass [m]."""
-
 SLOWEST = 0.05
 """Largest quasi-dynamic number [-]: the model's own drag is then 5 % of friction at most."""
-
-NO_TORSION = 1e-3
-"""Ratio that stands for a support without torsional friction [m]: one of zero would leave how far
-a body turns on a push through its centre to its inertia."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,9 +36,7 @@ class Pushed:
     mu_finger : float
         Its friction [-].
     ratio : float
-        mu_omega / mu_v of the support [m]; of several contacts, that of each.
-    points : tuple of (float, float)
-        Contacts of the support, from the centre of mass [m].
+        mu_omega / mu_v of the support [m], which is one contact below the centre of mass.
     by : Settings
         How steps are taken.
     """
@@ -54,13 +45,7 @@ class Pushed:
     radius: float
     mu_finger: float
     ratio: float
-    points: tuple[tuple[float, float], ...]
     by: Settings
-
-    @property
-    def n_u(self) -> int:
-        """Four coordinates of a body that stays level, six of one that may tilt."""
-        return 4 if len(self.points) == 1 else 6
 
     def step(self, finger: Array, body: Array, target: Array) -> StepData:
         """The step in which the finger is sent to a target.
@@ -69,50 +54,36 @@ class Pushed:
         ----------
         finger, target : ndarray, shape (2,)
             World [m].
-        body : ndarray, shape (4,) or (6,)
-            Centre of mass x, y, height z [m], angle and tilts about x and y [rad].
+        body : ndarray, shape (4,)
+            Centre of mass x, y, height z [m], and angle [rad].
         """
         by = self.by
         centre = self.outline.centre
-        angle = body[3]
-        R = rotation(angle)
+        R = rotation(body[3])
         distance, on, normal = self.outline.closest(R.T @ (finger - body[:2]) + centre)
         arm = R @ (on - centre)
         n = R @ normal
-        feet = np.asarray(self.points) @ R.T
-        count = len(feet)
-        n_u = self.n_u
 
-        J = np.zeros((count + 1, 4, 2 + n_u))
-        J[:count, :3, 2:5] = np.eye(3)
-        J[:count, 0, 5], J[:count, 1, 5], J[:count, 3, 5] = -feet[:, 1], feet[:, 0], 1.0
-        phi = np.full(count + 1, body[2])
-        if n_u == 6:  # heights change with the tilts about x and y
-            tilts = np.column_stack([feet[:, 1], -feet[:, 0]])
-            J[:count, 2, 6:] = tilts
-            phi[:count] += tilts @ body[4:]
-        J[count, :2, :2], J[count, :2, 2:4] = -np.eye(2), np.eye(2)
-        J[count, :2, 5], J[count, 3, 5] = turned(arm), 0.0
-        phi[count] = distance - self.radius
+        J = np.zeros((2, 4, 6))
+        J[0, :3, 2:5] = np.eye(3)
+        J[0, 3, 5] = 1.0
+        J[1, :2, :2] = -np.eye(2)
+        J[1, :2, 2:4] = np.eye(2)
+        J[1, :2, 5] = turned(arm)
+        phi = [body[2], distance - self.radius]
 
-        frames = np.zeros((count + 1, 3, 3))
-        frames[:count] = np.eye(3)
-        frames[count] = [[-n[1], n[0], 0.0], [0.0, 0.0, 1.0], [n[0], n[1], 0.0]]
-        frames[count, 0] *= np.sign(np.linalg.det(frames[count]))
+        at_finger = np.array([[-n[1], n[0], 0.0], [0.0, 0.0, 1.0], [n[0], n[1], 0.0]])
+        at_finger[0] *= np.sign(np.linalg.det(at_finger))
+        frames = np.stack([np.eye(3), at_finger])
 
-        weight = by.m * GRAVITY
         inertia = by.m * by.gyration**2
-        tau = np.zeros(n_u)
-        tau[2] = -weight
-        lifted = by.m * by.rise
-        M = np.array([by.m, by.m, lifted] + [inertia] * (n_u - 3))
-        rows = np.array([6] * count + [4])
-        torsion = [by.mu_v * self.ratio] * count + [0.0]
-        mu_v = [by.mu_v] * count + [self.mu_finger]
+        mu_v = [by.mu_v, self.mu_finger]
+        torsion = [by.mu_v * self.ratio, 0.0]
         return StepData(
-            h=by.h, K_q=by.stiffness * np.eye(2), M_u=np.diag(M),
-            tau_a=np.zeros(2), tau_u=tau, delta_q_bar_a=target - finger,
-            contacts=contacts_of(phi, frames, J, mu_v, torsion, rows), cone=by.cone,
+            h=by.h, K_q=by.stiffness * np.eye(2), M_u=np.diag([by.m, by.m, by.m, inertia]),
+            tau_a=np.zeros(2), tau_u=np.array([0.0, 0.0, -by.m * GRAVITY, 0.0]),
+            delta_q_bar_a=target - finger,
+            contacts=contacts_of(phi, frames, J, mu_v, torsion, [6, 4]), cone=by.cone,
         )  # fmt: skip
 
 
@@ -122,15 +93,10 @@ def pushed_scene(by: Settings, pair: Pair, ratio: float) -> Pushed:
     Raises
     ------
     InputError
-        If there is no such cone, the pair has no such friction of the finger, or the
-        quasi-dynamic number is too large.
+        If there is no such cone, or the quasi-dynamic number is too large.
     """
     cone(by.cone)
     if not by.quasi_dynamic_number <= SLOWEST:
         problem = f"makes the quasi-dynamic number more than {SLOWEST:g}; take a longer step"
         raise InputError(problem, field="h", value=by.h)
-    return Pushed(
-        pair.outline, pair.radius, by.friction(pair),
-        ratio * by.torsion or NO_TORSION,
-        PATCH, by,
-    )  # fmt: skip
+    return Pushed(pair.outline, pair.radius, pair.mu_finger, ratio, by)

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.tables import PAIR, table_read
+from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.data import Array, Indices
 
 COLUMNS: Mapping[str, str] = {
@@ -68,7 +68,7 @@ def pushes_read(folder: Path, pairs: list[Pair]) -> dict[str, Pushes]:
         If the file is missing or not as it must be, or a pair has no pushes.
     """
     path = folder / "pushes.csv"
-    table = table_read(path, COLUMNS, OTHERS, tuple(PAIR))
+    table = table_read(path, COLUMNS, OTHERS)
     pushes = {}
     for pair in pairs:
         rows = table.rows(pair.name)

@@ -3,8 +3,6 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -20,31 +18,22 @@ class Settings:
     Parameters
     ----------
     cone : str
-    torsion : float
-        Times the identified mu_omega / mu_v [-]; with 0 it is ``NO_TORSION``.
-    finger : str
-        Friction of the finger: ``"used"``, ``"fitted"``, or a number.
     advance : float
         Of the finger in a step [m].
     m, gyration, mu_v, h, stiffness : float
         Mass [kg] and radius of gyration [m] of the body, friction of the support [-], time step
         [s], of the finger [N/m]. They cancel in the quasi-static limit.
-    rise : float
-        Mass that a rise lifts, over m [-]: 1, or 1e-6 as of a planar base with `support`.
     law : str
         ``"convex"``, or ``"coulomb"`` for steps without a rise.
     """
 
     cone: str = ELLIPSOID
-    torsion: float = 1.0
-    finger: str = "used"
     advance: float = ADVANCE
     m: float = 1.0
     gyration: float = 0.04
     mu_v: float = 0.3
     h: float = 0.5
     stiffness: float = 1e6
-    rise: float = 1.0
     law: str = CONVEX
 
     @property
@@ -55,19 +44,3 @@ class Settings:
     def record(self) -> dict[str, Any]:
         """The same as plain data."""
         return asdict(self)
-
-    def friction(self, pair: Pair) -> float:
-        """Of the finger on the object [-].
-
-        Raises
-        ------
-        InputError
-            If it is to be the fitted one, and the pair has none.
-        """
-        if self.finger == "used":
-            return pair.mu_finger
-        if self.finger == "fitted":
-            if pair.mu_fitted is None:
-                raise InputError("has no mu_pusher_fitted", field=pair.name)
-            return pair.mu_fitted
-        return float(self.finger)

@@ -24,7 +24,7 @@ class Table:
     Parameters
     ----------
     pairs : tuple of str
-        surface/shape of each row; the surface alone where a file has no shapes.
+        surface/shape of each row.
     numbers : dict of str to ndarray, each of shape (n,)
         Column by column [the column's unit].
     """
@@ -44,18 +44,14 @@ class Table:
         return column in self.numbers
 
 
-def table_read(
-    path: Path, columns: Mapping[str, str], optional: Mapping[str, str], named: tuple[str, ...]
-) -> Table:
+def table_read(path: Path, columns: Mapping[str, str], optional: Mapping[str, str]) -> Table:
     """A CSV file with a line of names and one row a line.
 
     Parameters
     ----------
     path : Path
     columns, optional : mapping of str to str
-        Name -> unit and meaning of columns that must, and may, be there.
-    named : tuple of str
-        Columns of text, which must be there.
+        Name -> unit and meaning of columns that must, and may, be there, next to those of PAIR.
 
     Raises
     ------
@@ -66,10 +62,10 @@ def table_read(
     if len(lines) < 2:
         raise InputError("must have a line of column names and a row", file=path)
     head = lines[0]
-    for name in (*named, *columns):
+    for name in (*PAIR, *columns):
         if name not in head:
             raise InputError("is missing", file=path, field=f"column {name}")
-    known = {*named, *columns, *optional}
+    known = {*PAIR, *columns, *optional}
     for name in head:
         if name not in known:
             problem = f"is unknown{suggestion(name, known)}"
@@ -81,8 +77,8 @@ def table_read(
             problem = f"must have {len(head)} entries"
             raise InputError(problem, file=path, field=f"line {number}", value=len(line))
     texts = dict(zip(head, zip(*lines[1:], strict=True), strict=True))
-    pairs = tuple("/".join(words) for words in zip(*(texts[name] for name in named), strict=True))
-    numbers = {name: _column(path, name, texts[name]) for name in head if name not in named}
+    pairs = tuple("/".join(words) for words in zip(*(texts[name] for name in PAIR), strict=True))
+    numbers = {name: _column(path, name, texts[name]) for name in head if name not in PAIR}
     return Table(pairs, numbers)
 
 

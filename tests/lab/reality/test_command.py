@@ -29,7 +29,7 @@ def folder(tmp_path_factory):
     """Loads of a planted ratio, and three pushes as the model has them."""
     folder = tmp_path_factory.mktemp("measured")
     (folder / "shapes.json").write_text(json.dumps({"tile": SIDES.tolist()}))
-    pair = Pair("glass/tile", Outline(SIDES), 0.3, None, RADIUS, None)
+    pair = Pair("glass/tile", Outline(SIDES), 0.3, RADIUS, None)
     columns = "surface,shape,mu_pusher_used,finger_radius"
     write_table(folder / "patches.csv", columns, [["glass", "tile", 0.3, RADIUS]])
     loads = planted_loads(60, 0.0, 0, RATIO)
