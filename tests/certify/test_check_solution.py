@@ -55,14 +55,14 @@ def test_it_is_short_and_imports_the_standard_library_alone():
 
 def test_right_answers_of_the_vectors_hold(outcome):
     cases = inputs_read(ROOT / "validation" / "vectors", "step")
-    steps = [posed_case(case.input).step for case in list(cases)[::8]]
+    steps = [posed_case(case.input).step for case in list(cases)[::24]]
     polyhedral = [step for step in steps if step.cone != "ellipsoid"]
     assert len(polyhedral) > 5
     for step in polyhedral:
         assert outcome(step_text(step), solved_text(step))[0] == 0
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(10))
 def test_degenerate_steps_hold_in_each_cone_and_a_last_bit_does_not(outcome, seed):
     step = mixed_step(seed).replace(cone=CONES[seed % len(CONES)])
     if seed % 3 == 0:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import standard_form
-from quasistatic_ref.certify.warm import BLOCK, independent, warm_rows
+from quasistatic_ref.certify.warm import BLOCK, warm_rows
 from tests.certify.test_exact import resting_point
 from tests.tolerances import ROUNDING
 
@@ -49,11 +49,3 @@ def test_rows_of_a_patch_of_very_many_points_are_reduced_block_by_block(monkeypa
     assert len(rows) == np.linalg.matrix_rank(A[rows]) == 3
     carried = np.linalg.solve(A[rows].T, A.sum(axis=0))
     assert (carried > 0).all()  # a cone holds what is carried
-
-
-def test_rows_are_surely_independent_only_where_none_is_near_the_span_of_others():
-    assert independent(np.array([[1.0, 0.0, 0.0], [1.0, 1e-3, 0.0]]))
-    assert not independent(np.array([[1.0, 0.0, 0.0], [1.0, 1e-6, 0.0]]))
-    assert not independent(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
-    assert not independent(np.ones((4, 3)))
-    assert independent(np.zeros((0, 3)))

@@ -7,13 +7,18 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Extra, InputError, solve_step
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
+from quasistatic_ref.cli.solution_files import (
+    infeasible_text,
+    rounded_wrenches,
+    solution_read,
+    solution_text,
+)
 from quasistatic_ref.step.files import (
     step_sha256,
 )
 from tests.closeness import assert_within
 from tests.errors.scene import changed
-from tests.helpers import random_step
+from tests.helpers import point_on_floor, random_step
 from tests.tolerances import ROUNDING
 
 PLAIN = random_step(np.random.default_rng(11), n_a=2, n_u=3, rows=(6, 4))
@@ -97,3 +102,17 @@ def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path)
     assert back.farkas == ("1/3", "0")
     assert back.delta_q is None
     assert back.certificate is None
+
+
+def test_a_wrench_that_is_rounded_to_zero_has_no_sign():
+    """Of -d2 a quarter of the least float64, over h = 1."""
+    contacts = point_on_floor(mu_v=0.25).contacts
+    wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 5e-324]), 1.0)
+    assert wrench[0].tolist() == [0.0, 0.0, 5e-324, 0.0]
+    assert not np.signbit(wrench).any()
+
+
+def test_a_wrench_beyond_float64_is_infinite_with_its_sign():
+    contacts = point_on_floor(mu_v=0.25).contacts
+    wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 1e308]), 0.01)
+    assert wrench[0].tolist() == [0.0, -np.inf, np.inf, 0.0]

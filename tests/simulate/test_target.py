@@ -60,28 +60,6 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         assert_close(transform(track.over(np.array([t]))[0]), expected, DIFFERENCE)
 
 
-class OfNumbers(Floating):
-    """A joint of a user's own, which is asked with numbers alone."""
-
-    def moved(self, q, delta_q):
-        """Its entries of q (+) delta_q."""
-        assert {type(x) for x in delta_q} == {float}
-        return super().moved(q, delta_q)
-
-
-@pytest.mark.parametrize("kind", [Floating, OfNumbers])
-def test_a_base_that_does_not_turn_has_the_bits_of_its_joint_at_each_time(rng, kind):
-    joint = kind("arm/base", True, slice(0, 7), slice(0, 6))
-    start = target_at_random(rng)
-    end = np.concatenate([rng.normal(size=3), start[3:]])
-    way = joint.change(start.tolist(), end.tolist())
-    shares = rng.uniform(size=9)
-    track = JointTrack(joint, np.array([0.0, 1.0]), np.array([start, end]))
-    expected = [joint.moved(start.tolist(), [s * x for x in way]) for s in shares.tolist()]
-    assert track.over(shares).tolist() == expected
-    assert track.over(shares[:2]).tolist() == expected[:2]
-
-
 def test_waypoints_of_a_base_may_be_whole_numbers():
     joint = Floating("arm/base", True, slice(0, 7), slice(0, 6))
     ends = np.array([[0, 0, 0, 0, 0, 0, 1], [1, 2, 0, 0, 0, 0, 1]])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from quasistatic_ref import Extra, solve_step
+from quasistatic_ref import Extra
 from quasistatic_ref.solve.compiled import CompiledMap, problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
@@ -54,21 +54,6 @@ def test_every_number_of_the_data_has_the_bits_of_cvxpy_s(cone, n_a, n_u, rows, 
         offsets = (np.asarray(data.inverse[-1]["offset"]) for data in (found, expected))
         assert len({offset.tobytes() for offset in offsets}) == 1
         assert found.inverse[-1].solver_options == expected.inverse[-1].solver_options
-
-
-@pytest.mark.parametrize("name", ["osqp", "piqp", "daqp"])
-def test_solvers_of_quadratic_programs_get_their_data_from_cvxpy(name, rng):
-    problem = CvxpyProblem(step := random_step(rng))
-    problem.fill(step)
-    assert not CompiledMap.serves(problem_data(problem.problem, name, {}))
-
-
-def test_a_step_without_rows_is_solved_though_the_map_does_not_serve(rng):
-    step = random_step(rng, rows=())
-    solver = CvxpySolver(step, "clarabel")
-    np.testing.assert_allclose(
-        solve_step(step, solver, certify="off").delta_q, solve_step(step).delta_q, rtol=1e-9
-    )
 
 
 def test_answers_have_the_bits_of_the_problem_s_own_solve(rng):
