@@ -11,20 +11,40 @@ decided in rational numbers: by convexity nothing else has to be checked.
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.form import EXACT, ExactForm, fraction
-from quasistatic_ref.certify.minimiser import fraction_solution
+from quasistatic_ref.certify.minimiser import Solution, fraction_solution
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.optional.gap import fractions, rational
 from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 
 
-def apex_rows(step: StepData, form: ExactForm, lam: Array) -> tuple[int, ...]:
-    """The first independent rows among all rows of the contacts that bear load.
+class Apex(NamedTuple):
+    """The minimiser where every contact that bears load sticks, and whether it is the optimum.
+
+    Parameters
+    ----------
+    rows : tuple of int
+        The first independent rows among all rows of the contacts that bear load, in increasing
+        order. Directions without friction are left out: they bear nothing.
+    solution : Solution
+        The minimiser on them.
+    refutation : str
+        Why it is not the optimum of the step; empty if it is.
+    """
+
+    rows: tuple[int, ...]
+    solution: Solution
+    refutation: str
+
+
+def apex(step: StepData, form: ExactForm, lam: Array) -> Apex:
+    """The minimiser at the apexes of the contacts that bear load.
 
     Parameters
     ----------
@@ -32,73 +52,51 @@ def apex_rows(step: StepData, form: ExactForm, lam: Array) -> tuple[int, ...]:
     form : ExactForm
         That of the step.
     lam : ndarray, shape (m,)
-
-    Returns
-    -------
-    tuple of int
-        In increasing order. Directions without friction are left out: they bear nothing.
+        Impulses; those of the rows need to be right but for rounding.
     """
-    rows = [
+    rows = independent_rows(form, [
         i
         for _, block, c in cone_blocks(step)
         if lam[block[0]] > 0
         for i, mu in zip(block, [ONE, *c], strict=True)
         if mu > 0
-    ]
-    return independent_rows(form, rows)
+    ])  # fmt: skip
+    solution = fraction_solution(form, rows)
+    return Apex(rows, solution, _refutation(step, form, rows, solution, lam))
 
 
-def apex_refutation(
-    step: StepData, form: ExactForm, working: Sequence[int], lam: Array
-) -> str | None:
-    """Why the minimiser on some rows is not the optimum of a step in the ellipsoid; None if it is.
-
-    Parameters
-    ----------
-    step : StepData
-    form : ExactForm
-        That of the step.
-    working : sequence of int
-        Rows of A on which x is the minimiser.
-    lam : ndarray, shape (m,)
-        Impulses; those of the working rows need to be right but for rounding.
-
-    Returns
-    -------
-    str or None
-    """
-    try:
-        solution = fraction_solution(form, working)
-    except ZeroDivisionError:
-        return "the rows of the working set are not independent"
+def _refutation(
+    step: StepData, form: ExactForm, rows: Sequence[int], solution: Solution, lam: Array
+) -> str:
+    """Why a solution is not the optimum; empty if it is."""
     with working_precision(EXACT):
         slack = solution.in_fractions(form.slacks(range(form.m), solution.z))
     pull = solution.in_fractions(solution.net.entries())
-    impulse = _balanced(form, working, fractions(lam), [v / fraction(form.h) for v in pull])
-    if impulse is None:
-        return "no multipliers on the working set balance the step"
-    for name, rows, c in cone_blocks(step):
-        if not inside(slack[rows[0]], [m * slack[i] for m, i in zip(c, rows[1:], strict=True)]):
+    impulse = _balanced(form, rows, fractions(lam), [v / fraction(form.h) for v in pull])
+    for name, block, c in cone_blocks(step):
+        if not inside(slack[block[0]], [m * slack[i] for m, i in zip(c, block[1:], strict=True)]):
             return f"{name} is violated by the minimiser on the working set"
     if name := outside_of_cones(step, impulse):
         return f"the force at {name} is outside of its cone"
     work = sum((s * f for s, f in zip(slack, impulse, strict=True)), fmpq(0))
-    return "a contact that is open bears load" if work else None
+    return "a contact that is open bears load" if work else ""
 
 
 def _balanced(
     form: ExactForm, working: Sequence[int], lam: list[fmpq], net: list[fmpq]
-) -> list[fmpq] | None:
-    """Return lam changed on the working rows so that A'lam = net; None if that does not do."""
+) -> list[fmpq]:
+    """Return lam changed on the working rows, so that A'lam = net if it is inside of its cones.
+
+    What else bears load, off the span of these rows, does so where there is no normal force or no
+    friction: outside of its cone.
+    """
+    if not working:
+        return lam
     A = rational(form.A)
     short = fmpq_mat(form.n, 1, net) - A.transpose() * fmpq_mat(form.m, 1, lam)
-    if not working:
-        return None if any(short.entries()) else lam
     table = A.tolist()
     W = fmpq_mat([table[i] for i in working])
     change = (W * W.transpose()).solve(W * short)
-    if any((W.transpose() * change - short).entries()):
-        return None
     changed = list(lam)
     for i, d in zip(working, change.entries(), strict=True):
         changed[i] += d

@@ -14,11 +14,11 @@ from flint import fmpq
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.curved_cone import CurvedCone
 from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
-from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
+from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
     Enclosure,
@@ -208,14 +208,11 @@ def _not_exact(
     step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
 ) -> tuple[list[fmpq], str]:
     """Return the rational optimum [m, rad], and what is wrong with the claim of it."""
-    working = apex_rows(step, form, lam)
-    reason = apex_refutation(step, form, working, lam) or ""
-    if reason:
-        return [], reason
-    solution = fraction_solution(form, working)
+    rows, solution, refutation = apex(step, form, lam)
     reason = (
-        wrong_bits("delta_q", delta_q, rounded_quotients(solution.x, solution.denominator))
-        or wrong_claim("active", active, contact_rows(step, working))
+        refutation
+        or wrong_bits("delta_q", delta_q, rounded_quotients(solution.x, solution.denominator))
+        or wrong_claim("active", active, contact_rows(step, rows))
         or wrong_claim("error_bound", claims.error_bound, 0.0)
     )
     return solution.point, reason

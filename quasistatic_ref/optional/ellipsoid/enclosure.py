@@ -18,10 +18,10 @@ from flint import arb, arb_mat, fmpq
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, exact_matrix, fraction
-from quasistatic_ref.certify.minimiser import fraction_solution, rounded_quotients
+from quasistatic_ref.certify.minimiser import rounded_quotients
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.gap import negligible, rounded_up
 from quasistatic_ref.optional.ellipsoid.impulses import raised
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
@@ -149,17 +149,16 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
 
 def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
     """Return the rational optimum if every contact that bears load is at its apex."""
-    working = apex_rows(step, form, lam)
-    if apex_refutation(step, form, working, lam):
+    rows, exact, refutation = apex(step, form, lam)
+    if refutation:
         return None
-    exact = fraction_solution(form, working)
     gap = duality_gap(form, exact.point, fractions(lam))
     if not negligible(form, exact.point, gap):
         return None
     delta_q = rounded_quotients(exact.x, exact.denominator)
     with working_precision(EXACT):
         net = rounded_quotients(exact.net.entries(), exact.denominator * form.h)
-    return Enclosure(delta_q, lam, net, working, 0.0, rounded_up(gap))
+    return Enclosure(delta_q, lam, net, rows, 0.0, rounded_up(gap))
 
 
 def _enclosed(

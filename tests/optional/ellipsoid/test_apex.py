@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.apex import apex
 from quasistatic_ref.optional.ellipsoid.cone import ELLIPSOID_CONE
 
 
@@ -25,8 +25,8 @@ def body_on_one_place(force, mu_v, mu_omega=0.0, h=0.5, lever=1.0):
 )
 def test_directions_without_friction_hold_nothing(mu_v, mu_omega, rows):
     step = body_on_one_place((0.0, 0.0, -2.0), [mu_v], mu_omega)
-    assert apex_rows(step, StepForm(step), np.array([1.0, 0, 0, 0])) == rows
-    assert apex_rows(step, StepForm(step), np.zeros(4)) == ()
+    assert apex(step, StepForm(step), np.array([1.0, 0, 0, 0])).rows == rows
+    assert apex(step, StepForm(step), np.zeros(4)).rows == ()
 
 
 def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
@@ -37,11 +37,21 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
     step = body_on_one_place((3.3, 0.0, -12.0), [0.1, 1.0], lever=3.0)
     form = StepForm(step)
     lam = np.array([1.0, -0.05, 0.0, 0.0, 1.0, -0.5, 0.0, 0.0])
-    working = apex_rows(step, form, lam)
-    assert working == (0, 1, 2)
-    assert apex_refutation(step, form, working, lam) is None
+    answer = apex(step, form, lam)
+    assert (answer.rows, answer.refutation) == ((0, 1, 2), "")
     swapped = lam[[0, 5, 2, 3, 4, 1, 6, 7]]
-    assert apex_refutation(step, form, working, swapped) == "the force at c0 is outside of its cone"
+    assert apex(step, form, swapped).refutation == "the force at c0 is outside of its cone"
+
+
+@pytest.mark.parametrize("i", [4, 5, 7])
+def test_what_does_not_balance_is_outside_of_its_cone(i):
+    """A second contact without load of its own: a force there has no normal, or no coefficient."""
+    step = body_on_one_place((0.0, 0.0, -2.0), [0.5, 0.5])
+    lam = np.zeros(8)
+    lam[0] = 1.0
+    assert apex(step, StepForm(step), lam).refutation == ""
+    lam[i] = -1e-300
+    assert apex(step, StepForm(step), lam).refutation == "the force at c1 is outside of its cone"
 
 
 @pytest.mark.parametrize(("short", "right"), [(1e-12, True), (1e-5, False)])

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from flint import arb, arb_mat
+from flint import arb_mat
 
-from quasistatic_ref.certify.form import StepForm, exact_matrix
-from quasistatic_ref.optional.ellipsoid.enclosure import Checked, _net, checked
+from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.optional.ellipsoid.enclosure import checked
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.closeness import assert_relative
@@ -18,18 +18,15 @@ FORCE = np.array([4.0, -1.0, -0.3 * 9.81])
 """Its load [N]."""
 
 
-def forms_of(step=None):
-    """A step in the ellipsoid, its exact form, and the scaled program."""
-    step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
-    step = step.replace(cone="ellipsoid")
-    form = StepForm(step)
-    return step, form, scaled_blocks(step, form)
+STEP = point_on_floor(M, MU, PHI, FORCE, H_STEP).replace(cone="ellipsoid")
+FORM = StepForm(STEP)
+AXES = np.stack([STEP.contacts.n[0], STEP.contacts.d1[0], STEP.contacts.d2[0]])
 
 
 @pytest.mark.parametrize("k", [1, 2, 3])
 def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
     """The cone is y_0 >= |(y_1, y_2, y_3)|, here with y_0 = 1."""
-    *_, frame = forms_of()
+    frame = scaled_blocks(STEP, FORM)
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
         y = arb_mat([[1], *([share if i == k else 0.0] for i in (1, 2, 3))])
         found = checked(frame, Pair(arb_mat(3, 1), y))
@@ -38,35 +35,24 @@ def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
 
 def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_its_work():
     """Of m / 2 h |x - h^2 F / m - h p / m|^2 + lam' s, p being the impulse of the contact."""
-    step, form, frame = forms_of()
+    frame = scaled_blocks(STEP, FORM)
     x = np.array([1e-3, 0.0, 5e-3])
     lam = np.array([0.02, -3e-3, 4e-3, 0.0])
-    axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
-    off = x - H_STEP**2 * FORCE / M - H_STEP / M * lam[:3] @ axes
-    s = np.array([PHI, 0.0, 0.0]) + axes @ x
+    off = x - H_STEP**2 * FORCE / M - H_STEP / M * lam[:3] @ AXES
+    s = np.array([PHI, 0.0, 0.0]) + AXES @ x
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
-    gap = checked(frame, frame.start(x, lam)).gap / form.h
+    gap = checked(frame, frame.start(x, lam)).gap / FORM.h
     assert_relative(float(gap), expected, ROUNDING)
-
-
-def test_net_is_the_impulse_of_the_contact():
-    """H x - g = m x / h - h F."""
-    x = np.array([3e-3, -2e-3, 5e-3])
-    _, form, _ = forms_of()
-    net = _net(form, Checked(exact_matrix(x[:, None]), [], arb(0), arb(1)))
-    assert_relative(net, M * x / H_STEP - H_STEP * FORCE, ROUNDING)
 
 
 def test_what_gives_way_moves_by_the_compliance_times_the_force():
     """In the units of the cone: s = mu (gap + J x) + c / h y, where lam = mu y."""
-    step, form, _ = forms_of()
     c = 1e-3
-    frame = scaled_blocks(step, form, c)
+    frame = scaled_blocks(STEP, FORM, c)
     lam = np.array([0.02, -3e-3, 4e-3, 0.0])
     pair = frame.start(np.array([1e-3, 2e-3, 5e-3]), lam)
     slacks = frame.problem.slacks(*pair).entries()
     s = [float(v * ell * frame.size) for v, ell in zip(slacks, frame.length, strict=True)]
-    axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
-    motion = axes @ np.array([1e-3, 2e-3, 5e-3]) + [PHI, 0.0, 0.0]
+    motion = AXES @ np.array([1e-3, 2e-3, 5e-3]) + [PHI, 0.0, 0.0]
     mu = np.array([1.0, MU, MU])
     assert_relative(s[:3], mu * motion + c / H_STEP * lam[:3] / mu, ROUNDING)

@@ -42,7 +42,7 @@ def verdict_of(step, answer):
     return verify(step, answer.delta_q, claims.active, multipliers(answer), claims)
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, 2.0])
+@pytest.mark.parametrize("angle", [0.0, 2.0])
 def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
     # A mass m, pushed by F along the floor and by W = m g down, slides if F > mu W. KKT with lam_n:
     # m/h v = h F - mu lam_n along the push, m/h w = lam_n - h W upwards, w = mu v (lift-off):
@@ -53,13 +53,15 @@ def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
     W = 0.3 * 9.81
     h = 0.01
     push = F * np.array([np.cos(angle), np.sin(angle)])
-    step = round_step(point_on_floor(m, mu, force=(*push, -W), h=h))
+    load = np.array([*push, -W])
+    step = round_step(point_on_floor(m, mu, force=load, h=h))
     v = h**2 * (F - mu * W) / m / (1 + mu**2)
     expected = np.array([*(v * push / F), mu * v])
     for backend in CONED:
         answer = solve_step(step, backend)
         assert answer.certificate.kind == "enclosure"
         np.testing.assert_allclose(answer.delta_q, expected, rtol=ROUNDING, atol=ROUNDING * v)
+        np.testing.assert_allclose(answer.net_impulse, m / h * expected - h * load, rtol=ROUNDING)
         f_1, f_2, f_n, _ = answer.wrench[0]
         assert_relative(np.hypot(f_1, f_2), mu * f_n, ROUNDING)
         assert verdict_of(step, answer)
@@ -76,18 +78,8 @@ def test_a_sticking_point_is_exact_and_carries_the_load():
     assert verdict_of(step, answer)
 
 
-def test_without_load_on_contacts_the_unconstrained_step_is_exact():
-    step = round_step(point_on_floor(phi=1.0, force=(1.0, 0.0, -1.0)))
-    answer = solve_step(step)
-    assert answer.certificate.kind == "exact"
-    assert answer.certificate.active == ()
-    expected = 1e-4 * np.array([1.0, 0.0, -1.0]) / 0.3
-    assert_relative(answer.delta_q, expected, ROUNDING)
-
-
-@pytest.mark.parametrize("seed", range(2))
-def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(seed):
-    step = round_step(grasp_step(np.random.default_rng(seed)))
+def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(rng):
+    step = round_step(grasp_step(rng))
     answers = [solve_step(step, backend) for backend in (*CONED, "none")]
     for answer in answers:
         assert answer.certificate.kind == "enclosure"
@@ -166,8 +158,10 @@ def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
 
 def test_a_contact_without_load_is_inside_of_its_cone():
     """Where no gap is claimed, what sticks out is compared with the largest impulse, here 0."""
-    step = round_step(point_on_floor(phi=1e-3, force=(0.0, 0.0, 1.0)))
+    step = round_step(point_on_floor(phi=1.0, force=(1.0, 0.0, -1.0)))
     answer = solve_step(step)
+    assert (answer.certificate.kind, answer.certificate.active) == ("exact", ())
+    assert_relative(answer.delta_q, 1e-4 * np.array([1.0, 0.0, -1.0]) / 0.3, ROUNDING)
     assert not answer.lam.any()
     answer = replace(answer, certificate=replace(answer.certificate, gap=None))
     assert verdict_of(step, answer)
