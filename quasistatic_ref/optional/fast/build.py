@@ -39,8 +39,6 @@ def problem() -> str | None:
         ]
     except ValueError as error:
         return f"$CC cannot be read as a command: {error}"
-    if not compiler and (system := shutil.which("cc")) is not None:
-        compiler = [system]
     if not compiler:
         return "there was no C compiler, cc or $CC"
     files = [str(file) for file in sorted(SOURCE.glob("*.c"))]

@@ -61,14 +61,12 @@ def cloud(
         "point": points.T,
         "distance": np.zeros(len(points)),
         **written,
-    }
-    addresses = {
         "R_solid": int(poses.R[other.link]),
         "t_solid": int(poses.t[other.link]),
         "R_cloud": int(poses.R[side.link]),
         "t_cloud": int(poses.t[side.link]),
     }
-    return Structure("Cloud", fields, addresses)
+    return Structure("Cloud", fields)
 
 
 class Closest:

@@ -51,9 +51,7 @@ class Structure:
     name : str
     fields : mapping of str to int or ndarray
         Arrays of float64, of int64, or of addresses, of any shape [any unit], copied if not
-        contiguous.
-    addresses : mapping of str to int
-        Of arrays that are kept elsewhere.
+        contiguous; of an array that is kept elsewhere, its address.
 
     Attributes
     ----------
@@ -61,25 +59,19 @@ class Structure:
         What functions take.
     """
 
-    def __init__(
-        self,
-        name: str,
-        fields: Mapping[str, int | NDArray[Any]],
-        addresses: Mapping[str, int] | None = None,
-    ) -> None:
+    def __init__(self, name: str, fields: Mapping[str, int | NDArray[Any]]) -> None:
         self.pointer = ffi.new(f"{name} *")
         self._arrays: dict[str, NDArray[Any]] = {}
         types = dict(ffi.typeof(name).fields)
         for field, value in fields.items():
             if isinstance(value, int):
-                setattr(self.pointer, field, value)
-                continue
-            array = np.ascontiguousarray(value)
-            assert array.dtype in (np.float64, np.int64)
-            self._arrays[field] = array
-            setattr(self.pointer, field, ffi.cast(types[field].type, array.ctypes.data))
-        for field, address in (addresses or {}).items():
-            setattr(self.pointer, field, ffi.cast(types[field].type, address))
+                number = value
+            else:
+                array = np.ascontiguousarray(value)
+                assert array.dtype in (np.float64, np.int64)
+                self._arrays[field] = array
+                number = array.ctypes.data
+            setattr(self.pointer, field, ffi.cast(types[field].type, number))
 
     def __getitem__(self, field: str) -> NDArray[Any]:
         """One of its arrays, which C may write."""

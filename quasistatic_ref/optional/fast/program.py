@@ -46,13 +46,12 @@ class Program:
         self.f = np.zeros(sum(widths))
         self.A = np.zeros(sum(sizes))
         self.b = np.zeros(sum(heights))
-        self.first_entry = np.cumsum([0, *sizes])
         self.parts = [
             (f, A.reshape(-1, width), b)
             for width, f, A, b in zip(
                 widths,
                 np.split(self.f, np.cumsum(widths)[:-1]),
-                np.split(self.A, self.first_entry[1:-1]),
+                np.split(self.A, np.cumsum(sizes)[:-1]),
                 np.split(self.b, np.cumsum(heights)[:-1]),
                 strict=True,
             )
@@ -93,12 +92,12 @@ class Program:
 
 
 class Workspace:
-    """DAQP's workspace of one group: H is factorised when it changes, the active set is kept.
+    """DAQP's workspace of one group, whose active set is kept.
 
     Parameters
     ----------
     H : ndarray, shape (n, n)
-        In natural units [-], as all of these.
+        Of the first step, in natural units [-], as all of these.
     f, A, b : ndarray, shapes (n,), (m, n) and (m,)
         Rewritten at each step [-].
     options : dict
@@ -106,39 +105,30 @@ class Workspace:
     """
 
     def __init__(self, H: Array, f: Array, A: Array, b: Array, options: Options) -> None:
-        self._H = H
         self._f = f
         self._A = A
         self._b = b
         self._cold = np.zeros(len(b), np.int32)
-        self._new_H = False
         self._warm = False
         if len(b):
             self._model: Any = daqp.Model()
             self._model.settings = options
             self._model.setup(H, f, A, np.full(len(b), np.inf), b, self._cold)
 
-    def renew(self, H: Array) -> None:
-        """Take another H, shape (n, n)."""
-        self._H = H
-        self._new_H = True
-
-    def reply(self) -> Reply:
+    def reply(self, H: Array) -> Reply:
         """Solve the program as it stands: from the answer before, if there is one, then cold."""
         if not len(self._b):
-            x = np.asarray(np.linalg.solve(self._H, -self._f), dtype=np.float64)
+            x = np.asarray(np.linalg.solve(H, -self._f), dtype=np.float64)
             return Reply(x, np.zeros(0), True, "optimal", 0)
-        reply = self._solved(warm=True) if self._warm else None
+        reply = self._solved(H, warm=True) if self._warm else None
         if reply is None or not reply.solved:
-            reply = self._solved(warm=False)
+            reply = self._solved(H, warm=False)
         self._warm = reply.solved
         return reply
 
-    def _solved(self, *, warm: bool) -> Reply:
-        H = self._H if self._new_H else None
+    def _solved(self, H: Array, *, warm: bool) -> Reply:
         sense = None if warm else self._cold
         self._model.update(H=H, f=self._f, A=self._A, blower=self._b, sense=sense)
-        self._new_H = False
         x, _, flag, info = self._model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
         status = STATUS.get(flag) or str(flag)
@@ -159,12 +149,13 @@ class Workspaces:
     def __init__(self, program: Program, hessian: HessianInBothUnits, options: Options) -> None:
         self.program = program
         self._hessian = hessian
-        blocks = self._blocks(hessian)
+        self._blocks = self._blocks_of(hessian)
         self._each = [
-            Workspace(H, *part, options) for H, part in zip(blocks, program.parts, strict=True)
+            Workspace(H, *part, options)
+            for H, part in zip(self._blocks, program.parts, strict=True)
         ]
 
-    def _blocks(self, hessian: HessianInBothUnits) -> list[Array]:
+    def _blocks_of(self, hessian: HessianInBothUnits) -> list[Array]:
         """The block of each group of H in natural units."""
         H = hessian.natural_H
         every = [group.coordinates for group in self.program.groups]
@@ -174,9 +165,9 @@ class Workspaces:
         """Solve the program as it stands, with that H."""
         if hessian is not self._hessian:
             self._hessian = hessian
-            for one, H in zip(self._each, self._blocks(hessian), strict=True):
-                one.renew(H)
-        return self.program.joined([one.reply() for one in self._each])
+            self._blocks = self._blocks_of(hessian)
+        both = zip(self._each, self._blocks, strict=True)
+        return self.program.joined([one.reply(H) for one, H in both])
 
 
 class NaturalProgram:
@@ -191,42 +182,20 @@ class NaturalProgram:
 
     def __init__(self, steps: Steps, program: Program) -> None:
         self.program = program
-        layout = steps.template.row_layout
-        kept = steps.kept
-        n_c = len(layout.counts)
+        self._hessian: HessianInBothUnits | None = None
         n = len(program.coordinates)
         m = len(program.rows)
-        place = np.zeros(n, np.int64)
-        place[program.coordinates] = np.arange(n)
-        row_place = np.zeros(m, np.int64)
-        row_place[program.rows] = np.arange(m)
-        fields = {name: np.zeros(n_c, np.int64) for name in ("first_entry", "first_row", "width")}
-        column = np.zeros((n_c, kept.most_kept), np.int64)
-        for group, start in zip(program.groups, program.first_entry, strict=False):
-            width = len(group.coordinates)
-            for c in group.contacts.tolist():
-                row = int(layout.offsets[c])
-                within = int(np.searchsorted(group.rows, row))
-                columns = kept.coordinate[c, : kept.kept[c]]
-                fields["first_entry"][c] = start + within * width
-                fields["first_row"][c] = row_place[row] if layout.counts[c] else 0
-                fields["width"][c] = width
-                column[c, : kept.kept[c]] = np.searchsorted(group.coordinates, columns)
-        self._of_hessian = {
-            "unit": np.zeros(n),
-            "squared": np.zeros(n),
-            "inverse": np.zeros((n, n)),
-        }
-        self._units = np.zeros(2)
-        self._hessian: HessianInBothUnits | None = None
         rows = steps.rows
         self._structure = Structure(
             "Natural",
             {
-                "n": n, "m": m, "n_c": n_c, "most_kept": kept.most_kept, "rows": rows["rows"],
-                "kept": kept.kept, "coordinate": rows["coordinate"], "place": place, **fields,
-                "column": column, "g": rows["g"], "kept_A": rows["kept_A"], "b": rows["b"],
-                **self._of_hessian, "squares": np.zeros(m), "units": self._units,
+                "n": n, "m": m, "groups": len(program.groups),
+                "width": np.array([len(group.coordinates) for group in program.groups]),
+                "height": np.array([len(group.rows) for group in program.groups]),
+                "coordinate": program.coordinates, "row": program.rows,
+                "g": rows["g"], "A": rows["A"], "b": rows["b"],
+                "unit": np.zeros(n), "squared": np.zeros(n), "inverse": np.zeros((n, n)),
+                "squares": np.zeros(m), "units": np.zeros(2),
                 "f": program.f, "natural_A": program.A, "natural_b": program.b,
             },
         )  # fmt: skip
@@ -237,14 +206,15 @@ class NaturalProgram:
         None where the rounding of a sum, which depends on its order, decides on a unit.
         """
         compiled = library()
-        pointer = self._structure.pointer
+        structure = self._structure
+        pointer = structure.pointer
         if hessian is not self._hessian:
             self._hessian = hessian
-            self._of_hessian["unit"][:] = hessian.coordinate
-            self._of_hessian["squared"][:] = hessian.squared
-            self._of_hessian["inverse"][:] = hessian.H_inverse
+            structure["unit"][:] = hessian.coordinate
+            structure["squared"][:] = hessian.squared
+            structure["inverse"][:] = hessian.H_inverse
         if len(hessian.coordinate) > MOST or not compiled.natural_units(pointer):
             return None
         compiled.natural_program(pointer)
-        length, size = self._units.tolist()
+        length, size = structure["units"].tolist()
         return Units(hessian.coordinate, length, size)

@@ -214,10 +214,16 @@ class FastSimulator(Simulator):
 
     def _in_both_units(self, step: StepData, form: StandardForm) -> StepInBothUnits:
         """The step in both units, and its program written into DAQP's."""
-        solver = self.fitting_solver(step)
-        assert isinstance(solver, FastSolver)
+        solver = self.solver
         natural = self._natural
-        if natural is None or natural.program is not solver.program:
+        if (
+            not isinstance(solver, FastSolver)
+            or natural is None
+            or natural.program is not solver.program
+        ):
+            self.solver = solver = FastSolver(
+                self._steps.template
+            )  # whose J has no zeros by chance
             self._natural = natural = NaturalProgram(self._steps, solver.program)
         hessian = self._hessian
         units = None
@@ -271,8 +277,7 @@ class FastSimulator(Simulator):
         if not (self.by_c and self._natively):
             return super().fitting_solver(step)
         if self.solver is None or not self.solver.fits(step):
-            solver = FastSolver(self._steps.template)  # whose J has no zeros by chance
-            self.solver = solver if solver.fits(step) else FastSolver(step)
+            self.solver = FastSolver(step)
         return self.solver
 
     def start_cold(self) -> None:

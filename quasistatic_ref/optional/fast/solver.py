@@ -75,14 +75,6 @@ class FastSolver(BackendSolver):
         self._bounded_H: Array | None = None
         self._bound: Callable[[StepInBothUnits, Array, Array], float] = super().error_bound
 
-    def fits(self, step: StepData) -> bool:
-        """Whether a step is of that kind."""
-        template = self.template
-        # Steps of one run share their layout of rows: an identity test, which takes no time.
-        alike = step.row_layout is template.row_layout and step.tau_a.size == template.tau_a.size
-        alike = alike and step.tau_u.size == template.tau_u.size
-        return (alike and len(step.extra.names) == len(template.extra.names)) or super().fits(step)
-
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""
         return StepInBothUnits(step, self._hessian)

@@ -23,7 +23,7 @@ PARTS = itemgetter(*ClosestPoints._fields, *FRAMES)
 """What C writes of a step."""
 
 
-class KeptColumns:
+class Columns:
     """The columns of J that can differ from zero, of each contact.
 
     Parameters
@@ -35,41 +35,30 @@ class KeptColumns:
     fields : dict
         Of ``Rows`` of fast.h.
     pattern : ndarray, shape (n_c, 4, n_v)
-        1.0 in the kept columns, else 0.0.
+        1.0 in these columns, else 0.0.
     """
 
     def __init__(self, simulator: Simulator) -> None:
         layout = simulator.layout
-        owner = simulator.system.column_map.owner
-        moves = simulator.system.column_map.moves[:, 0]
+        column_map = simulator.system.column_map
+        moves = column_map.moves[:, 0]
         n_c = len(layout.rows)
         both = zip(moves[layout.link_alpha], moves[layout.link_beta], strict=True)
         joints = [np.flatnonzero((a > 0) | (b > 0)) for a, b in both]
-        kept = [np.unique(owner[of_contact]) for of_contact in joints]
-        most_joints = max(map(len, joints), default=0)
-        most_kept = max(map(len, kept), default=0)
-        shapes = {"joint": most_joints, "place": most_joints, "coordinate": most_kept}
-        indices = {name: np.zeros((n_c, width), np.int64) for name, width in shapes.items()}
-        sides = {name: np.zeros((n_c, most_joints)) for name in ("moves_alpha", "moves_beta")}
+        counts = np.array(list(map(len, joints)), np.int64)
+        self.most = int(counts.max(initial=0))
+        joint = np.zeros((n_c, self.most), np.int64)
         self.pattern = np.zeros((n_c, 4, simulator.system.n_v))
-        for c, (of_contact, coordinates) in enumerate(zip(joints, kept, strict=True)):
-            indices["joint"][c, : len(of_contact)] = of_contact
-            indices["place"][c, : len(of_contact)] = np.searchsorted(coordinates, owner[of_contact])
-            indices["coordinate"][c, : len(coordinates)] = coordinates
-            sides["moves_alpha"][c, : len(of_contact)] = moves[layout.link_alpha[c], of_contact]
-            sides["moves_beta"][c, : len(of_contact)] = moves[layout.link_beta[c], of_contact]
-            self.pattern[c, :, coordinates] = 1.0
-        self.kept = np.array(list(map(len, kept)), np.int64)
-        self.coordinate = indices["coordinate"]
-        self.most_joints = most_joints
-        self.most_kept = most_kept
+        for c, of_contact in enumerate(joints):
+            joint[c, : len(of_contact)] = of_contact
+            self.pattern[c, :, column_map.owner[of_contact]] = 1.0
         self.fields: dict[str, int | NDArray[Any]] = {
-            "most_joints": most_joints,
-            "most_kept": most_kept,
-            "joints": np.array(list(map(len, joints)), np.int64),
-            "kept": self.kept,
-            **indices,
-            **sides,
+            "most_joints": self.most,
+            "joints": counts,
+            "joint": joint,
+            "coordinate": column_map.owner[joint],
+            "moves_alpha": moves[layout.link_alpha[:, None], joint],
+            "moves_beta": moves[layout.link_beta[:, None], joint],
         }
 
 
@@ -96,7 +85,6 @@ class Steps:
     ----------
     template : StepData
         A step of that kind, whose J has 1.0 where it can differ from zero.
-    kept : KeptColumns
     rows : Structure
         ``Rows`` of fast.h; what C writes is overwritten by the next step.
     """
@@ -147,29 +135,26 @@ class Steps:
             poses,
             ClosestPoints._make(written[name] for name in ClosestPoints._fields),
         )
-        self.kept = kept = KeptColumns(simulator)
+        columns = Columns(simulator)
         counts = rows.counts if self._polyhedral else np.zeros(n_c, np.int64)
         m = int(counts.sum())
-        self._force = np.zeros(n_v)
-        self._change = np.zeros(n_a)
         self.rows = Structure(
             "Rows",
             {
-                "n_c": n_c, "n_v": n_v, "n_a": n_a, **kept.fields,
+                "n_c": n_c, "n_v": n_v, "n_a": n_a, **columns.fields,
                 "column": poses.columns, "gravity": poses.gravity,
                 "rows": counts, "mu_v": mu[:, 0], "mu_omega": mu[:, 2],
                 **(cone_terms(simulator.cone) if self._polyhedral else {}),
                 "h": np.array([simulator.h]), "weighs": simulator.gravity_factor,
-                "force": self._force, "K_q": simulator.K_q, "delta_q_bar_a": self._change,
+                "force": np.zeros(n_v), "K_q": simulator.K_q, "delta_q_bar_a": np.zeros(n_a),
                 **{name: written[name] for name in ("phi", "n", "alpha", "beta", *FRAMES)},
-                "work": np.zeros(14 * kept.most_joints + 8 * kept.most_kept),
-                "kept_A": np.zeros((m, kept.most_kept)), "A": np.zeros((m, n_v)), "b": np.zeros(m),
+                "work": np.zeros(23 * columns.most), "A": np.zeros((m, n_v)), "b": np.zeros(m),
             },
         )  # fmt: skip
-        self._A = self.rows["A"]
-        self._b = self.rows["b"]
         self._names: tuple[list[int], tuple[str, ...]] = [], ()
-        self.template = self._step(self._names_of([0] * n_c), written, np.zeros(n_a), kept.pattern)
+        self.template = self._step(
+            self._names_of([0] * n_c), written, np.zeros(n_a), columns.pattern
+        )
 
     def closest(self) -> None:
         """Write the closest points at the poses; ContactError as of ``closest_points``."""
@@ -193,8 +178,8 @@ class Steps:
             If M_u is not positive definite.
         """
         compiled = library()
-        self._force[:] = force
-        self._change[:] = change
+        self.rows["force"][:] = force
+        self.rows["delta_q_bar_a"][:] = change
         self._poses.weigh(self._gravity)
         compiled.contact_rows(self.rows.pointer)
         compiled.load(self.rows.pointer)
@@ -206,7 +191,7 @@ class Steps:
         points = ClosestPoints(*closest)
         names = self._names_of(points.point.tolist())
         step = self._step(names, written, read_only(change), J)
-        return step, StandardForm(step.H, g, self._A, self._b), points
+        return step, StandardForm(step.H, g, self.rows["A"], self.rows["b"]), points
 
     def _names_of(self, point: list[int]) -> tuple[str, ...]:
         names = self._names

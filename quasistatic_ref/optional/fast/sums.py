@@ -29,11 +29,6 @@ class Sums:
         self._q = poses.q
         self._known = all(joint.in_c is not None for joint in joints)
         self._turning = [i for i, joint in enumerate(joints) if joint.unit]
-        self._delta_q = np.zeros(system.n_v)
-        self._q_next = np.zeros(system.n_q)
-        self._here = np.zeros(system.n_q)
-        self._target = np.zeros(system.n_q_a)
-        self._change = np.zeros(system.n_a)
         kinds = [-1 if joint.in_c is None else joint.in_c for joint in joints]
         self.structure = Structure(
             "Sums",
@@ -44,12 +39,12 @@ class Sums:
                 "v_start": np.array([joint.v.start for joint in joints], np.int64),
                 **{name: np.zeros(len(joints)) for name in ("angle", "cosine", "sine")},
                 "q": poses.q,
-                "delta_q": self._delta_q,
-                "q_next": self._q_next,
+                "delta_q": np.zeros(system.n_v),
+                "q_next": np.zeros(system.n_q),
                 "actuated": sum(joint.actuated for joint in joints),
-                "here": self._here,
-                "target": self._target,
-                "delta_q_bar_a": self._change,
+                "here": np.zeros(system.n_q),
+                "target": np.zeros(system.n_q_a),
+                "delta_q_bar_a": np.zeros(system.n_a),
             },
         )
 
@@ -59,18 +54,19 @@ class Sums:
             return self._system.integrate(self._q, delta_q)
         compiled = library()
         s = self.structure
-        self._delta_q[:] = delta_q
+        s["delta_q"][:] = delta_q
         if not compiled.half_turns(s.pointer):
             for i in self._turning:
                 s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
         compiled.sums(s.pointer)
-        return self._q_next.copy()
+        return s["q_next"].copy()
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change q_a (-) q of the actuated coordinates, shape (n_a,); errors as of the system's."""
         if self._known:
-            self._here[:] = with_shape(q, "q", self._here.shape)
-            self._target[:] = with_shape(q_a, "q_a", self._target.shape)
-            if library().differences(self.structure.pointer):
-                return self._change + 0.0
+            s = self.structure
+            s["here"][:] = with_shape(q, "q", s["here"].shape)
+            s["target"][:] = with_shape(q_a, "q_a", s["target"].shape)
+            if library().differences(s.pointer):
+                return s["delta_q_bar_a"] + 0.0
         return self._system.actuated_difference(q, q_a) + 0.0

@@ -32,13 +32,7 @@ def units(H, g, A, b):
     m, n = A.shape
     each = np.arange(m)
     program = Program([Group(np.arange(n), each, each[:0], each)])
-    one_row = np.ones(m, np.int64)
-    every = np.tile(np.arange(n), (m, 1))
-    steps = SimpleNamespace(
-        template=SimpleNamespace(row_layout=SimpleNamespace(counts=one_row, offsets=each)),
-        kept=SimpleNamespace(most_kept=n, coordinate=every, kept=n * one_row),
-        rows={"rows": one_row, "coordinate": every, "g": g, "kept_A": A, "b": b},
-    )
+    steps = SimpleNamespace(rows={"g": g, "A": A, "b": b})
     hessian = hessian_in_both_units(H)
     in_c = NaturalProgram(steps, program).write(hessian)
     with np.errstate(all="ignore"):
@@ -126,9 +120,9 @@ def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
     honest = Workspace._solved
     calls = []
 
-    def solved(self, *, warm):
+    def solved(self, H, *, warm):
         calls.append(warm)
-        return Reply(None, None, False, "at a loss") if warm else honest(self, warm=warm)
+        return Reply(None, None, False, "at a loss") if warm else honest(self, H, warm=warm)
 
     monkeypatch.setattr(Workspace, "_solved", solved)
     again = solve_step(step, solver, certify="off").delta_q

@@ -23,27 +23,26 @@ typedef struct {
 
 int closest_of_cloud(const Cloud *s);
 
-/* Contacts, and the load. A contact keeps those columns of J that can differ from zero. */
+/* Contacts, and the load. Of J and A those columns are written that can differ from zero. */
 typedef struct {
-    /* Contacts; coordinates, actuated ones; the most joint columns, and the most kept ones, of a contact. */
-    int64_t n_c, n_v, n_a, most_joints, most_kept;
+    /* Contacts; coordinates, actuated ones; the most joint columns of a contact. */
+    int64_t n_c, n_v, n_a, most_joints;
     /* Addresses of pinocchio's columns, and of its gravity on the left of M dv + g = tau. */
     const double *const *column, *const *gravity;
-    /* Of each contact: how many columns of joints move it, which, to which of its kept columns each is
-       added, and whether it moves alpha's body or beta's; how many columns it keeps, and of which
-       coordinates; its friction and number of rows. */
-    const int64_t *joints, *joint, *place;
+    /* Of each contact: how many columns of joints move it, which, of which coordinate each is, and whether
+       it moves alpha's body or beta's; its number of rows and its friction. */
+    const int64_t *joints, *joint, *coordinate;
     const double *moves_alpha, *moves_beta;
-    const int64_t *kept, *coordinate, *rows;
+    const int64_t *rows;
     const double *mu_v, *mu_omega;
     /* The cone: coefficients of slip_1, slip_2, spin in each row, and which of them it has. */
     const double *coefficient;
     const int64_t *has;
     const double *h, *weighs, *force, *K_q, *delta_q_bar_a;
     const double *phi, *n, *alpha, *beta;
-    double *work; /* 14 most_joints + 8 most_kept */
-    /* Written: d1, d2, J; the kept columns of A (m x most_kept), A, b; tau and g. */
-    double *d1, *d2, *J, *kept_A, *A, *b, *tau, *g;
+    double *work; /* 23 most_joints */
+    /* Written: d1, d2, J; A, b; tau and g. */
+    double *d1, *d2, *J, *A, *b, *tau, *g;
 } Rows;
 
 void contact_rows(const Rows *s);
@@ -51,12 +50,10 @@ void load(const Rows *s);
 
 /* A program in natural units, group by group: coordinates and rows of a group stand next to each other. */
 typedef struct {
-    int64_t n, m, n_c, most_kept;
-    const int64_t *rows, *kept;
-    /* Of each coordinate its place in f. Of each contact where in A and b its first row stands, how wide
-       its group is, and at which of the group's columns its kept ones stand. */
-    const int64_t *place, *first_entry, *first_row, *width, *column, *coordinate;
-    const double *g, *kept_A, *b;
+    int64_t n, m, groups;
+    /* Of each group how many coordinates and rows it has, and which, group after group. */
+    const int64_t *width, *height, *coordinate, *row;
+    const double *g, *A, *b;
     /* The units S of coordinates, their squares, and H^-1. */
     const double *unit, *squared, *inverse;
     double *squares; /* m: a workspace */

@@ -58,13 +58,15 @@ static double power_of_two(double low, double high)
 static double length_unit(const Natural *s)
 {
     int64_t count = 0;
-    const double *A = s->kept_A;
-    for (int64_t c = 0; c < s->n_c; c++)
-        for (int64_t i = 0; i < s->rows[c]; i++, A += s->most_kept) {
-            const int64_t *v = s->coordinate + c * s->most_kept;
+    const int64_t *row = s->row, *coordinate = s->coordinate;
+    for (int64_t group = 0; group < s->groups; coordinate += s->width[group++])
+        for (int64_t i = 0; i < s->height[group]; i++) {
+            const double *A = s->A + *row++ * s->n;
             double sum = 0.0;
-            for (int64_t k = 0; k < s->kept[c]; k++)
-                sum += A[k] * A[k] * s->squared[v[k]];
+            for (int64_t k = 0; k < s->width[group]; k++) {
+                int64_t v = coordinate[k];
+                sum += A[v] * A[v] * s->squared[v];
+            }
             if (sum == 0.0)
                 continue;
             if (!(sum > 1 / LARGEST && sum < LARGEST))
@@ -128,16 +130,14 @@ int natural_units(Natural *s)
 void natural_program(Natural *s)
 {
     double length = s->units[0], size = s->units[1], unit = 1 / (size * length);
-    const double *A = s->kept_A, *b = s->b;
-    for (int64_t v = 0; v < s->n; v++)
-        s->f[s->place[v]] = s->g[v] * (s->unit[v] / -size);
-    for (int64_t c = 0; c < s->n_c; c++) {
-        const int64_t *coordinate = s->coordinate + c * s->most_kept, *column = s->column + c * s->most_kept;
-        double *to = s->natural_A + s->first_entry[c], *to_b = s->natural_b + s->first_row[c];
-        for (int64_t i = 0; i < s->rows[c]; i++, A += s->most_kept, to += s->width[c]) {
-            for (int64_t k = 0; k < s->kept[c]; k++)
-                to[column[k]] = A[k] * (s->unit[coordinate[k]] / length);
-            *to_b++ = *b++ * unit;
+    double *to = s->natural_A, *to_b = s->natural_b;
+    const int64_t *row = s->row, *coordinate = s->coordinate;
+    for (int64_t k = 0; k < s->n; k++)
+        s->f[k] = s->g[coordinate[k]] * (s->unit[coordinate[k]] / -size);
+    for (int64_t group = 0; group < s->groups; coordinate += s->width[group++])
+        for (int64_t i = 0; i < s->height[group]; i++, row++) {
+            for (int64_t k = 0; k < s->width[group]; k++)
+                *to++ = s->A[*row * s->n + coordinate[k]] * (s->unit[coordinate[k]] / length);
+            *to_b++ = s->b[*row] * unit;
         }
-    }
 }

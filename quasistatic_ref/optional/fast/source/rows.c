@@ -34,25 +34,28 @@ static void columns_at(const double *col, int64_t n_x, const double *r, const do
     }
 }
 
-/* contact/jacobian, `jacobian`: the kept columns of J of one contact. Columns of joints that mimic others
-   are added to theirs. */
-static void jacobian(const Rows *s, int64_t c, double *restrict col, double *own, double *J)
+/* contact/jacobian, `jacobian`: J of one contact, and of each of its joints the column of its coordinate.
+   Columns of joints that mimic others are added to theirs. */
+static void jacobian(const Rows *s, int64_t c, double *restrict col, double *sides, double *J)
 {
-    int64_t n_x = s->joints[c], kept = s->kept[c], first = c * s->most_joints;
-    double *of_alpha = own, *of_beta = own + 4 * n_x;
+    int64_t n_x = s->joints[c], first = c * s->most_joints;
+    const int64_t *coordinate = s->coordinate + first;
+    double *of_alpha = sides, *of_beta = sides + 4 * n_x;
     for (int64_t x = 0; x < n_x; x++)
         for (int i = 0; i < 6; i++)
             col[i * n_x + x] = s->column[s->joint[first + x]][i];
     columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
     columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
-    for (int64_t i = 0; i < 4 * kept; i++)
-        J[i] = 0.0;
-    for (int i = 0; i < 4; i++) /* Eqs. (2)-(3) */
-        for (int64_t x = 0; x < n_x; x++) {
-            double f = s->moves_beta[first + x] * of_beta[i * n_x + x]
-                     - s->moves_alpha[first + x] * of_alpha[i * n_x + x];
-            J[i * kept + s->place[first + x]] += f; /* to 0.0, so that zero is never -0.0 */
-        }
+    for (int i = 0; i < 4; i++) { /* Eqs. (2)-(3) */
+        double *row = s->J + (4 * c + i) * s->n_v;
+        for (int64_t x = 0; x < n_x; x++)
+            row[coordinate[x]] = 0.0;
+        for (int64_t x = 0; x < n_x; x++) /* added to 0.0, so that zero is never -0.0 */
+            row[coordinate[x]] += s->moves_beta[first + x] * of_beta[i * n_x + x]
+                                - s->moves_alpha[first + x] * of_alpha[i * n_x + x];
+        for (int64_t x = 0; x < n_x; x++)
+            J[i * n_x + x] = row[coordinate[x]];
+    }
 }
 
 /* step/friction, `frame_jacobian`, of one axis, times a coefficient of friction. */
@@ -67,34 +70,30 @@ static void motion_along(const double *axis, const double *J, int64_t n, double 
 void contact_rows(const Rows *s)
 {
     int64_t row = 0;
-    double *col = s->work, *own = col + 6 * s->most_joints, *J = own + 8 * s->most_joints;
-    double *motion = J + 4 * s->most_kept;
+    double *col = s->work, *sides = col + 6 * s->most_joints, *J = sides + 8 * s->most_joints;
+    double *motion = J + 4 * s->most_joints, *restrict a = motion + 4 * s->most_joints;
     for (int64_t c = 0; c < s->n_c; c++) {
-        int64_t n = s->kept[c];
-        const int64_t *coordinate = s->coordinate + c * s->most_kept;
+        int64_t n = s->joints[c];
+        const int64_t *coordinate = s->coordinate + c * s->most_joints;
         double *d1 = s->d1 + 3 * c, *d2 = s->d2 + 3 * c;
         tangents(s->n + 3 * c, d1, d2);
-        jacobian(s, c, col, own, J);
-        for (int i = 0; i < 4; i++)
-            for (int64_t v = 0; v < n; v++)
-                s->J[(4 * c + i) * s->n_v + coordinate[v]] = J[i * n + v];
+        jacobian(s, c, col, sides, J);
         motion_along(s->n + 3 * c, J, n, 1.0, motion);
         motion_along(d1, J, n, s->mu_v[c], motion + n);
         motion_along(d2, J, n, s->mu_v[c], motion + 2 * n);
         for (int64_t v = 0; v < n; v++)
             motion[3 * n + v] = s->mu_omega[c] * J[3 * n + v];
         for (int64_t i = 0; i < s->rows[c]; i++, row++) { /* Eqs. (4)-(8) */
-            double *restrict A = s->kept_A + row * s->most_kept; /* which is nowhere in the work */
             for (int64_t v = 0; v < n; v++)
-                A[v] = motion[v];
+                a[v] = motion[v];
             for (int k = 0; k < 3; k++) {
                 const double *along = motion + (k + 1) * n;
                 double coefficient = s->coefficient[3 * i + k];
                 for (int64_t v = 0, last = s->has[3 * i + k] ? n : 0; v < last; v++)
-                    A[v] = A[v] + coefficient * along[v];
+                    a[v] = a[v] + coefficient * along[v];
             }
             for (int64_t v = 0; v < n; v++)
-                s->A[row * s->n_v + coordinate[v]] = A[v];
+                s->A[row * s->n_v + coordinate[v]] = a[v];
             s->b[row] = -s->phi[c];
         }
     }
