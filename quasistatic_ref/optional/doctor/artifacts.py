@@ -3,8 +3,7 @@
 They are measured of several steps of a simulator at once, along the first axis.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,42 +21,18 @@ BORNE = 0.1
 """Normal forces over the weight of a body below which they do not bear it [-]."""
 
 
-@dataclass(frozen=True, eq=False)
-class Drag:
-    """Spurious drag on a free body in each step, and what its contacts can bear by friction.
-
-    Parameters
-    ----------
-    body : str
-    drag : ndarray, shape (steps,)
-        ||M_u delta_q_u / h^2|| of its translation [N]; NaN where float64 has no number for it.
-    bears : ndarray, shape (steps,)
-        Sum of mu_v f_n of its contacts [N]; where they bear nothing by friction, or press with less
-        than a tenth of its weight, its weight.
-    touched, rubs : ndarray of bool, shape (steps,)
-        Whether its contacts press at all, and whether they bear anything by friction.
-    """
-
-    body: str
-    drag: Array
-    bears: Array
-    touched: Mask
-    rubs: Mask
-
-    @property
-    def share(self) -> Array:
-        """The quotient (R13), shape (steps,) [-], 1 in free fall; NaN as in `drag`."""
-        return _quotient(self.drag, self.bears)
-
-
-def drags(
+def drag_share(
     system: System,
     steps: Sequence[StepData],
     delta_q: Sequence[Array] | Array,
     wrench: Array,
     g: float,
-) -> list[Drag]:
-    """The drag on each floating base that is not actuated.
+) -> Array:
+    """Spurious drag over what contacts can bear by friction, (R13), of the body with the most.
+
+    The drag on a free body is ||M_u delta_q_u / h^2|| of its translation. Its contacts can bear the
+    sum of mu_v f_n; where they bear nothing by friction, or press with less than a tenth of its
+    weight, its weight counts.
 
     Parameters
     ----------
@@ -69,6 +44,11 @@ def drags(
         Of their contacts [N, N m]: those of this delta_q, or of steps with another M_u.
     g : float
         Length of gravity [m/s^2].
+
+    Returns
+    -------
+    ndarray, shape (steps,)
+        [-], 1 in free fall; NaN where float64 has no number for it, or nothing floats freely.
     """
     first = steps[0]
     bases = free_bases(system)
@@ -80,7 +60,7 @@ def drags(
         momentum = np.array([step.momentum(v)[:end] for step, v in each])  # no private rises
     presses = _loads(wrench)
     rubs = first.contacts.mu_v * presses
-    body_drags = []
+    largest = np.full(len(delta_q), np.nan)
     for body, base in bases.items():
         x = base.v.start
         of_body = moved(first.contacts, x)
@@ -88,15 +68,9 @@ def drags(
         friction = _sums(rubs[:, of_body])
         weight = system.mass(body) * g
         rubbed = (friction > BEARS * drag) & (_sums(presses[:, of_body]) >= BORNE * weight)
-        bears = np.where(rubbed, friction, weight)
-        touched = _sums(presses[:, of_body]) > BEARS * drag
-        body_drags.append(Drag(body, drag, bears, touched, rubbed))
-    return body_drags
-
-
-def largest_share(shares: Iterable[Array], steps: int) -> Array:
-    """The largest of `shares` [-] in each of so many `steps`, (steps,); NaN where none is."""
-    return np.asarray(np.fmax.reduce([np.full(steps, np.nan), *shares]))
+        share = _quotient(drag, np.where(rubbed, friction, weight))
+        largest = np.fmax(largest, share)
+    return largest
 
 
 def _quotient(over: ArrayLike, under: ArrayLike) -> Array:
@@ -119,7 +93,18 @@ def _lengths(vectors: Array) -> Array:
 def _loads(wrench: Array) -> Array:
     """f_n [N] of the contacts with load, 0 of the others, shape (steps, n_c)."""
     f_n = wrench[:, :, 2]
-    return np.where(f_n > BEARS * f_n.max(axis=1, initial=0.0, keepdims=True), f_n, 0.0)
+    return np.where(pressing(f_n), f_n, 0.0)
+
+
+def pressing(normal: Array) -> Mask:
+    """Which contacts bear more than noise of the largest force, shape (..., n_c), as `normal`.
+
+    Parameters
+    ----------
+    normal : ndarray, shape (..., n_c)
+        Normal forces [N].
+    """
+    return np.asarray(normal > BEARS * normal.max(axis=-1, initial=0.0, keepdims=True))
 
 
 def moved(contacts: Contacts, x: int) -> Mask:
@@ -189,4 +174,4 @@ def boundary_layer(gap: Array, wrench: Array) -> Array:
     wrench : ndarray, shape (steps, n_c, 4)
         [N, N m].
     """
-    return np.asarray(gap.max(axis=1, where=_loads(wrench) > 0, initial=0.0))
+    return np.asarray(gap.max(axis=1, where=pressing(wrench[:, :, 2]), initial=0.0))

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.optional.doctor.start import Start, body, sizes
+from quasistatic_ref.optional.doctor.start import Start, body
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.simulate.finding import Finding
@@ -132,20 +132,21 @@ def sizes_apart(start: Start) -> Iterator[Finding]:
     largest: dict[str, float] = {}
     for placed in start.sides:
         name = body(start.system, placed.link) if placed.link else placed.name
-        largest[name] = max([largest.get(name, 0.0), *sizes([placed])])
-    extents = {name: size for name, size in largest.items() if size > 0}
-    if not extents:
+        extent = placed.shape.extent
+        if 0 < extent < np.inf:
+            largest[name] = max(largest.get(name, 0.0), extent)
+    if not largest:
         return
-    small = min(extents, key=extents.__getitem__)
-    large = max(extents, key=extents.__getitem__)
-    if extents[large] > RATIO * extents[small]:
+    small = min(largest, key=largest.__getitem__)
+    large = max(largest, key=largest.__getitem__)
+    if largest[large] > RATIO * largest[small]:
         yield Finding(
             "sizes apart",
             True,
             f"check the units of {large} and {small}",
-            f"lengths are in metres, and {large} is {extents[large]:.3g} m long, {small} "
-            f"{extents[small]:.3g} m",
-            {"ratio": extents[large] / extents[small]},
+            f"lengths are in metres, and {large} is {largest[large]:.3g} m long, {small} "
+            f"{largest[small]:.3g} m",
+            {"ratio": largest[large] / largest[small]},
         )
 
 

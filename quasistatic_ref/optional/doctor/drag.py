@@ -10,16 +10,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.doctor.compared import (
-    COUNTS,
-    LookedAt,
-    PairMotion,
-)
+from quasistatic_ref.optional.doctor.compared import LookedAt, PairMotion
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import SHORT, bodies
+from quasistatic_ref.optional.doctor.start import SHORT
 from quasistatic_ref.optional.doctor.unsupported import falls
 from quasistatic_ref.simulate.finding import Finding
 
+COUNTS = 0.1
+"""Least difference that counts, over the larger of two numbers [-]."""
 DISTANCE = "the step shows where to, not how far"
 
 
@@ -84,7 +82,7 @@ def drag(run: Run) -> Iterator[Finding]:
     for at in run.compared.steps:
         for i, here, there in _pairs(run, at, at.without_drag):
             pair = run.pairs[i]
-            change = _relative(here.normal, there.normal, at.light)
+            change = _relative(here.normal, there.normal, run.light)
             slips = _slips_more(at, i, here, there)  # not less: loads move a lighter body farther
             if not (change > COUNTS or slips):
                 continue
@@ -115,7 +113,7 @@ def layer(run: Run) -> Iterator[Finding]:
     for at in run.compared.steps:
         for i, here, there in _pairs(run, at, at.by_coulomb):
             pair = run.pairs[i]
-            change = _relative(here.normal, there.normal, max(at.light, at.comes_down(pair)))
+            change = _relative(here.normal, there.normal, max(run.light, at.comes_down(pair)))
             way = _relative_way(at, i, here, there)
             if max(change, way) <= COUNTS:
                 continue
@@ -158,7 +156,7 @@ def _pairs(
     largest = max((pair.normal for pair in at.as_it_is), default=0.0)
     for i, (here, there) in enumerate(zip(at.as_it_is, changed, strict=True)):
         bears = max(here.normal, there.normal) >= COUNTS * largest
-        if bears and not bodies(run.system, run.pairs[i]) & at.moved.keys():
+        if bears and not run.bodies(run.pairs[i]) & at.moved.keys():
             yield i, here, there
 
 
@@ -173,7 +171,7 @@ def _relative_way(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> float:
     It is 0 without friction or motion, and for what comes down from its layer.
     """
     off = float(np.linalg.norm(a.slip - b.slip, axis=1).max(initial=0.0))
-    if at.run.pairs[i].mu_v == 0 or off <= max(at.shortest[i], 2 * at.floats):
+    if at.run.pairs[i].mu_v == 0 or off <= max(at.run.shortest[i], 2 * at.floats):
         return 0.0
     return off / max(a.way, b.way)
 
@@ -187,13 +185,13 @@ def _slips_more(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
 
 
 def _farther(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
-    return bool(a.way > at.shortest[i] and b.way < COUNTS * a.way)
+    return bool(a.way > at.run.shortest[i] and b.way < COUNTS * a.way)
 
 
 def _slip(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> str:
     """How far a pair slips or spins in the first of two answers, and in the second."""
     if _farther(at, i, a, b):
-        there = f"by {1e3 * b.way:.2g} mm" if b.way > at.shortest[i] else "not"
+        there = f"by {1e3 * b.way:.2g} mm" if b.way > at.run.shortest[i] else "not"
         return f"slips by {1e3 * a.way:.2g} mm, and {there}"
     there = f"by {np.degrees(b.spin):.2g} degrees" if b.spin > SHORT else "not"
     return f"turns by {np.degrees(a.spin):.2g} degrees, and {there}"

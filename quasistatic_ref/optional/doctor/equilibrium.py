@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.start import FARTHEST, SHORT, Start, least, translations
+from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.tolerances import SAME_NORMAL
 
 AROUND = 72
@@ -48,9 +48,9 @@ class Statics(NamedTuple):
     normal: Array
 
 
-def missing_force(
+def statics(
     step: StepData, touching: Mask, at_most: Array, masses: Array, free: Sequence[slice] = ()
-) -> Array:
+) -> Statics:
     """What the contacts of a step cannot bear of its loads on the un-actuated coordinates.
 
     Forces lie in the cones of the touching contacts. Lever arms count, since a row of A holds them.
@@ -68,35 +68,12 @@ def missing_force(
     free : sequence of slice
         Un-actuated coordinates that translate a free body, three each.
 
-    Returns
-    -------
-    ndarray, shape (n_u,)
-        [N], as in :class:`Statics`.
-
     Examples
     --------
     >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
-    >>> borne = missing_force(step, np.array([True]), np.array([np.inf]), np.full(6, 0.3))
-    >>> bool(np.abs(borne).sum() > 0)  # it spins: its torque is beyond mu_omega m g
+    >>> lacks = statics(step, np.array([True]), np.array([np.inf]), np.full(6, 0.3)).missing
+    >>> bool(np.abs(lacks).sum() > 0)  # it spins: its torque is beyond mu_omega m g
     True
-    """
-    return statics(step, touching, at_most, masses, free).missing
-
-
-def statics(
-    step: StepData, touching: Mask, at_most: Array, masses: Array, free: Sequence[slice] = ()
-) -> Statics:
-    """What :func:`missing_force` returns, and the least normal forces.
-
-    Parameters
-    ----------
-    step : StepData
-    touching : ndarray of bool, shape (n_c,)
-    at_most : ndarray, shape (n_c,)
-        [N].
-    masses : ndarray, shape (n_u,)
-        [kg].
-    free : sequence of slice
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
@@ -143,20 +120,22 @@ def _axes(normals: Array, load: Array) -> Array:
     return np.asarray(np.linalg.qr(np.column_stack([presses, load, np.eye(3)]))[0])
 
 
-def unsqueezed(step: StepData, normal: Array) -> Array:
-    """Normal forces, shape (n_c,) [N], less those by which contacts squeeze what is between them.
+def unsqueezed(start: Start, step: StepData, touching: Mask) -> Array:
+    """Normal forces, shape (n_c,) [N], that bear the loads of a step and are no mere squeeze.
 
     A squeeze, of forces in the cones with A_u' w = 0, moves nothing. In a rigid guide it may have
     any size, so that friction would bear any load: no force is taken to have made it.
 
     Parameters
     ----------
+    start : Start
     step : StepData
-    normal : ndarray, shape (n_c,)
-        [N].
+    touching : ndarray of bool, shape (n_c,)
     """
     from scipy.optimize import linprog  # takes as long as a short run
 
+    no_limit = np.full(step.contacts.n_c, np.inf)
+    normal = statics(step, touching, no_limit, start.masses, start.translations).normal
     presses = normal > CHEAP * normal.max(initial=0.0)
     if not presses.any():
         return np.zeros_like(normal)
@@ -177,12 +156,10 @@ def unsqueezed(step: StepData, normal: Array) -> Array:
 def _cone_rows(step: StepData, touching: Mask) -> tuple[Array, Array]:
     """Generators of the cones of touching contacts, (K, n_v), and the contact of each, (K,)."""
     contacts = step.contacts
-    mu = contacts.mu  # (mu_v, mu_v, mu_omega), which is 0 where it is not used
     kind = cone(step.cone)
     matrix = kind.matrix if kind.polyhedral else _sphere()
     motion = np.stack(frame_jacobian(contacts, contacts.J), axis=1)  # (n_c, 4, n_v)
-    motion[:, 1:] *= mu[:, :, None]
-    every = np.einsum("ri,civ->crv", matrix, motion)
+    every = np.einsum("ri,civ->crv", matrix, motion * scaled_by(contacts)[:, :, None])
     return every[touching].reshape(-1, step.n_v), np.repeat(np.flatnonzero(touching), len(matrix))
 
 
@@ -202,36 +179,7 @@ def _sphere() -> Array:
     return np.column_stack([np.ones(len(outside)), outside])
 
 
-class AtRest(NamedTuple):
-    """A step whose targets are where its joints are, and its contacts that touch.
-
-    Parameters
-    ----------
-    step : StepData
-    touching : ndarray of bool, shape (n_c,)
-        A gap below 1e-6 of the smaller shape counts as none.
-    bodies : tuple of str, length n_u
-        The body of each un-actuated coordinate.
-    masses : ndarray, shape (n_u,)
-        Theirs [kg].
-    free : list of slice
-        Un-actuated coordinates that translate a free body.
-    """
-
-    step: StepData
-    touching: Mask
-    bodies: tuple[str, ...]
-    masses: Array
-    free: list[slice]
-
-    def without_squeeze(self) -> Array:
-        """Normal forces, shape (n_c,) [N], that bear the loads and are no mere squeeze."""
-        no_limit = np.full(self.step.contacts.n_c, np.inf)
-        normal = statics(self.step, self.touching, no_limit, self.masses, self.free).normal
-        return unsqueezed(self.step, normal)
-
-
-def at_rest(start: Start, q: Array, contacts: Contacts) -> AtRest:
+def at_rest(start: Start, q: Array, contacts: Contacts) -> StepData:
     """A step whose targets are where its joints are, under the loads of t = 0.
 
     Parameters
@@ -241,15 +189,8 @@ def at_rest(start: Start, q: Array, contacts: Contacts) -> AtRest:
     contacts : Contacts
         At q.
     """
-    system = start.system
-    simulator = start.simulator
-    load = simulator.generalised_force(q, 0.0)
-    step = simulator.step_under(q, q[: system.n_q_a], load, contacts)
-    names = tuple(c.joint.partition("/")[0] for c in system.coordinates[step.n_a :])
-    sizes = np.repeat([least(pair) for pair in start.pairs], [pair.n_c for pair in start.pairs])
-    touching = contacts.phi <= SHORT * np.minimum(sizes, FARTHEST)
-    masses = np.array([system.mass(name) for name in names])
-    return AtRest(step, touching, names, masses, translations(system))
+    load = start.simulator.generalised_force(q, 0.0)
+    return start.simulator.step_under(q, q[: start.system.n_q_a], load, contacts)
 
 
 def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool = True) -> bool:
@@ -269,8 +210,11 @@ def borne(start: Start, q: Array, contacts: Contacts, name: str, squeezed: bool 
         Whether contacts may squeeze the body: by a squeeze of any size a guide bears any load.
         Otherwise they press by what bears the load and no more.
     """
-    rest = at_rest(start, q, contacts)
-    at_most = np.full(contacts.n_c, np.inf) if squeezed else rest.without_squeeze()
-    missing = missing_force(rest.step, rest.touching, at_most, rest.masses, rest.free)
-    lacks = float(np.linalg.norm(missing[[x == name for x in rest.bodies]]))
+    step = at_rest(start, q, contacts)
+    touching = start.touching(contacts)
+    at_most = np.full(contacts.n_c, np.inf)
+    if not squeezed:
+        at_most = unsqueezed(start, step, touching)
+    missing = statics(step, touching, at_most, start.masses, start.translations).missing
+    lacks = float(np.linalg.norm(missing[[owner == name for owner in start.owners]]))
     return lacks <= LIGHT * start.system.mass(name) * start.g

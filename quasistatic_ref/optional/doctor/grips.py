@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import bodies, centre, free_bases, least
+from quasistatic_ref.optional.doctor.start import centre, least
 from quasistatic_ref.optional.doctor.task import Task
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.simulate.finding import Finding
@@ -84,7 +84,7 @@ def _turn(task: Task, i: int, on: Mask) -> float:
 def _arm(run: Run, name: str, contacts: Indices, k: int) -> float:
     """Lever arm of a free body's weight about the normal of a grip in step k [m]; else 0."""
     pressing = contacts[run["wrench"][k, contacts, 2] > 0]
-    if name not in free_bases(run.system) or not run.g or not pressing.size:
+    if name not in run.free_bases or not run.g or not pressing.size:
         return 0.0
     away = centre(run.system, run.system.kinematics(run["q"][k]), name)
     away = away - run["beta"][k, pressing].mean(axis=0)
@@ -95,6 +95,5 @@ def _carries(task: Task, table: str, name: str, k: int) -> bool:
     """Whether nothing but a table touches a body in step k."""
     others = [i for i, account in enumerate(task.accounts) if account.table != table]
     return not any(
-        task.accounts[i].touches[k] and name in bodies(task.run.system, task.run.pairs[i])
-        for i in others
+        task.accounts[i].touches[k] and name in task.run.bodies(task.run.pairs[i]) for i in others
     )

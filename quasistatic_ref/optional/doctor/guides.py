@@ -8,16 +8,16 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.model.joints.planar import Planar
-from quasistatic_ref.optional.doctor.equilibrium import at_rest, borne
-from quasistatic_ref.optional.doctor.run import Run, wrenches
+from quasistatic_ref.optional.doctor.artifacts import pressing
+from quasistatic_ref.optional.doctor.equilibrium import borne, unsqueezed
+from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import BEARS, CRAWL, LOCKED, REPEATED, SAME_NORMAL
+from quasistatic_ref.tolerances import CRAWL, LOCKED, REPEATED, SAME_NORMAL
 
 TINY = 1e-9
 """Entries of J, relative to the contact's largest or to 1 [-, m], that are rounding."""
@@ -172,13 +172,11 @@ def _by_lever_arms(run: Run, k: int, contacts: Contacts, wrench: Array) -> Array
 
     Contacts of actuated bodies are loads, as they press in the step.
     """
-    rest = at_rest(run, run["q"][k], contacts)
     step = run.step_data(k)
     actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
     J_n = frame_jacobian(contacts, contacts.J)[0][:, step.n_a :]
     pushed = step.tau_u + np.where(actuated, wrench[:, 2], 0.0) @ J_n
-    step = step.replace(tau_u=pushed)
-    return rest._replace(step=step, touching=rest.touching & ~actuated).without_squeeze()
+    return unsqueezed(run, step.replace(tau_u=pushed), run.touching(contacts) & ~actuated)
 
 
 def _joints(start: Start, guide: Guide) -> list[str]:
@@ -230,20 +228,18 @@ def locked(run: Run) -> Iterator[Finding]:
     if not every:
         return
     wrench = run.forces(k)
-    bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
-    every = [x for x in every if bears[list(x.contacts)].any()]
+    presses = pressing(wrench[:, 2])
+    every = [x for x in every if presses[list(x.contacts)].any()]
     if not every:
         return
     step = run.step_data(k)
-    nothing = np.zeros(contacts.n_c)
-    smooth = replace(contacts, mu_v=nothing, mu_omega=nothing)
-    without = wrenches(step.replace(contacts=smooth, cone=PYRAMID))
-    if without is None:
+    smooth = run.solved(step.replace(cone="frictionless"))
+    if smooth is None:
         return
     J_n, *J_rubs = frame_jacobian(contacts, contacts.J)
     force = np.concatenate([step.tau_a, step.tau_u]) + wrench[:, 2] @ J_n  # all but friction
-    presses = np.maximum(without[:, 2], _by_lever_arms(run, k, contacts, wrench))
-    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * presses[:, None])
+    normal = np.maximum(smooth.wrench[:, 2], _by_lever_arms(run, k, contacts, wrench))
+    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * normal[:, None])
     inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
     beyond = np.abs(force) - could
     moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia

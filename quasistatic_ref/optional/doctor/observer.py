@@ -9,9 +9,8 @@ import numpy as np
 from quasistatic_ref.optional.doctor.account import scene_notes
 from quasistatic_ref.optional.doctor.artifacts import (
     boundary_layer,
-    drags,
+    drag_share,
     gap_after,
-    largest_share,
     quasi_dynamic_number,
 )
 from quasistatic_ref.optional.doctor.checks import (
@@ -40,7 +39,7 @@ class Doctor(Observer):
         Whether to print the findings on standard error, too.
     """
 
-    notes = ("gap", "moved", "Pi", "drag", "pushed", "layer")
+    notes = ("gap", "moved", "Pi", "drag", "layer")
 
     def __init__(self, printed: bool) -> None:
         self.printed = printed
@@ -51,8 +50,8 @@ class Doctor(Observer):
         """What is read at the end, of each step.
 
         Gaps after the step, shape (steps, n_c) [m]; J delta_q, (steps, n_c, 4) [m, m, m, rad], of
-        which a light record holds nothing; each (steps,): Pi, share of drag, the same of bodies
-        that something touches [-], and boundary layer [m].
+        which a light record holds nothing; each (steps,): Pi, share of drag [-], and boundary layer
+        [m].
         """
         system = recorder.system
         simulator = recorder.simulator
@@ -63,14 +62,11 @@ class Doctor(Observer):
             delta_q = [result.solution.delta_q for result in results]
         g = float(np.linalg.norm(simulator.gravity))
         gap = gap_after(arrays["phi"], arrays["n"], arrays["motion"])
-        body_drags = drags(system, steps, delta_q, arrays["wrench"], g)
-        touched = [np.where(x.touched, x.share, np.nan) for x in body_drags]
         return {
             "gap": gap,
             "moved": arrays["motion"],
             "Pi": quasi_dynamic_number(system, steps[0], arrays["delta_q"], g),
-            "drag": largest_share([x.share for x in body_drags], len(delta_q)),
-            "pushed": largest_share(touched, len(delta_q)),
+            "drag": drag_share(system, steps, delta_q, arrays["wrench"], g),
             "layer": boundary_layer(gap, arrays["wrench"]),
         }
 

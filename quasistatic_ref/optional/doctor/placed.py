@@ -10,16 +10,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.contradictions import farthest_points, hull_of
 from quasistatic_ref.optional.doctor.equilibrium import borne
-from quasistatic_ref.optional.doctor.start import (
-    Start,
-    bodies,
-    body,
-    free_bases,
-    joining,
-    least,
-    slices,
-    table,
-)
+from quasistatic_ref.optional.doctor.start import Start, body, joining, least, slices, table
 from quasistatic_ref.optional.doctor.unsupported import fall, held
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
@@ -33,7 +24,7 @@ def gravity(start: Start) -> Iterator[Finding]:
     """A body that starts on the world where neither gravity presses nor friction holds it."""
     for name, of_body in _contacts(start):
         near = [x for x in of_body if x[1] <= SUNK * least(x[0])]
-        world = [x for x in near if "world" in bodies(start.system, x[0])]
+        world = [x for x in near if "world" in start.bodies(x[0])]
         if not world or len(world) < len(near) or max(up for *_, up in near) >= BEARING:
             continue
         if _clamped(start, name):
@@ -59,7 +50,7 @@ def in_the_air(start: Start) -> Iterator[Finding]:
     loose = {
         name: of_body
         for name, of_body in _contacts(start)
-        if all(gap > max(NEAR, SUNK * min(least(pair), 1.0)) for pair, gap, _ in of_body)
+        if all(gap > max(NEAR, SUNK * least(pair)) for pair, gap, _ in of_body)
     }
     holds = held(start, loose)
     for name in [x for x in loose if x not in holds]:
@@ -149,7 +140,7 @@ def _clamped(start: Start, name: str) -> bool:
     normals = [
         start.points.n[at][start.points.phi[at] <= SUNK * least(pair)]
         for pair, at in slices(start.pairs)
-        if name in bodies(start.system, pair)
+        if name in start.bodies(pair)
     ]
     n = np.concatenate(normals)
     _, left = nnls(np.vstack([n.T, np.ones(len(n))]), np.array([0.0, 0.0, 0.0, 1.0]))
@@ -162,10 +153,10 @@ def _contacts(start: Start) -> Iterator[tuple[str, list[tuple[ContactPair, float
     if points is None or not start.g:
         return
     up = -start.gravity / start.g
-    for name in free_bases(start.system):
+    for name in start.free_bases:
         of_body = []
         for pair, at in slices(start.pairs):
-            if name in bodies(start.system, pair):
+            if name in start.bodies(pair):
                 sign = 1.0 if body(start.system, pair.beta.link) == name else -1.0
                 j = at.start + int(np.argmin(points.phi[at]))
                 of_body.append((pair, float(points.phi[j]), sign * float(points.n[j] @ up)))

@@ -11,10 +11,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.doctor.start import (
     Start,
-    bodies,
     body,
     centre,
-    free_bases,
     least,
     more_points,
     slices,
@@ -41,8 +39,8 @@ def few_points(start: Start) -> Iterator[Finding]:
     points = start.points
     if not start.g or points is None:
         return
-    for name in free_bases(start.system):
-        of_body = [(p, at) for p, at in slices(start.pairs) if name in bodies(start.system, p)]
+    for name in start.free_bases:
+        of_body = [(p, at) for p, at in slices(start.pairs) if name in start.bodies(p)]
         if all(pair.n_c == pair.candidates for pair, _ in of_body):
             continue
         each = [(pair, points.chosen(np.r_[at])) for pair, at in of_body]

@@ -6,28 +6,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import (
-    ContactForces,
-)
-from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.failures import StepNotSolved
+from quasistatic_ref.certify.contact_forces import ContactForces
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.account import pair_accounts, sides
+from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.compared import Compared
-from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.start import SHORT, Start, least
 from quasistatic_ref.parts import if_there
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import contact_wrenches
 
 ACCURATE = ("clarabel", "daqp")
 """Backends whose answers have ten digits without a proof."""
+FEW = 0.01
+"""Motion that is none, over the longest of a contact in a step of the run [-]."""
 
 
 class Run(Start):
@@ -61,6 +62,24 @@ class Run(Start):
         """What its pairs did, whatever the record holds; without forces."""
         named = [sides(self.system, pair) for pair in self.pairs]
         return pair_accounts(self.trajectory, named, self.gravity, self.noted("moved"), None)
+
+    @cached_property
+    def light(self) -> float:
+        """A force that is none [N]: a thousandth of what is free weighs, or presses in the run."""
+        weight = sum(self.system.mass(name) for name in dict.fromkeys(self.owners)) * self.g
+        pressed = self["wrench"][:, :, 2].sum(axis=1).max(initial=0.0)
+        return LIGHT * max(weight, float(pressed))
+
+    @cached_property
+    def shortest(self) -> Array:
+        """A motion of each pair that is none, shape (pairs,) [m].
+
+        It is a millionth of its smaller shape, or a hundredth of the longest step of a contact in
+        the run.
+        """
+        longest = np.linalg.norm(self.noted("moved")[:, :, :3], axis=2).max(initial=0.0)
+        sizes = np.array([least(pair) for pair in self.pairs])
+        return np.asarray(np.maximum(SHORT * sizes, FEW * longest))
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.arrays[name]
@@ -101,7 +120,14 @@ class Run(Start):
         self._steps[k] = step
         return step
 
-    def solver_of(self, step: StepData) -> Solver:
+    def solved(self, step: StepData) -> StepSolution | None:
+        """A step, unproved; None where it is not solved."""
+        try:
+            return solve_step(step, self._solver(step), certify="off")
+        except QuasistaticError:
+            return None
+
+    def _solver(self, step: StepData) -> Solver:
         """A solver of steps like one of the run, which is kept.
 
         It is that of the run if its answers are accurate without a proof, else the default.
@@ -136,15 +162,6 @@ class Run(Start):
                 near = self["delta_q"][k], self["wrench"][k]
                 self._forces[k] = contact_forces(self.step_data(k), near=near)
         return self._forces.get(k)
-
-
-def wrenches(step: StepData) -> Array | None:
-    """Contact wrenches of the exact optimum, (n_c, 4) [N, N m]; None where there is no optimum."""
-    try:
-        optimum = step_optimum(step)
-    except StepNotSolved:
-        return None
-    return contact_wrenches(step.contacts, optimum.lam, step.h, step.cone)
 
 
 def largest(values: Array) -> float | None:

@@ -129,6 +129,50 @@ class Start:
                 with suppress(ModelError):  # all of them in a plane
                     yield replace(placed, name=HULL, shape=convex_hull(some))
 
+    @cached_property
+    def free_bases(self) -> dict[str, Joint]:
+        """The floating bases that nothing actuates, by their bodies."""
+        return free_bases(self.system)
+
+    @cached_property
+    def translations(self) -> list[slice]:
+        """The un-actuated coordinates that translate each free body, three each."""
+        starts = [base.v.start - self.system.n_a for base in self.free_bases.values()]
+        return [slice(start, start + 3) for start in starts]
+
+    @cached_property
+    def owners(self) -> tuple[str, ...]:
+        """The body of each un-actuated coordinate."""
+        coordinates = self.system.coordinates[self.system.n_a :]
+        return tuple(coordinate.joint.partition("/")[0] for coordinate in coordinates)
+
+    @cached_property
+    def masses(self) -> Array:
+        """Their masses, shape (n_u,) [kg]."""
+        return np.array([self.system.mass(name) for name in self.owners])
+
+    @cached_property
+    def pair_of(self) -> list[ContactPair]:
+        """The pair of each contact."""
+        return [pair for pair in self.pairs for _ in range(pair.n_c)]
+
+    @cached_property
+    def sizes(self) -> Array:
+        """Size of the smaller shape of each contact, shape (n_c,) [m]."""
+        return np.array([least(pair) for pair in self.pair_of])
+
+    def touching(self, contacts: Contacts) -> Mask:
+        """Which contacts touch, shape (n_c,): a gap below 1e-6 of the smaller shape is none."""
+        return np.asarray(contacts.phi <= SHORT * self.sizes)
+
+    def bodies(self, pair: ContactPair) -> set[str]:
+        """The bodies of a pair."""
+        return {body(self.system, side.link) for side in (pair.alpha, pair.beta)}
+
+    def of_body(self, name: str) -> Mask:
+        """Which contacts are of a body, shape (n_c,)."""
+        return np.array([name in self.bodies(pair) for pair in self.pair_of], dtype=bool)
+
     @property
     def sides(self) -> list[PlacedShape]:
         """What touches: both shapes of each pair."""
@@ -173,15 +217,9 @@ def more_points(start: Start, pair: ContactPair, count: int | None = None) -> st
     return f"raise k of {table(start, pair)}" + ("" if count is None else f" to {count}")
 
 
-def sizes(shapes: Iterable[PlacedShape]) -> list[float]:
-    """Extents [m] of those shapes that have one: neither half-spaces nor single points."""
-    extents = [placed.shape.extent for placed in shapes]
-    return [x for x in extents if 0 < x < np.inf]
-
-
 def least(pair: ContactPair) -> float:
-    """Size of a pair's smaller shape [m]; infinity where none has one."""
-    return min(sizes((pair.alpha, pair.beta)), default=np.inf)
+    """Size of a pair's smaller shape [m]; `FARTHEST` where none has one."""
+    return pair.size or FARTHEST
 
 
 def body(system: System, link: int) -> str:
@@ -189,21 +227,10 @@ def body(system: System, link: int) -> str:
     return system.links[link].partition("/")[0]
 
 
-def bodies(system: System, pair: ContactPair) -> set[str]:
-    """The bodies of a pair."""
-    return {body(system, side.link) for side in (pair.alpha, pair.beta)}
-
-
 def free_bases(system: System) -> dict[str, Joint]:
     """The floating bases that nothing actuates, by their bodies."""
     bases = [j for j in system.joints if j.free and not j.actuated]
     return {base.name.removesuffix("/base"): base for base in bases}
-
-
-def translations(system: System) -> list[slice]:
-    """The un-actuated coordinates that translate each free body, three each."""
-    starts = [base.v.start - system.n_a for base in free_bases(system).values()]
-    return [slice(start, start + 3) for start in starts]
 
 
 def centre(system: System, kinematics: Kinematics, name: str) -> Array:

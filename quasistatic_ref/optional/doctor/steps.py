@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import least, more_points, sizes, slices, table
+from quasistatic_ref.optional.doctor.start import least, more_points, slices, table
 from quasistatic_ref.optional.doctor.telling import amount
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array
@@ -38,7 +38,8 @@ def leaps(run: Run) -> Iterator[Finding]:
         moved = [sides[i] for i in np.flatnonzero(run.moves[links, joint.v].any(axis=1))]
         motion = run["delta_q"][:, joint.v]
         lengths = joint.lengths
-        size = max(sizes(moved), default=np.inf)
+        extents = [side.shape.extent for side in moved]
+        size = max((x for x in extents if 0 < x < np.inf), default=np.inf)
         length = np.linalg.norm(motion[:, :lengths], axis=1)
         angle = np.linalg.norm(motion[:, lengths:], axis=1)
         share = np.maximum(length / size, angle)

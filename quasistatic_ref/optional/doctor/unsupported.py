@@ -12,16 +12,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import (
-    FARTHEST,
-    SHORT,
-    Start,
-    bodies,
-    body,
-    free_bases,
-    joining,
-    least,
-)
+from quasistatic_ref.optional.doctor.start import SHORT, Start, body, joining, least
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import Array, Extra, Mask
@@ -37,8 +28,8 @@ LEVEL = 1e-9
 
 def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables, welds or tendons joins to what stands."""
-    left = {*free_bases(start.system)}
-    joined = [bodies(start.system, pair) for pair in start.pairs]
+    left = {*start.free_bases}
+    joined = [start.bodies(pair) for pair in start.pairs]
     while left:
         borne = {name for pair in joined if pair - left for name in pair & left}
         borne = borne or held(start, left)
@@ -50,7 +41,7 @@ def alone(start: Start) -> set[str]:
 
 def unsupported(start: Start) -> Iterator[Finding]:
     """Bodies that are joined to nothing, if they weigh anything."""
-    joined = [bodies(start.system, pair) for pair in start.pairs]
+    joined = [start.bodies(pair) for pair in start.pairs]
     joint = "pair of geoms" if start.system.of_mjcf else "table"
     for name in sorted(alone(start)) if start.g else ():
         touching = [pair - {name} for pair in joined if name in pair]
@@ -107,10 +98,9 @@ def falls(run: Run) -> dict[str, Fall]:
     system = run.system
     down = run.gravity / run.g
     most = run.h**2 * run.g
-    touched = [bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
     sinking = {}
-    for name, base in free_bases(system).items():
-        of_body = np.array([name in names for names in touched], dtype=bool)
+    for name, base in run.free_bases.items():
+        of_body = run.of_body(name)
         force = np.abs(run["wrench"][:, of_body, 2]).max(axis=1, initial=0.0)
         drop = np.diff(run["q"][:, base.q][:, :3] @ down)
         free = (force <= LIGHT * system.mass(name) * run.g) & (drop > most / 2)
@@ -128,8 +118,8 @@ def _remedy(of_body: Mask, run: Run, first: int) -> str:
     if not gaps.size:  # it is only joined to one that touches
         return "start it on what should bear it"
     k = int(np.abs(gaps).argmin())
-    pair = [pair for pair in run.pairs for _ in range(pair.n_c)][int(np.flatnonzero(of_body)[k])]
-    if gaps[k] <= SHORT * min(least(pair), FARTHEST):
+    pair = run.pair_of[int(np.flatnonzero(of_body)[k])]
+    if gaps[k] <= SHORT * least(pair):
         return f"let what touches it at the start, {pair.name}, bear it"
     return "start it on what should bear it"
 
@@ -203,7 +193,7 @@ def held(start: Start, loose: Collection[str]) -> set[str]:
     if rows is None or not len(rows.A) or not start.g or not loose:
         return set()
     system = start.system
-    bases = free_bases(system)
+    bases = start.free_bases
     resting = {base.name for name, base in bases.items() if name not in loose}
     shifts = [
         i

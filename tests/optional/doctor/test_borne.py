@@ -3,7 +3,7 @@
 import pytest
 
 import quasistatic_ref as qr
-from quasistatic_ref.optional.doctor.equilibrium import at_rest
+from quasistatic_ref.optional.doctor.equilibrium import at_rest, unsqueezed
 from quasistatic_ref.optional.doctor.start import Start
 from tests.optional.doctor.urdfs import block
 
@@ -58,7 +58,9 @@ def test_friction_bears_what_lever_arms_press(reach, offset, balls):
     """
     scene = scenario(reach, offset, balls)
     start = Start(scene.simulator(), scene.system.q_start)
-    normal = at_rest(start, start.q_start, start.contacts_at_start).without_squeeze()
+    contacts = start.contacts_at_start
+    step = at_rest(start, start.q_start, contacts)
+    normal = unsqueezed(start, step, start.touching(contacts))
     by_hand = 2 * MU_V * WEIGHT * reach / offset
     if balls == CLAMP and by_hand < WEIGHT:
         by_hand = 0.0  # it falls, and turns away from the post

@@ -57,9 +57,7 @@ def test_a_step_in_which_coulombs_law_settles_nothing_is_counted(monkeypatch):
     assert finding.numbers["steps_without_fixed_point"] == 0
     step = finding.numbers["step"]
     coulomb = LookedAt._coulomb
-    monkeypatch.setattr(
-        LookedAt, "_coulomb", lambda at, data: None if at.k == step else coulomb(at, data)
-    )
+    monkeypatch.setattr(LookedAt, "_coulomb", lambda at: None if at.k == step else coulomb(at))
     (finding,) = found(wiper(0.01))
     assert finding.numbers["steps_without_fixed_point"] == 1
     assert finding.numbers["step"] != step

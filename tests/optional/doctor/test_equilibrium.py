@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.rigid import rigid_step
-from quasistatic_ref.optional.doctor.equilibrium import missing_force
+from quasistatic_ref.optional.doctor.equilibrium import statics
 
 M = 2.0
 WEIGHT = M * 9.81
@@ -21,13 +21,13 @@ def missing(wrench, points, frames, at_most=np.inf, cone="pyramid", **friction):
     """What the contacts of one body lack, shape (6,) [N]; rows of `frames` are d1, d2 and n."""
     frames = np.broadcast_to(frames, (len(points), 3, 3))
     step = rigid_step(M, 2e-3, wrench, np.array(points), frames, h=0.01, **friction)
-    return missing_force(
+    return statics(
         step.replace(cone=cone),
         np.ones(len(points), dtype=bool),
         np.full(len(points), at_most),
         np.full(6, M),
         [slice(0, 3)],
-    )
+    ).missing
 
 
 def standing(height):
