@@ -29,15 +29,12 @@ class Loads(NamedTuple):
     share : ndarray, shape (steps,)
         Normal force that the cone needs for their friction and torsion, over what there is [-]; 0
         where that is 0.
-    lift : ndarray, shape (steps,)
-        Of the parts of the forces on beta that are opposite to gravity [N].
     """
 
     normal: Array
     friction: Array
     torque: Array
     share: Array
-    lift: Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,12 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.doctor.telling import telling_numbers
+from quasistatic_ref.optional.doctor.telling import (
+    drive_numbers,
+    motion_numbers,
+    pair_numbers,
+    stop_numbers,
+)
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.account import (
     Account,
@@ -42,14 +47,11 @@ def scene_notes(recorder: Recorder) -> dict[str, Any]:
     -------
     dict
         ``pairs`` (of each its name, what alpha is and what beta is: a link, or a shape of the
-        world), ``waypoints`` (times [s] by joint), ``stiffness`` (the diagonal of K_q, empty where
-        K_q has other entries) and ``gravity`` [m/s^2].
+        world) and ``stiffness`` (the diagonal of K_q, empty where K_q has other entries).
     """
     return {
         "pairs": [sides(recorder.system, pair) for pair in recorder.simulator.pairs],
-        "waypoints": {track.joint.name: track.times.tolist() for track in recorder.tracks},
         "stiffness": stiffness(recorder.simulator.K_q).tolist(),
-        "gravity": recorder.simulator.gravity.tolist(),
     }
 
 
@@ -102,21 +104,29 @@ def account_of(trajectory: Trajectory, forces: bool = True) -> Account:
                 "multiplier is not known"
             )
         wrench = _forces(trajectory, forces, missing)
-        gravity = np.array(scene.sequence("gravity"), dtype=np.float64)
-        pairs = pair_accounts(trajectory, scene.sequence("pairs"), gravity, motion, wrench)
+        pairs = pair_accounts(trajectory, scene.sequence("pairs"), motion, wrench)
         drives = [drive(joint, trajectory, K) for joint in joints if joint.actuated]
     hands = [joint for joint in joints if joint.actuated and joint.free]
     motions = [_motion(joint, trajectory["q"], hands) for joint in joints if not joint.actuated]
     stops = list(_stops(trajectory, {joint.name for joint in joints}))
+    t = trajectory["t"]
+    h = float(header["h"])
     return Account(
-        t=trajectory["t"],
-        h=float(header["h"]),
+        t=t,
+        h=h,
         pairs=tuple(pairs),
         motions=tuple(motions),
         drives=tuple(drives),
         stops=tuple(stops),
         missing=tuple(missing),
-        numbers=telling_numbers(trajectory["t"], header["h"], pairs, motions, drives, stops),
+        numbers={
+            "bodies": {
+                each.of.name.removesuffix("/base"): motion_numbers(each) for each in motions
+            },
+            "joints": {one.of.name: drive_numbers(one) for one in drives},
+            "stops": {one.name: stop_numbers(one, h) for one in stops},
+            "pairs": {one.name: pair_numbers(one, t, h) for one in pairs},
+        },
     )
 
 
@@ -175,7 +185,6 @@ def _angle(joint: Joint, q: Array, q_0: Array) -> Array:
 def pair_accounts(
     run: Trajectory,
     named: Sequence[Sequence[str]],
-    gravity: Array,
     motion: Array | None,
     wrench: Array | None,
 ) -> list[PairAccount]:
@@ -186,14 +195,11 @@ def pair_accounts(
     run : Trajectory
     named : sequence of sequence of str
         Of each pair its name, what alpha is and what beta is.
-    gravity : ndarray, shape (3,)
-        [m/s^2].
     motion : ndarray, shape (steps, n_c, 4), or None
         J delta_q [m, m, m, rad].
     wrench : ndarray, shape (steps, n_c, 4), or None
         Forces of single contacts [N, N m].
     """
-    up = -gravity / (np.linalg.norm(gravity) or 1.0)
     slots = np.array(run.pair_names)
     h = float(run.header["h"])
     touch = _touches(run, motion)
@@ -224,7 +230,7 @@ def pair_accounts(
                 turn=turned,
                 slides=never if slid is None else slid > SLIDES * h,
                 spins=never if turned is None else turned > SPINS * h,
-                loads=None if wrench is None else _loads(run, wrench[:, of_pair], of_pair, up),
+                loads=None if wrench is None else _loads(run, wrench[:, of_pair], of_pair),
             )
         )
     return accounts
@@ -236,18 +242,16 @@ def _mean(values: Array, on: Mask) -> Array:
     return np.asarray(total / np.maximum(on.sum(axis=1), 1))
 
 
-def _loads(run: Trajectory, wrench: Array, of_pair: Mask, up: Array) -> Loads:
+def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
     """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
     normal = wrench[:, :, 2].sum(axis=1)
     mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[of_pair]
     needs = gauge(run.header["cone"], wrench, run["mu_v"][of_pair], mu_omega).sum(axis=1)
-    ways = np.stack([run[axis][:, of_pair] @ up for axis in ("d1", "d2", "n")], axis=2)
     return Loads(
         normal=normal,
         friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
         torque=np.abs(wrench[:, :, 3]).sum(axis=1),
         share=np.divide(needs, normal, out=np.zeros_like(needs), where=normal > 0),
-        lift=np.vecdot(wrench[:, :, :3], ways).sum(axis=1),
     )
 
 

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import CRAWL, LOCKED, REPEATED, SAME_NORMAL
 
@@ -167,16 +167,15 @@ def guided(start: Start) -> Iterator[Finding]:
         )
 
 
-def _by_lever_arms(run: Run, k: int, contacts: Contacts, wrench: Array) -> Array:
-    """Normal forces that bear the loads of step k without a squeeze, shape (n_c,) [N].
+def _by_lever_arms(run: Run, step: StepData, J_n: Array, wrench: Array) -> Array:
+    """Normal forces that bear the loads of a step without a squeeze, shape (n_c,) [N].
 
     Contacts of actuated bodies are loads, as they press in the step.
     """
-    step = run.step_data(k)
-    actuated = contacts.J[:, :, : step.n_a].any(axis=(1, 2))
-    J_n = frame_jacobian(contacts, contacts.J)[0][:, step.n_a :]
+    actuated = step.contacts.J[:, :, : step.n_a].any(axis=(1, 2))
     pushed = step.tau_u + np.where(actuated, wrench[:, 2], 0.0) @ J_n
-    return unsqueezed(run, step.replace(tau_u=pushed), run.touching(contacts) & ~actuated)
+    touching = run.touching(step.contacts) & ~actuated
+    return unsqueezed(run, step.replace(tau_u=pushed), touching)
 
 
 def _joints(start: Start, guide: Guide) -> list[str]:
@@ -229,31 +228,31 @@ def locked(run: Run) -> Iterator[Finding]:
         return
     wrench = run.forces(k)
     presses = pressing(wrench[:, 2])
-    every = [x for x in every if presses[list(x.contacts)].any()]
+    every = [guide for guide in every if presses[list(guide.contacts)].any()]
     if not every:
         return
     step = run.step_data(k)
     smooth = run.solved(step.replace(cone="frictionless"))
     if smooth is None:
         return
-    J_n, *J_rubs = frame_jacobian(contacts, contacts.J)
-    force = np.concatenate([step.tau_a, step.tau_u]) + wrench[:, 2] @ J_n  # all but friction
-    normal = np.maximum(smooth.wrench[:, 2], _by_lever_arms(run, k, contacts, wrench))
+    n_a = step.n_a
+    J_n, *J_rubs = frame_jacobian(contacts, contacts.J[:, :, n_a:])
+    force = step.tau_u + wrench[:, 2] @ J_n  # all but friction
+    normal = np.maximum(smooth.wrench[:, 2], _by_lever_arms(run, step, J_n, wrench))
     could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * normal[:, None])
-    inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
     beyond = np.abs(force) - could
-    moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia
-    stuck = (np.arange(step.n_v) >= step.n_a) & (np.abs(force) > 2 * could) & ~moves
+    moves = np.abs(run["delta_q"][k, n_a:]) >= LOCKED * run.h**2 * beyond / np.diag(step.M_u)
+    stuck = (np.abs(force) > 2 * could) & ~moves
     reported: set[str] = set()
     for guide in every:
-        held = np.flatnonzero(guide.moved & stuck)
-        if not held.size or (joint := run.system.coordinates[held[0]].joint) in reported:
+        held = np.flatnonzero(guide.moved[n_a:] & stuck)
+        if not held.size or (joint := run.system.coordinates[n_a + held[0]].joint) in reported:
             continue
         reported.add(joint)
         i = int(held[beyond[held].argmax()])
         j = max(guide.contacts, key=lambda j: float(wrench[j, 2]))
         name = run.simulator.layout.names[j]
-        coordinate = run.system.coordinates[i]
+        coordinate = run.system.coordinates[n_a + i]
         unit = "N" if coordinate.unit == "m" else "N m"
         yield Finding(
             "locked guide",

@@ -61,7 +61,7 @@ class Run(Start):
     def pair_accounts(self) -> list[PairAccount]:
         """What its pairs did, whatever the record holds; without forces."""
         named = [sides(self.system, pair) for pair in self.pairs]
-        return pair_accounts(self.trajectory, named, self.gravity, self.noted("moved"), None)
+        return pair_accounts(self.trajectory, named, self.noted("moved"), None)
 
     @cached_property
     def light(self) -> float:

@@ -152,14 +152,15 @@ class Start:
         return np.array([self.system.mass(name) for name in self.owners])
 
     @cached_property
-    def pair_of(self) -> list[ContactPair]:
-        """The pair of each contact."""
-        return [pair for pair in self.pairs for _ in range(pair.n_c)]
+    def pair_of(self) -> Indices:
+        """Number of the pair of each contact, shape (n_c,)."""
+        counts = np.array([pair.n_c for pair in self.pairs], dtype=np.int64)
+        return np.repeat(np.arange(len(self.pairs)), counts)
 
     @cached_property
     def sizes(self) -> Array:
         """Size of the smaller shape of each contact, shape (n_c,) [m]."""
-        return np.array([least(pair) for pair in self.pair_of])
+        return np.array([least(pair) for pair in self.pairs])[self.pair_of]
 
     def touching(self, contacts: Contacts) -> Mask:
         """Which contacts touch, shape (n_c,): a gap below 1e-6 of the smaller shape is none."""
@@ -171,7 +172,8 @@ class Start:
 
     def of_body(self, name: str) -> Mask:
         """Which contacts are of a body, shape (n_c,)."""
-        return np.array([name in self.bodies(pair) for pair in self.pair_of], dtype=bool)
+        pairs = np.array([name in self.bodies(pair) for pair in self.pairs], dtype=bool)
+        return pairs[self.pair_of]
 
     @property
     def sides(self) -> list[PlacedShape]:

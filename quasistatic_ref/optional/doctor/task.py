@@ -15,7 +15,7 @@ from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.optional.doctor.account import side
 from quasistatic_ref.optional.doctor.placed import inside
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Start, joining, least
+from quasistatic_ref.optional.doctor.start import joining, least
 from quasistatic_ref.optional.doctor.telling import amount, length
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.finding import Finding
@@ -72,14 +72,12 @@ class Task:
 
     def contacts(self, pairs: list[int]) -> Indices:
         """Numbers of the contacts of some pairs."""
-        names = {self.accounts[i].name for i in pairs}
-        return np.flatnonzero([name in names for name in self.run.trajectory.pair_names])
+        return np.flatnonzero(np.isin(self.run.pair_of, pairs))
 
     def grips(self, pairs: list[int]) -> Mask:
         """Whether two contacts of some pairs that touch face each other, shape (steps,)."""
         contacts = self.contacts(pairs)
-        of = {self.accounts[i].name: i for i in pairs}
-        each = [of[self.run.trajectory.pair_names[j]] for j in contacts]
+        each = self.run.pair_of[contacts].tolist()
         on = np.stack([self.accounts[i].touches for i in each], axis=1)
         sign = np.where(self.run.free[[self.run.pairs[i].alpha.link for i in each]], -1.0, 1.0)
         n = self.run["n"][:, contacts] * np.where(on, sign, 0.0)[:, :, None]
@@ -214,7 +212,7 @@ def idle(run: Run) -> Iterator[Finding]:
             fingers.setdefault(task.holder(i), []).append(i)
         idle = {name: touch for name, touch in fingers.items() if not task.touched(touch)}
         named = False
-        hollow = any(inside(Start(run.simulator, run.q_start)))  # fingers may open from within
+        hollow = any(inside(run))  # fingers may open from within
         for name, touch in idle.items():
             touching = [i for i in pairs if task.holder(i) not in idle]
             astray = None if hollow else _astray(task, touch, touching)
@@ -328,8 +326,7 @@ def _at_a_stop(run: Run, joint: Joint) -> bool:
 def _stalled(task: Task, contact: int, error: float, unit: str) -> bool:
     """Whether what a contact pushes has not moved, though the target is far inside of it."""
     run = task.run
-    name = run.trajectory.pair_names[contact]
-    i = next(i for i, account in enumerate(task.accounts) if account.name == name)
+    i = int(run.pair_of[contact])
     pair = run.pairs[i]
     table = task.tables.get(task.accounts[i].table)
     if not table or unit != "m" or error <= STALLED * least(pair) or task.grips(table)[-1]:

@@ -1,6 +1,6 @@
 """The most telling numbers of a run, and how they are printed."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -10,44 +10,16 @@ from quasistatic_ref.tolerances import FILLED
 
 PRINTED = 4
 """Lines of a kind in a short table."""
-Numbers = dict[str, dict[str, dict[str, float]]]
 
 
-def telling_numbers(
-    t: Array,
-    h: float,
-    pairs: Sequence[PairAccount],
-    motions: Sequence[Motion],
-    drives: Sequence[Drive],
-    stops: Sequence[Stop],
-) -> Numbers:
-    """The table of an account.
-
-    Parameters
-    ----------
-    t : ndarray, shape (steps,)
-        [s].
-    h : float
-    pairs : sequence of PairAccount
-    motions : sequence of Motion
-    drives : sequence of Drive
-    stops : sequence of Stop
-    """
-    return {
-        "bodies": {motion.of.name.removesuffix("/base"): _of_motion(motion) for motion in motions},
-        "joints": {drive.of.name: _of_drive(drive) for drive in drives},
-        "stops": {
-            stop.name: {
-                "bears_s": h * float((stop.force > 0).sum()),
-                "largest_force": float(stop.force.max()),
-            }
-            for stop in stops
-        },
-        "pairs": {pair.name: _of_pair(pair, t, h) for pair in pairs},
-    }
+def stop_numbers(stop: Stop, h: float) -> dict[str, float]:
+    """How long a stop bears a joint, with steps of `h` [s], and its largest force."""
+    bears = h * float((stop.force > 0).sum())
+    return {"bears_s": bears, "largest_force": float(stop.force.max())}
 
 
-def _of_motion(motion: Motion) -> dict[str, float]:
+def motion_numbers(motion: Motion) -> dict[str, float]:
+    """How far a body or joint turned, ended and rose."""
     numbers = {"largest_rotation_deg": float(np.degrees(motion.turned.max()))}
     for hand, angle in motion.turned_in.items():
         numbers[f"largest_turn_in_{hand}_deg"] = float(np.degrees(angle.max()))
@@ -58,7 +30,8 @@ def _of_motion(motion: Motion) -> dict[str, float]:
     return numbers
 
 
-def _of_drive(drive: Drive) -> dict[str, float]:
+def drive_numbers(drive: Drive) -> dict[str, float]:
+    """How far a joint ends from its target, and how its spring pushed."""
     numbers = {f"ends_from_target_{drive.unit}": float(drive.error[-1])}
     if drive.way > 0:
         numbers["share_of_way_left"] = float(drive.error[-1]) / drive.way
@@ -68,7 +41,8 @@ def _of_drive(drive: Drive) -> dict[str, float]:
     return numbers
 
 
-def _of_pair(pair: PairAccount, t: Array, h: float) -> dict[str, float]:
+def pair_numbers(pair: PairAccount, t: Array, h: float) -> dict[str, float]:
+    """When a pair touched, slid and spun, in steps of `h` [s] that end at `t` [s]; its loads."""
     least = float(pair.phi.min())
     numbers = {} if least >= FILLED else {"least_distance_m": least}  # else it is a filler's
     numbers["touches_s"] = h * float(pair.touches.sum())

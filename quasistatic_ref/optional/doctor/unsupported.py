@@ -118,7 +118,7 @@ def _remedy(of_body: Mask, run: Run, first: int) -> str:
     if not gaps.size:  # it is only joined to one that touches
         return "start it on what should bear it"
     k = int(np.abs(gaps).argmin())
-    pair = run.pair_of[int(np.flatnonzero(of_body)[k])]
+    pair = run.pairs[run.pair_of[of_body][k]]
     if gaps[k] <= SHORT * least(pair):
         return f"let what touches it at the start, {pair.name}, bear it"
     return "start it on what should bear it"
