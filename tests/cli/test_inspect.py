@@ -10,7 +10,7 @@ from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.cli.time_step import time_step_record, time_step_words
 from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, urdf_of_text
-from tests.optional.doctor.urdfs import block, slides
+from tests.optional.doctor.words import block, slides
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 

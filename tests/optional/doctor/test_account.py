@@ -1,4 +1,4 @@
-"""The account of a run: every number of it equals one computed from the npz, in plain loops."""
+"""The account of a run: every number of it equals one computed from the npz."""
 
 import json
 from dataclasses import replace
@@ -11,7 +11,7 @@ from quasistatic_ref import InputError, Trajectory, load_scenario, relative_turn
 from quasistatic_ref.optional.doctor.telling import lines, measures
 from quasistatic_ref.tolerances import SLIDES, SPINS, TOUCHES
 from tests.closeness import assert_relative
-from tests.optional.doctor.urdfs import slides
+from tests.optional.doctor.words import TIP, driven, scene, slides
 from tests.tolerances import ROUNDING
 
 RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
@@ -25,71 +25,45 @@ def run(request, tmp_path_factory):
     return trajectory_read(path)
 
 
-def coefficients(run, own):
-    """mu_v twice and mu_omega, which contacts without torsion do not use."""
-    for j in own:
-        yield run["mu_v"][j], run["mu_v"][j], run["mu_omega"][j] * (run["rows"][j] == 6)
-
-
-def contact(run, k, j):
-    """Slip and turn of contact j in step k, and the least of the pyramid's rows, Eq. (4)."""
-    motion = run["motion"][k, j]
-    gap = run["phi"][k, j] + run["n"][k, j] @ motion[:3]
-    slips = [run[axis][k, j] @ motion[:3] for axis in ("d1", "d2")]
-    mu_v = run["mu_v"][j]
-    spin = abs(run["mu_omega"][j] * motion[3]) if run["rows"][j] == 6 else 0.0
-    least = gap - max(mu_v * abs(slips[0]), mu_v * abs(slips[1]), spin)
-    return np.hypot(*slips), abs(motion[3]) * (run["rows"][j] == 6), least
-
-
 def test_numbers_of_pairs_are_those_of_the_arrays(run):
-    said = run.account().numbers["pairs"]
+    """In the pyramid, whose rows and gauge are written out here."""
+    assert run.header["cone"] == "pyramid"
+    numbers = run.account().numbers["pairs"]
     h = run.header["h"]
-    slots = [slot.rpartition("/")[0] for slot in run.header["slots"]]
-    assert list(said) == list(dict.fromkeys(slots))
-    for name, numbers in said.items():
-        own = [j for j, slot in enumerate(slots) if slot == name]
-        means = []
-        touches = []
-        for k in range(run.steps):
-            on = [row for row in (contact(run, k, j) for j in own) if row[2] <= TOUCHES]
-            touches.append(bool(on))
-            means.append(np.mean(on, axis=0)[:2] if on else (0.0, 0.0))
-        slip, turn = np.array(means).T
+    pairs = np.array([slot.rpartition("/")[0] for slot in run.header["slots"]])
+    assert list(numbers) == list(dict.fromkeys(pairs.tolist()))
+    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)
+    mu = np.stack([run["mu_v"], run["mu_v"], mu_omega], axis=1)
+    n, d1, d2 = (np.vecdot(run["motion"][:, :, :3], run[axis]) for axis in ("n", "d1", "d2"))
+    turn = np.abs(run["motion"][:, :, 3]) * (run["rows"] == 6)
+    slack = run["phi"] + n - np.abs(mu * np.stack([d1, d2, turn], axis=2)).max(axis=2)
+    rubs = np.abs(run["forces"][:, :, [0, 1, 3]])
+    needs = np.divide(rubs, mu, out=np.zeros_like(rubs), where=mu > 0).sum(axis=2)
+    for name, of_pair in numbers.items():
+        own = pairs == name
+        apart = slack[:, own] > TOUCHES
+        slip, spin = (
+            np.ma.array(values[:, own], mask=apart).mean(axis=1).filled(0.0)
+            for values in (np.hypot(d1, d2), turn)
+        )
+        normal = run["forces"][:, own, 2].sum(axis=1)
+        share = needs[:, own].sum(axis=1) / np.where(normal > 0, normal, np.inf)
+        touching = run["t"][~apart.all(axis=1)]
         expected = {
             "least_distance_m": run["phi"][:, own].min(),
-            "touches_s": h * sum(touches),
+            "touches_s": h * len(touching),
             "slides_s": h * (slip > SLIDES * h).sum(),
             "slip_m": slip.sum(),
-            "spins_s": h * (turn > SPINS * h).sum(),
-            "turn_deg": np.degrees(turn.sum()),
+            "spins_s": h * (spin > SPINS * h).sum(),
+            "turn_deg": np.degrees(spin.sum()),
+            "largest_normal_N": normal.max(),
+            "largest_friction_N": np.hypot(rubs[:, own, 0], rubs[:, own, 1]).sum(axis=1).max(),
+            "largest_torque_Nm": rubs[:, own, 2].sum(axis=1).max(),
+            "largest_share": share.max(),
         }
-        if any(touches):
-            expected["first_touch_s"] = run["t"][touches.index(True)]
-            expected["last_touch_s"] = run["t"][::-1][touches[::-1].index(True)]
-        f = run["forces"][:, own]
-        tangential = [[np.hypot(*f[k, i, :2]) for i in range(len(own))] for k in range(run.steps)]
-        friction = [sum(each) for each in tangential]
-        normal = [f[k, :, 2].sum() for k in range(run.steps)]
-        assert run.header["cone"] == "pyramid"
-        needs = [
-            sum(
-                sum(abs(part) / mu for part, mu in zip(f[k, i, [0, 1, 3]], mus, strict=True) if mu)
-                for i, mus in enumerate(coefficients(run, own))
-            )
-            for k in range(run.steps)
-        ]
-        share = [need / most if most > 0 else 0 for need, most in zip(needs, normal, strict=True)]
-        torque = [np.abs(f[k, :, 3]).sum() for k in range(run.steps)]
-        expected |= {
-            "largest_normal_N": max(normal),
-            "largest_friction_N": max(friction),
-            "largest_torque_Nm": max(torque),
-            "largest_share": max(share),
-        }
-        assert numbers.keys() == expected.keys()
-        for word, value in expected.items():
-            np.testing.assert_allclose(numbers[word], value, rtol=1e-12, atol=1e-15)
+        if len(touching):
+            expected |= {"first_touch_s": touching[0], "last_touch_s": touching[-1]}
+        assert of_pair == pytest.approx(expected, rel=1e-12, abs=1e-15)
 
 
 def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
@@ -122,24 +96,10 @@ def test_numbers_of_bodies_and_joints_are_those_of_the_arrays(run):
 @pytest.mark.parametrize(("way", "depth", "left"), [(0.01, 0.01, 1.0), (0.02, 0.015, 0.75)])
 def test_how_much_of_its_way_a_joint_has_left(way, depth, left):
     """A slide whose target goes down by `way`, of which a floor takes `depth`: 0 of 10 mm."""
-    scene = {
-        "h": 0.01,
-        "steps": 10,
-        "bodies": {
-            "finger": {
-                "urdf": slides("z", "<sphere radius='0.01'/>"),
-                "actuated": ["z"],
-                "K_q": {"z": 1e3},
-                "pose": {"xyz": [0, 0, 0.01 + way - depth]},
-                "targets": [{"t": 0.0, "z": 0.0}, {"t": 0.05, "z": -way}],
-            }
-        },
-        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-        "contacts": {
-            "on": {"alpha": "floor", "beta": "finger/tip", "mu_v": 0.5, "rows": 4, "k": 1}
-        },
-    }
-    run = load_scenario(scene, record="forces").run(progress=False)
+    targets = [{"t": 0.0, "z": 0.0}, {"t": 0.05, "z": -way}]
+    finger = driven(slides("z", TIP), (0, 0, 0.01 + way - depth), {"z": 1e3}, targets)
+    on = {"on": ("floor", "finger/tip", 0.5, 1)}
+    run = scene({"finger": finger}, on, 10).run(progress=False)
     numbers = run.account().numbers["joints"]["finger/z"]
     assert numbers["ends_from_target_m"] == pytest.approx(depth, rel=1e-9)
     assert numbers["share_of_way_left"] == pytest.approx(left, rel=1e-9)

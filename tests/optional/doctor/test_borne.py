@@ -2,42 +2,26 @@
 
 import pytest
 
-import quasistatic_ref as qr
 from quasistatic_ref.optional.doctor.equilibrium import at_rest, unsqueezed
 from quasistatic_ref.optional.doctor.start import Start
-from tests.optional.doctor.urdfs import block
+from tests.optional.doctor.words import TIP, block, free, of_shapes, scene
 
 MU_V = 0.25
 WEIGHT = 9.81
 CLEARANCE = 1e-8
 """Of each side [m]: it counts as none."""
-CLAMP = (("upper", -0.03, 1.0), ("lower", 0.03, 0.0))
-SLEEVE = (*CLAMP, ("third", 0.03, 1.0), ("fourth", -0.03, 0.0))
+CLAMP = [(-0.03, 1.0), (0.03, 0.0)]
+SLEEVE = [*CLAMP, (0.03, 1.0), (-0.03, 0.0)]
 
 
 def scenario(reach, offset, balls=CLAMP, steps=3, mu_v=MU_V):
     """Balls on both sides of a post, up to `offset` apart in height [m], a load `reach` out."""
-    collisions = "".join(
-        f'<collision name="{name}"><origin xyz="{x} 0 {z * offset}"/><geometry>'
-        '<sphere radius="0.01"/></geometry></collision>'
-        for name, x, z in balls
-    )
-    urdf = (
-        f'<robot name="c"><link name="c"><inertial><origin xyz="{reach} 0 0"/><mass value="1"/>'
-        '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'{collisions}<collision name="load"><origin xyz="{reach} 0 0"/><geometry>'
-        '<box size="0.1 0.05 0.02"/></geometry></collision></link></robot>'
-    )
-    on = {"alpha": "post", "mu_v": mu_v, "rows": 4}
-    scene = {
-        "h": 0.01,
-        "steps": steps,
-        "gravity": [0, 0, -WEIGHT],
-        "bodies": {"c": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, 0.4]}}},
-        "shapes": {"post": {"box": {"size": [0.04 - 2 * CLEARANCE, 1, 2]}}},
-        "contacts": {name: {**on, "beta": f"c/{name}"} for name, *_ in balls},
-    }
-    return qr.load_scenario(scene)
+    shapes = [(TIP, x, 0, z * offset, 0) for x, z in balls]
+    shapes.append(('<box size="0.1 0.05 0.02"/>', reach, 0, 0, 0))
+    clamp = free(of_shapes(shapes, 1, 0.01, (reach, 0, 0)), (0, 0, 0.4))
+    post = {"post": {"box": {"size": [0.04 - 2 * CLEARANCE, 1, 2]}}}
+    contacts = {f"on{i}": ("post", f"c/s{i}", mu_v, 1) for i in range(len(balls))}
+    return scene({"c": clamp}, contacts, steps, shapes=post)
 
 
 @pytest.mark.parametrize("balls", [CLAMP, SLEEVE])
@@ -56,8 +40,8 @@ def test_friction_bears_what_lever_arms_press(reach, offset, balls):
 
     It need not be equal on both sides, 20 mm from the middle: N is as uncertain.
     """
-    scene = scenario(reach, offset, balls)
-    start = Start(scene.simulator(), scene.system.q_start)
+    clamp = scenario(reach, offset, balls)
+    start = Start(clamp.simulator(), clamp.system.q_start)
     contacts = start.contacts_at_start
     step = at_rest(start, start.q_start, contacts)
     normal = unsqueezed(start, step, start.touching(contacts))
@@ -91,18 +75,8 @@ def test_a_sleeve_whose_lever_arms_press_too_little_is_locked():
 
 def test_a_body_that_touches_what_cannot_bear_it_is_not_told_of_a_gap():
     """A box that touches a ceiling: its gap is rounding, and none."""
-    box = {
-        "urdf": block(1.0, (0.1, 0.1, 0.1)),
-        "base": "floating",
-        "pose": {"xyz": [0, 0, 0.3]},
-    }
-    scene = {
-        "h": 0.01,
-        "steps": 5,
-        "bodies": {"box": box},
-        "shapes": {"ceiling": {"halfspace": {"normal": [0, 0, -1], "offset": -0.35}}},
-        "contacts": {"on": {"alpha": "ceiling", "beta": "box", "mu_v": 0.5, "rows": 4, "k": 4}},
-    }
-    run = qr.load_scenario(scene).run(progress=False)
+    box = free(block(1.0, (0.1, 0.1, 0.1)), (0, 0, 0.3))
+    ceiling = {"ceiling": {"halfspace": {"normal": [0, 0, -1], "offset": -0.35}}}
+    run = scene({"box": box}, {"on": ("ceiling", "box", 0.5, 4)}, 5, shapes=ceiling).run()
     (fall,) = [one for one in run.findings if one.name == "free fall"]
-    assert fall.remedy == "let what touches it at the start, on(ceiling, box/shape), bear it"
+    assert fall.remedy == "let what touches it at the start, on(ceiling, box/solid#0), bear it"

@@ -3,41 +3,39 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref import load_scenario
+from quasistatic_ref import Sphere
 from quasistatic_ref.optional.doctor.compared import LookedAt
-from tests.optional.doctor.urdfs import ball, block, collision, slides
+from tests.model.urdf.urdf_texts import link, robot
+from tests.optional.doctor.words import (
+    TIP,
+    block,
+    driven,
+    fingers,
+    free,
+    joint,
+    scene,
+    slides,
+    solid,
+)
 
-FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
 ARTIFACTS = {"drag", "boundary layer", "corners of the cone", "not in equilibrium"}
 
 
-def run_of(bodies, contacts, h=0.01, steps=100, floor=FLOOR, **more):
-    """A run; of each contact (alpha, beta, mu_v, k)."""
-    tables = {
-        name: {"alpha": alpha, "beta": beta, "mu_v": mu_v, "rows": 4, "k": k}
-        for name, (alpha, beta, mu_v, k) in contacts.items()
-    }
-    scene = {"h": h, "steps": steps, "bodies": bodies, "contacts": tables, **more}
-    if floor:
-        scene["shapes"] = {"floor": floor}
-    return load_scenario(scene).run(progress=False)
+def run_of(*parts, **more):
+    return scene(*parts, **more).run(progress=False)
 
 
 def found(run):
     return [finding for finding in run.findings if finding.name in ARTIFACTS]
 
 
-def wiper(h, speed=0.05, depth=0.25e-3, mu_v=0.5):
+def wiper(h, speed=0.05):
+    """A finger that is to press with 5 N."""
+    depth = 0.25e-3
     targets = [{"t": 0.0, "x": 0.0, "z": -depth}, {"t": 1.0, "x": speed, "z": -depth}]
-    finger = {
-        "urdf": slides("xz", "<sphere radius='0.01'/>"),
-        "actuated": ["x", "z"],
-        "K_q": {"x": 20000, "z": 20000},
-        "pose": {"xyz": [0, 0, 0.01]},
-        "targets": targets,
-    }
-    tables = {"wipe": ("floor", "finger/tip", mu_v, 1)}
-    return run_of({"finger": finger}, tables, h=h, steps=round(1 / h))
+    finger = driven(slides("xz", TIP), (0, 0, 0.01), {"x": 20000, "z": 20000}, targets)
+    wipe = {"wipe": ("floor", "finger/tip", 0.5, 1)}
+    return run_of({"finger": finger}, wipe, round(1 / h), h=h)
 
 
 @pytest.mark.parametrize("h", [0.01, 0.05, 0.1])
@@ -70,23 +68,18 @@ def test_a_layer_of_less_than_a_tenth_of_the_force_is_not_said(speed, says):
 
 
 def plates(mu_top, h, steps):
-    def plate(urdf, z, **more):
-        return {"urdf": urdf, "pose": {"xyz": [0, 0, z]}, **more}
-
-    def way(end, **more):
-        return [{"t": 0.0, "s": 0.0, **more}, {"t": 0.5, "s": end, **more}]
-
-    box = "<box size='0.4 0.2 {}'/>"
+    """A slab on a belt, under a plate that goes the other way and is pressed down with 5 N."""
+    box = "<box size='0.4 0.2 0.02'/>"
+    back = [{"t": 0.0, "s": 0.0}, {"t": 0.5, "s": -0.005}]
+    forth = [{"t": 0.0, "s": 0.0, "z": 0.005}, {"t": 0.5, "s": 0.005, "z": 0.005}]
+    press = slides("zs", box, down=True)
     bodies = {
-        "belt": plate(slides("s", box.format(0.02)), -0.01, actuated=["s"], K_q={"s": 1e6},
-                      targets=way(-0.005)),
-        "press": plate(slides("zs", box.format(0.02), down=True), 0.05, actuated=["z", "s"],
-                       K_q={"z": 1000, "s": 1e6}, targets=way(0.005, z=0.005)),
-        "slab": {"urdf": block(0.5, (0.1, 0.1, 0.04)), "base": "floating",
-                 "pose": {"xyz": [0, 0, 0.02]}},
-    }  # fmt: skip
+        "belt": driven(slides("s", box), (0, 0, -0.01), {"s": 1e6}, back),
+        "press": driven(press, (0, 0, 0.05), {"z": 1000, "s": 1e6}, forth),
+        "slab": free(block(0.5, (0.1, 0.1, 0.04)), (0, 0, 0.02)),
+    }
     tables = {"belt": ("belt/tip", "slab", 0.3, 4), "top": ("press/tip", "slab", mu_top, 4)}
-    return run_of(bodies, tables, h=h, steps=steps, floor=None)
+    return run_of(bodies, tables, steps, h=h)
 
 
 def test_a_slab_between_two_plates_goes_with_the_wrong_one():
@@ -106,44 +99,25 @@ def test_a_slab_that_drag_keeps_from_going_with_its_belt():
     assert (finding.name, "it slips by 0.05" in finding.cause) == ("drag", True)
 
 
-TIP = "<sphere radius='0.01'/>"
-
-
 def lifted(mu_omega, speed=0.2 / 3, load=0.0):
     """A bar of 0.35 kg that two fingers lift 13.9 mm from its centre, with 10 N each.
 
     W (1 / mu_v + e / mu_omega) <= 2 N holds for mu_omega from 3.04 mm on; with W + m v / h in the
     place of W, 34 % more, from 4.49 mm on. A `load` [N] pulls it down at the end.
     """
-    links = '<link name="post"/><link name="hand"/>'
-    joints = (
-        '<joint name="lift" type="prismatic"><parent link="post"/><child link="hand"/>'
-        '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1000" velocity="1"/></joint>'
-    )
-    for name, sign in (("left", 1), ("right", -1)):
-        links += f'<link name="{name}">{collision(TIP)}</link>'
-        joints += (
-            f'<joint name="{name}" type="prismatic"><parent link="hand"/><child link="{name}"/>'
-            f'<origin xyz="0.0139 {0.05 * sign} 0"/><axis xyz="0 {-sign} 0"/>'
-            '<limit lower="-1" upper="1" effort="1000" velocity="1"/></joint>'
-        )
-    inside = {"left": 2.5e-3, "right": 2.5e-3}
+    frame = [link("post", inertial=""), link("hand", inertial="")]
+    hand = robot(*frame, joint("lift", "post", "hand", "0 0 1"), *fingers("hand", 0.0139, 0.05))
+    pressed = {"left": 2.5e-3, "right": 2.5e-3}
+    way = [{"t": 0.0, "lift": 0.0, **pressed}, {"t": 0.4, "lift": 0.4 * speed, **pressed}]
+    bar = free(block(0.35, (0.1, 0.08, 0.02)), (0, 0, 0))
+    for t, f in ((0.48, 0), (0.58, -load)):
+        bar["wrenches"].append({"t": t, "force": [0, 0, f]})
     bodies = {
-        "gripper": {
-            "urdf": f'<robot name="g">{links}{joints}</robot>',
-            "actuated": "all",
-            "K_q": {"lift": 3000, "left": 4000, "right": 4000},
-            "targets": [{"t": 0.0, "lift": 0.0, **inside},
-                        {"t": 0.4, "lift": 0.4 * speed, **inside}],
-        },
-        "bar": {"urdf": block(0.35, (0.1, 0.08, 0.02)), "base": "floating",
-                "wrenches": [{"t": t, "force": [0, 0, f]}
-                             for t, f in ((0.0, 0), (0.48, 0), (0.58, -load))]},
-    }  # fmt: skip
-    grip = {"mu_v": 0.8, "mu_omega": mu_omega, "rows": 6, "k": 1, "beta": "bar"}
-    grip["alpha"] = ["gripper/left", "gripper/right"]
-    scene = {"h": 0.02, "steps": 30, "bodies": bodies, "contacts": {"grip": grip}}
-    return load_scenario(scene).run(progress=False)
+        "gripper": driven(hand, (0, 0, 0), {"lift": 3000, "left": 4000, "right": 4000}, way),
+        "bar": bar,
+    }
+    grip = {"grip": (["gripper/left", "gripper/right"], "bar", 0.8, 1, mu_omega)}
+    return run_of(bodies, grip, 30, h=0.02)
 
 
 @pytest.mark.parametrize(
@@ -174,10 +148,9 @@ def test_what_is_out_of_balance_in_one_step_is_compared_in_the_others():
     }
 
 
-def loaded(urdf, z, force=(0, 0, 0), mu_v=0.5, **more):
-    body = {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, z]},
-            "wrenches": [{"t": 0.0, "force": list(force)}]}  # fmt: skip
-    return run_of({"box": body}, {"floor": ("floor", "box", mu_v, 4)}, **more)
+def loaded(urdf, z, force=(0, 0, 0), mu_v=0.5, steps=1, **more):
+    box = {"box": free(urdf, (0, 0, z), force)}
+    return run_of(box, {"floor": ("floor", "box", mu_v, 4)}, steps, **more)
 
 
 BOX = block(1.0, (0.1, 0.1, 0.1))
@@ -196,21 +169,18 @@ def test_a_box_that_slides_down_a_slope_lacks_a_force_at_every_h(h, steps):
 
 def test_a_box_that_topples_is_not_in_equilibrium():
     """At first 3.4 N - 9.81 N 50 / 150 = 0.13 N are missing, and more while it tips."""
-    run = loaded(TALL, 0.15, (3.4, 0, 0), mu_v=0.9, steps=1)
+    run = loaded(TALL, 0.15, (3.4, 0, 0), mu_v=0.9)
     (finding,) = run.findings
     np.testing.assert_allclose(finding.numbers["missing_N"], 0.13, rtol=0.01)
-    assert loaded(TALL, 0.15, (3.2, 0, 0), mu_v=0.9, steps=1).findings == ()
+    assert loaded(TALL, 0.15, (3.2, 0, 0), mu_v=0.9).findings == ()
 
 
 def test_a_stack_beyond_its_overhang_is_not_in_equilibrium():
     """Two equal boxes, the upper one over the edge by 60 % of its width, and by 40 %."""
     for out, falls in ((0.06, True), (0.04, False)):
-        bodies = {
-            name: {"urdf": BOX, "base": "floating", "pose": {"xyz": [x, 0, z]}}
-            for name, x, z in (("low", 0, 0.05), ("high", out, 0.15))
-        }
+        bodies = {"low": free(BOX, (0, 0, 0.05)), "high": free(BOX, (out, 0, 0.15))}
         tables = {"floor": ("floor", "low", 0.5, 4), "stack": ("low", "high", 0.5, 8)}
-        names = [finding.name for finding in found(run_of(bodies, tables, steps=3))]
+        names = [finding.name for finding in found(run_of(bodies, tables, 3))]
         assert names == ["not in equilibrium"] * falls
 
 
@@ -221,19 +191,19 @@ def test_a_slide_in_the_ellipsoid_is_judged_in_it():
     np.testing.assert_allclose(finding.numbers["missing_N"], 6 - 0.5 * 9.81, rtol=0.01)
 
 
-def pile(mu_v, cone, turned=0.3):
+def pile(mu_v, cone):
     """A ball on three balls that touch each other; by hand it stands from mu_v = 0.318 on."""
     r = 0.05
     out = 2 * r / np.sqrt(3)
-    places = [[out * np.cos(a), out * np.sin(a), r] for a in turned + np.arange(3) * 2 * np.pi / 3]
-    places.append([0, 0, r + np.sqrt(4 * r**2 - out**2)])
-    bodies = {
-        name: {"urdf": ball(1.0, r), "base": "floating", "pose": {"xyz": place}}
-        for name, place in zip(("one", "two", "three", "top"), places, strict=True)
-    }
+    ball = solid(1.0, Sphere(r))
     low = ["one", "two", "three"]
+    bodies = {
+        name: free(ball, (out * np.cos(angle), out * np.sin(angle), r))
+        for name, angle in zip(low, 0.3 + np.arange(3) * 2 * np.pi / 3, strict=True)
+    }
+    bodies["top"] = free(ball, (0, 0, r + np.sqrt(4 * r**2 - out**2)))
     tables = {"floor": ("floor", low, mu_v, 1), "on": (low, "top", mu_v, 1)}
-    return run_of(bodies, tables, steps=5, cone=cone)
+    return run_of(bodies, tables, 5, cone=cone)
 
 
 def test_a_pile_that_collapses_in_the_corners_of_the_pyramid():

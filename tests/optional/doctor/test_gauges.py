@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-import quasistatic_ref as qr
+from quasistatic_ref import Sphere
 from quasistatic_ref.optional.doctor.account import account_of, gauge
 from quasistatic_ref.step.cones import cone
+from tests.model.urdf.urdf_texts import link, robot
+from tests.optional.doctor.words import block, driven, fingers, free, scene, solid
 
 MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
 
@@ -39,41 +41,10 @@ def test_forces_of_one_row_need_their_multiplier(name, rng):
         assert gauge(name, force[None], MU_V, MU_OMEGA) == pytest.approx([3.0], rel=1e-12)
 
 
-def urdf(mass, geometry, inertia="1e-3"):
-    return (
-        f'<robot name="r"><link name="r"><inertial><mass value="{mass}"/><inertia ixx="{inertia}" '
-        f'iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"<collision><geometry>{geometry}</geometry></collision></link></robot>"
-    )
-
-
 def test_a_ball_that_spins_is_at_its_limit_and_its_spinning_is_in_the_table():
     """0.1 N m about the vertical; its floor bears mu_omega m g = 0.0981 N m."""
-    made = qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": 50,
-            "gravity": [0, 0, -9.81],
-            "bodies": {
-                "ball": {
-                    "urdf": urdf(1.0, '<sphere radius="0.05"/>'),
-                    "base": "floating",
-                    "pose": {"xyz": [0, 0, 0.05]},
-                    "wrenches": [{"t": 0.0, "torque": [0, 0, 0.1]}],
-                }
-            },
-            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-            "contacts": {
-                "floor": {
-                    "alpha": "floor",
-                    "beta": "ball",
-                    "mu_v": 0.5,
-                    "mu_omega": 0.01,
-                    "rows": 6,
-                }
-            },
-        }
-    )
+    ball = free(solid(1.0, Sphere(0.05)), (0, 0, 0.05), torque=(0, 0, 0.1))
+    made = scene({"ball": ball}, {"floor": ("floor", "ball", 0.5, 1, 0.01)}, 50)
     account = account_of(made.run(progress=False))
     (pair,) = account.pairs
     assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)
@@ -82,51 +53,16 @@ def test_a_ball_that_spins_is_at_its_limit_and_its_spinning_is_in_the_table():
     assert (numbers["spins_s"], numbers["slides_s"]) == (pytest.approx(0.5), 0.0)
 
 
-def finger(name):
-    return (
-        f'<link name="{name}"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" '
-        'izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
-        '<sphere radius="0.01"/></geometry></collision></link>'
-    )
-
-
-def slide(name, link, side):
-    return (
-        f'<joint name="{name}" type="prismatic"><parent link="base"/><child link="{link}"/>'
-        f'<origin xyz="0 {0.02 * side} 0"/><axis xyz="0 {-side} 0"/>'
-        '<limit lower="-1" upper="1" effort="100" velocity="1"/></joint>'
-    )
-
-
-FINGERS = (
-    f'<robot name="g"><link name="base"/>{finger("l")}{finger("r")}{slide("jl", "l", -1)}'
-    f"{slide('jr', 'r', 1)}</robot>"
-)
-
-
-def grip(aside, mu_v, mu_omega, cone="pyramid", rows=6):
+def grip(aside, mu_v, *mu_omega, cone="pyramid"):
     """A run in which two fingers press with 3 N each on a bar of 0.2 kg, beside its middle."""
-    bar = urdf(0.2, '<box size="0.2 0.02 0.03"/>', "5e-4")
-    table = {"alpha": "gripper/*", "beta": "bar", "mu_v": mu_v, "mu_omega": mu_omega}
-    return qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": 100,
-            "cone": cone,
-            "gravity": [0, 0, -9.81],
-            "bodies": {
-                "gripper": {
-                    "urdf": FINGERS,
-                    "actuated": ["jl", "jr"],
-                    "K_q": {"jl": 1000, "jr": 1000},
-                    "targets": [{"t": 0.0, "jl": 0.003, "jr": 0.003}],
-                    "pose": {"xyz": [0, 0, 0.3]},
-                },
-                "bar": {"urdf": bar, "base": "floating", "pose": {"xyz": [aside, 0, 0.3]}},
-            },
-            "contacts": {"grip": table | {"rows": rows, "k": 1}},
-        }
-    ).run(progress=False)
+    hand = robot(link("hand", inertial=""), *fingers("hand", 0, 0.02))
+    closed = [{"t": 0.0, "left": 0.003, "right": 0.003}]
+    bodies = {
+        "gripper": driven(hand, (0, 0, 0.3), {"left": 1000, "right": 1000}, closed),
+        "bar": free(block(0.2, (0.2, 0.02, 0.03)), (aside, 0, 0.3)),
+    }
+    contacts = {"grip": ("gripper/*", "bar", mu_v, 1, *mu_omega)}
+    return scene(bodies, contacts, 100, cone=cone).run(progress=False)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +80,7 @@ def test_a_grip_that_is_lost_says_which_limit_was_reached(
     aside, mu_v, mu_omega, cone, remedy, limit
 ):
     """40 mm beside its middle the bar asks for 0.0785 N m, and mu_omega bears 6 N of it."""
-    said = [x for x in grip(aside, mu_v, mu_omega, cone).findings if x.name == "lost grip"]
+    said = [x for x in grip(aside, mu_v, mu_omega, cone=cone).findings if x.name == "lost grip"]
     assert [one.remedy.partition(" of ")[0] for one in said] == ([remedy] if remedy else [])
     for one in said:
         assert limit in one.cause
@@ -154,7 +90,7 @@ def test_a_grip_that_is_lost_says_which_limit_was_reached(
 
 def test_a_grip_without_torsion_is_lost_by_turning():
     """By four rows it has none, and mu_v, which bears three times the weight, is not to blame."""
-    (found,) = [x for x in grip(0.04, 1.0, 0.0, rows=4).findings if x.name == "lost grip"]
+    (found,) = [x for x in grip(0.04, 1.0).findings if x.name == "lost grip"]
     assert found.remedy.startswith("raise mu_omega of contacts.grip (rows = 6), or hold bar")
     assert "mu_omega bears 0 N m" in found.cause
 
@@ -167,33 +103,13 @@ def test_a_bar_that_turns_and_slips_is_at_its_whole_limit():
         assert pair.spins.any()
 
 
-@pytest.mark.parametrize(
-    ("direction", "friction"),
-    [((1.0, 0.0), 4.905), ((np.sqrt(0.5), np.sqrt(0.5)), 4.905 * np.sqrt(0.5))],
-    ids=["along an axis", "at 45 degrees"],
-)
-def test_a_slide_is_at_its_limit_whichever_way_it_goes(direction, friction):
+@pytest.mark.parametrize(("angle", "friction"), [(0, 4.905), (np.pi / 4, 4.905 * np.sqrt(0.5))])
+def test_a_slide_is_at_its_limit_whichever_way_it_goes(angle, friction):
     """A pyramid bears mu_v m g / sqrt(2) between its corners, and that is all of it."""
-    force = [6.0 * direction[0], 6.0 * direction[1], 0.0]
-    made = qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": 5,
-            "gravity": [0, 0, -9.81],
-            "bodies": {
-                "puck": {
-                    "urdf": urdf(1.0, '<box size="0.2 0.2 0.02"/>'),
-                    "base": "floating",
-                    "pose": {"xyz": [0, 0, 0.01]},
-                    "wrenches": [{"t": 0.0, "force": force}],
-                }
-            },
-            "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-            "contacts": {
-                "floor": {"alpha": "floor", "beta": "puck", "mu_v": 0.5, "rows": 4, "k": 4}
-            },
-        }
+    puck = free(
+        block(1.0, (0.2, 0.2, 0.02)), (0, 0, 0.01), (6 * np.cos(angle), 6 * np.sin(angle), 0)
     )
+    made = scene({"puck": puck}, {"floor": ("floor", "puck", 0.5, 4)}, 5)
     (pair,) = account_of(made.run(progress=False)).pairs
     assert pair.slides.all()
     assert pair.loads.share.max() == pytest.approx(1.0, abs=1e-6)

@@ -10,7 +10,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.optional.doctor.account import account_of
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.unsupported import fall
-from tests.optional.doctor.urdfs import slides
+from tests.optional.doctor.words import TIP, driven, free, of_shapes, scene, slides
 
 LAMP = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>
 <site name="hook" pos="0 0 {hook}"/>
@@ -101,38 +101,15 @@ def test_a_filler_is_no_distance(at, distance):
     assert numbers.get("least_distance_m") == distance
 
 
-def fields(collisions, mass, inertia, centre=(0, 0, 0), z=0.05):
-    shapes = "".join(
-        f'<collision name="s{i}"><origin xyz="{x} {y} {h}" rpy="0 0 {yaw}"/>'
-        f"<geometry>{kind}</geometry></collision>"
-        for i, (kind, x, y, h, yaw) in enumerate(collisions)
-    )
-    x, y, h = centre
-    urdf = (
-        f'<robot name="b"><link name="b"><inertial><origin xyz="{x} {y} {h}"/>'
-        f'<mass value="{mass}"/><inertia ixx="{inertia}" iyy="{inertia}" izz="{inertia}" '
-        f'ixy="0" ixz="0" iyz="0"/></inertial>{shapes}</link></robot>'
-    )
-    return {
-        "h": 0.01,
-        "steps": 1,
-        "gravity": [0, 0, -9.81],
-        "bodies": {"b": {"urdf": urdf, "base": "floating", "pose": {"xyz": [0, 0, z]}}},
-        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-        "contacts": {
-            "floor": {
-                "alpha": "floor",
-                "beta": [f"b/s{i}" for i in range(len(collisions))],
-                "mu_v": 0.5,
-                "rows": 4,
-                "k": 4,
-            }
-        },
-    }
+def standing(shapes, mass, inertia, centre=(0, 0, 0), z=0.05):
+    """A body of some shapes over a floor, as a table, and its contacts."""
+    touching = [f"b/s{i}" for i in range(len(shapes))]
+    body = free(of_shapes(shapes, mass, inertia, centre), (0, 0, z))
+    return {"b": body}, {"floor": ("floor", touching, 0.5, 4)}
 
 
 def found(*body):
-    return qr.load_scenario(fields(*body)).run(progress=False).findings
+    return scene(*standing(*body), 1).run(progress=False).findings
 
 
 def sphere(radius):
@@ -207,21 +184,8 @@ def gripper(finger, can, steps=1):
         "can": qr.Body.of_shape("can", can, 0.3, xyz=(0, 0, 0.14)),
         "finger": qr.Body.of_shape("finger", finger, 1.0, xyz=(0.08, 0, 0.14), base="fixed"),
     }
-    floor = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
-    table = {"beta": "can", "mu_v": 0.5, "rows": 4, "k": 4}
-    return qr.load_scenario(
-        {
-            "h": 0.01,
-            "steps": steps,
-            "gravity": [0, 0, -9.81],
-            "bodies": bodies,
-            "shapes": {"floor": floor},
-            "contacts": {
-                "floor": {"alpha": "floor", **table},
-                "grip": {"alpha": "finger", **table},
-            },
-        }
-    )
+    contacts = {"floor": ("floor", "can", 0.5, 4), "grip": ("finger", "can", 0.5, 4)}
+    return scene(bodies, contacts, steps)
 
 
 def test_a_body_beside_a_finger_is_lowered_to_what_is_below_it():
@@ -251,12 +215,11 @@ def test_a_fall_past_a_ball_is_endless_and_onto_one_ends_on_it():
 
 def mug_and_finger(at, way=0.0):
     """A mug of eight boxes, and a finger that touches none of them and moves along x [m]."""
-    mug = fields(*HOLLOW["a mug of boxes"]) | {"steps": 30}
-    tip = {"urdf": slides("x", sphere(0.01)), "actuated": "all", "K_q": {"x": 100.0}}
+    bodies, contacts = standing(*HOLLOW["a mug of boxes"])
     targets = [{"t": 0, "x": 0.0}, {"t": 0.3, "x": way}]
-    mug["bodies"]["finger"] = tip | {"pose": {"xyz": list(at)}, "targets": targets}
-    mug["contacts"]["push"] = mug["contacts"]["floor"] | {"alpha": "finger/tip", "k": 1}
-    return qr.load_scenario(mug)
+    bodies["finger"] = driven(slides("x", TIP), at, {"x": 100.0}, targets)
+    contacts["push"] = ("finger/tip", *contacts["floor"][1:3], 1)
+    return scene(bodies, contacts, 30)
 
 
 def test_a_finger_that_moves_inside_of_a_mug_is_not_told_to_turn_its_axis():
@@ -269,4 +232,4 @@ def test_a_finger_that_moves_inside_of_a_mug_is_not_told_to_turn_its_axis():
 @pytest.mark.parametrize(("at", "inside"), [((0, 0, 0.05), True), ((0.2, 0, 0.05), False)])
 def test_a_finger_that_starts_inside_of_a_mug_is_told_to_start_outside(at, inside):
     said = [x for x in mug_and_finger(at).findings() if x.name == "starts inside"]
-    assert [one.remedy for one in said] == ["start finger/shape outside of b/b"] * inside
+    assert [one.remedy for one in said] == ["start finger/tip#0 outside of b/b"] * inside

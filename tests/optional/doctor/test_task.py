@@ -6,13 +6,8 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.simulate.target import JointTrack, Targets
-from tests.optional.doctor.urdfs import block, collision
-
-GRIPPER = """<robot name="g"><link name="hand"/>{left}{right}
-<joint name="left" type="{kind}"><parent link="hand"/><child link="l"/><origin xyz="{x} 0.05 0"/>
-<axis xyz="{axis}"/><limit lower="-1" upper="1" effort="20" velocity="1"/></joint>
-<joint name="right" type="prismatic"><parent link="hand"/><child link="r"/><origin xyz="0 -0.05 0"/>
-<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="20" velocity="1"/></joint></robot>"""
+from tests.model.urdf.urdf_texts import collision, link, robot
+from tests.optional.doctor.words import block, driven, free, joint, scene
 
 
 def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
@@ -22,37 +17,25 @@ def grasp(kind="prismatic", axis="0 -1 0", at=0.0):
     """
     tip = '<box size="0.02 0.02 0.02"/>'
     turns = kind == "revolute"
-    left = f'<link name="l">{collision(tip, (0.1 * turns, 0, 0))}</link>'
-    right = f'<link name="r">{collision(tip)}</link>'
-    x = -0.1 if turns else 0.0
-    urdf = GRIPPER.format(left=left, right=right, kind=kind, axis=axis, x=x)
-    closed = {"left": 0.15 if turns else 0.015, "right": 0.015}
-    table = {"beta": "block", "mu_v": 0.5, "rows": 4, "k": 4}
-    scene = {
-        "h": 0.02,
-        "steps": 50,
-        "gravity": [0, 0, -9.81],
-        "bodies": {
-            "gripper": {
-                "urdf": urdf,
-                "actuated": "all",
-                "K_q": {"left": 5.0 if turns else 500.0, "right": 500.0},
-                "pose": {"xyz": [0, 0, 0.03]},
-                "targets": [{"t": 0.0, "left": 0.0, "right": 0.0}, {"t": 1.0, **closed}],
-            },
-            "block": {
-                "urdf": block(0.3, (0.06, 0.06, 0.06)),
-                "base": "floating",
-                "pose": {"xyz": [at, 0, 0.03]},
-            },
-        },
-        "shapes": {"floor": {"halfspace": {"normal": [0, 0, 1], "offset": 0}}},
-        "contacts": {
-            "floor": {"alpha": "floor", **table},
-            "grip": {"alpha": ["gripper/l", "gripper/r"], **table},
-        },
+    lever = 0.1 if turns else 0.0
+    hand = robot(
+        link("hand", inertial=""),
+        link("l", collision(tip, f'<origin xyz="{lever} 0 0"/>'), inertial=""),
+        link("r", collision(tip), inertial=""),
+        joint("left", "hand", "l", axis, kind, (-lever, 0.05, 0)),
+        joint("right", "hand", "r", "0 1 0", at=(0, -0.05, 0)),
+    )
+    K_q = {"left": 5.0 if turns else 500.0, "right": 500.0}
+    closed = {"t": 1.0, "left": 0.15 if turns else 0.015, "right": 0.015}
+    bodies = {
+        "gripper": driven(hand, (0, 0, 0.03), K_q, [{"t": 0.0, "left": 0.0, "right": 0.0}, closed]),
+        "block": free(block(0.3, (0.06, 0.06, 0.06)), (at, 0, 0.03)),
     }
-    return qr.load_scenario(scene, fast=True).run(progress=False).findings
+    contacts = {
+        "floor": ("floor", "block", 0.5, 4),
+        "grip": (["gripper/l", "gripper/r"], "block", 0.5, 4),
+    }
+    return scene(bodies, contacts, 50, h=0.02, fast=True).run(progress=False).findings
 
 
 @pytest.mark.parametrize(("kind", "right", "wrong"), [
@@ -72,7 +55,7 @@ def test_a_finger_whose_axis_is_reversed_is_named(kind, right, wrong):
 def test_a_finger_that_comes_near_is_not_led_astray():
     """The block is beside both fingers."""
     (found,) = [one for one in grasp(at=0.2) if one.name == "idle contacts"]
-    assert found.remedy.startswith("check where block/link stands")
+    assert found.remedy.startswith("check where block/solid stands")
 
 
 HAND = """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 .1"/>

@@ -1,0 +1,87 @@
+"""Words that scenes are built with: bodies as tables of a scenario, and the scenario."""
+
+from quasistatic_ref import Body, Box, load_scenario
+from tests.model.urdf import urdf_texts
+from tests.model.urdf.urdf_texts import collision, link, robot
+
+AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1", "s": "1 0 0"}
+FLOOR = {"halfspace": {"normal": [0, 0, 1], "offset": 0}}
+TIP = '<sphere radius="0.01"/>'
+
+
+def scene(bodies, contacts, steps, h=0.01, shapes=None, fast=False, **more):
+    """A scenario with a floor; of each contact (alpha, beta, mu_v, k), and mu_omega if any."""
+    tables = {}
+    for name, (alpha, beta, mu_v, k, *mu_omega) in contacts.items():
+        tables[name] = {"alpha": alpha, "beta": beta, "mu_v": mu_v, "k": k, "rows": 4}
+        if mu_omega:
+            tables[name] |= {"mu_omega": mu_omega[0], "rows": 6}
+    shapes = {"floor": FLOOR} | (shapes or {})
+    scene = {"h": h, "steps": steps, "bodies": bodies, "shapes": shapes, "contacts": tables}
+    return load_scenario(scene | more, fast=fast)
+
+
+def solid(mass, shape):
+    """URDF of a homogeneous solid."""
+    return Body.of_shape("solid", shape, mass).urdf
+
+
+def block(mass, size):
+    """URDF of a homogeneous block."""
+    return solid(mass, Box(size=size))
+
+
+def placed(urdf, xyz, **more):
+    """Table of a body."""
+    return {"urdf": urdf, "pose": {"xyz": list(xyz)}, **more}
+
+
+def free(urdf, xyz, force=(0, 0, 0), torque=(0, 0, 0)):
+    """Table of a free body under a load [N, N m]."""
+    loads = [{"t": 0.0, "force": list(force), "torque": list(torque)}]
+    return placed(urdf, xyz, base="floating", wrenches=loads)
+
+
+def driven(urdf, xyz, K_q, targets):
+    """Table of a body whose joints have springs."""
+    return placed(urdf, xyz, actuated=list(K_q), K_q=K_q, targets=targets)
+
+
+def of_shapes(shapes, mass, inertia, centre=(0, 0, 0)):
+    """URDF of one link: of each shape its text, where it is, and its yaw."""
+    texts = [
+        f'<collision name="s{i}"><origin xyz="{x} {y} {z}" rpy="0 0 {yaw}"/>'
+        f"<geometry>{shape}</geometry></collision>"
+        for i, (shape, x, y, z, yaw) in enumerate(shapes)
+    ]
+    origin = '<origin xyz="{} {} {}"/>'.format(*centre)
+    return robot(link("b", "".join(texts), urdf_texts.inertial(mass, (inertia,) * 3, origin)))
+
+
+def joint(name, parent, child, axis, kind="prismatic", at=(0, 0, 0)):
+    """A joint whose motor may be of any strength."""
+    text = urdf_texts.joint(name, parent, child, kind, axis, '<origin xyz="{} {} {}"/>'.format(*at))
+    return text.replace('effort="1"', 'effort="1000"')
+
+
+def slides(axes, shape, down=False):
+    """A link `tip` on slides along some axes, in their order; `down` turns z round."""
+    parts = [link("post", inertial="")]
+    parent = "post"
+    for i, axis in enumerate(axes):
+        last = i == len(axes) - 1
+        child = "tip" if last else f"l{i}"
+        way = "0 0 -1" if down and axis == "z" else AXES[axis]
+        parts.append(link(child, collision(shape) if last else "", inertial=""))
+        parts.append(joint(axis, parent, child, way))
+        parent = child
+    return robot(*parts)
+
+
+def fingers(parent, x, y):
+    """Two round fingers `left` and `right` on slides, which close along y."""
+    parts = []
+    for name, side in (("left", 1), ("right", -1)):
+        parts.append(link(name, collision(TIP), inertial=""))
+        parts.append(joint(name, parent, name, f"0 {-side} 0", at=(x, side * y, 0)))
+    return parts
