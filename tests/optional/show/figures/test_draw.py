@@ -1,5 +1,7 @@
 """Scenes are drawn to scale: bodies, contact frames, cones and forces where the numbers say."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -16,7 +18,7 @@ from quasistatic_ref import (
     Sphere,
     load_scenario,
 )
-from quasistatic_ref.optional.show.figures import panels
+from quasistatic_ref.optional.show.figures import Camera, panels
 from quasistatic_ref.optional.show.figures.animation import animate
 from quasistatic_ref.optional.show.figures.draw import PARTS, draw_scene, draw_scenes
 from quasistatic_ref.optional.show.figures.moments import moment
@@ -69,22 +71,53 @@ def test_a_moment_of_no_step_is_refused(incline, k):
         moment(*incline, k)
 
 
+REFUSED = {
+    "view: must be a Camera or one of": lambda axes, of: draw_scene(axes, of, view="zx"),
+    "parts: must be some of": lambda axes, of: draw_scene(axes, of, parts=["force"]),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_view_or_a_part_that_does_not_exist_is_named(incline, page, words):
+    with pytest.raises(InputError, match=words):
+        REFUSED[words](page, moment(*incline, 0))
+
+
+@pytest.mark.parametrize(
+    ("file", "words"),
+    [("blocks.mp4", "cannot be written without ffmpeg"), ("blocks.png", r"must end in \.gif or")],
+)
+def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch, file, words):
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(InputError, match=words):
+        animate(*incline, tmp_path / file)
+
+
 def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     of = moment(*incline, -1)
+    idle = replace(of.contacts[0], state="apart")
+    of = replace(of, contacts=(idle, *of.contacts[1:]))
     draw_scene(page, of, metres_per_newton=0.02, parts=PARTS)
     arrows = [text for text in page.texts if text.arrow_patch is not None]
     loaded = [c for c in of.contacts if c.bears]
-    assert len(arrows) == len(loaded) > 0
-    for arrow, contact in zip(arrows, loaded, strict=True):
+    dots = [line for line in page.lines if line.get_marker() == "o"]
+    filled = [dot.get_xydata()[0] for dot in dots if dot.get_markerfacecolor() != "white"]
+    assert len(arrows) == len(loaded) == len(filled) < len(dots)
+    for arrow, contact, dot in zip(arrows, loaded, filled, strict=True):
         x, _, z = 1e3 * contact.beta
         u, _, w = 1e3 * 0.02 * contact.force
-        assert_relative(arrow.xyann, (x, z), ROUNDING)
+        assert_relative([arrow.xyann, dot], [(x, z), (x, z)], ROUNDING)
         assert_relative(arrow.xy, (x + u, z + w), ROUNDING)
     at = 1e3 * loaded[0].beta[[0, 2]]
     solid = [line.get_xydata() for line in page.lines if line.get_linestyle() == "-"]
     (start, end), *_ = [ends for ends in solid if np.allclose(ends[0], at)]
     unit = (end - start) / np.linalg.norm(end - start)
     np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
+
+
+def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
+    seen = Camera(azimuth=0, elevation=0).seen(np.array([[1.0, 2.0, 3.0]]))
+    assert_relative(seen, [[2, 3, 1]], ROUNDING)
 
 
 def test_panels_have_one_view_and_one_scale_of_forces(incline):
@@ -149,29 +182,10 @@ def test_what_is_drawn_of_a_shape_is_on_it_and_reaches_as_far(shape):
     assert ((points @ axes.T).max(axis=0) >= least).all()
 
 
-def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
-    path = animate(*incline, tmp_path / "blocks.gif", fps=10)
+def test_a_film_has_as_many_frames_a_second_as_were_wanted(incline, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "")  # without ffmpeg
+    path = animate(*incline, tmp_path / "blocks", fps=10)
     assert [p.name for p in tmp_path.iterdir()] == ["blocks.gif"]
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
-
-
-def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(InputError, match="cannot be written without ffmpeg"):
-        animate(*incline, tmp_path / "blocks.mp4")
-    with pytest.raises(InputError, match=r"must end in \.gif or \.mp4"):
-        animate(*incline, tmp_path / "blocks.png")
-    assert animate(*incline, tmp_path / "blocks", fps=4).name == "blocks.gif"
-
-
-@pytest.mark.parametrize(
-    ("words", "field"), [({"view": "zx"}, "view"), ({"parts": ["force"]}, "parts")]
-)
-def test_a_view_or_a_part_that_does_not_exist_is_named(words, field):
-    scenario = load_scenario("block_push", steps=1)
-    of = moment(scenario, scenario.run(progress=False), 0)
-    with pytest.raises(InputError, match=f"{field}: must be"):
-        draw_scene(plt.figure().subplots(), of, **words)
-    plt.close("all")

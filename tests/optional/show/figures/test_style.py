@@ -5,7 +5,7 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref import InputError
-from quasistatic_ref.optional.show.figures import figure_style, style_file
+from quasistatic_ref.optional.show.figures import figure_style, figure_written, style_file
 from quasistatic_ref.optional.show.figures.style import STYLES, legend_above, scaled
 
 
@@ -32,6 +32,15 @@ def test_an_unknown_style_is_refused_with_the_nearest():
     nearest = pytest.raises(InputError, match="is not a style; did you mean 'slides'")
     with nearest, figure_style("slide"):
         pass
+
+
+def test_the_same_figure_has_the_same_bytes_as_png_and_pdf(tmp_path):
+    kinds = {".png": b"\x89PNG", ".pdf": b"%PDF"}
+    one, other = (figure_written(plt.figure(), tmp_path / name, "blank") for name in ("1", "2"))
+    assert [path.suffix for path in one] == list(kinds)
+    for path, again in zip(one, other, strict=True):
+        assert path.read_bytes().startswith(kinds[path.suffix])
+        assert path.read_bytes() == again.read_bytes()
 
 
 @pytest.mark.parametrize("layout", [None, "constrained"])
