@@ -2,24 +2,18 @@
 
 from types import SimpleNamespace
 
-import daqp
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, solve_step, standard_form
+from quasistatic_ref import Extra, solve_step
 from quasistatic_ref.lab.bench.scenes import boxes
-from quasistatic_ref.optional.fast.program import STATUS, NaturalProgram, Program, Workspace
+from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import (
-    StepInBothUnits,
-    hessian_in_both_units,
-    natural_step,
-    units_of,
-)
+from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.groups import Group
 from quasistatic_ref.step.standard_form import StandardForm
-from tests.helpers import changed, error, free_displacement, planted_step, random_step
+from tests.helpers import changed, error, planted_step
 from tests.tolerances import ACTIVE_SET
 
 HALF = np.sqrt(2.0)
@@ -88,31 +82,6 @@ def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
     assert not any(part.any() for part in (program.f, program.A, program.b))
 
 
-def with_own_row(rng):
-    step = random_step(rng)
-    contacts = changed(step.contacts, J=1e-3 * step.contacts.J)
-    return step.replace(contacts=contacts, extra=Extra(("own",), 1e-3 * np.ones((1, 7)), [-1e-3]))
-
-
-def test_the_program_is_the_standard_form_of_the_natural_step(rng):
-    """Written again, it holds nothing of the step before."""
-    solver = FastSolver(with_own_row(rng))
-    for step in (with_own_row(rng), with_own_row(rng)):
-        both = StepInBothUnits(step)
-        assert both.units.length != 1
-        solver.answer(both, 1e-9)
-        expected = standard_form(natural_step(step, both.units))
-        np.testing.assert_array_equal(solver.program.f, -expected.g)
-        np.testing.assert_array_equal(solver.program.A.reshape(-1, 7), expected.A)
-        np.testing.assert_array_equal(solver.program.b, expected.b)
-
-
-def test_a_step_without_rows_needs_no_call(rng):
-    step = random_step(rng, rows=())
-    answer = solve_step(step, FastSolver(step), certify="off")
-    assert error(step, answer.delta_q, free_displacement(step)) <= ACTIVE_SET
-
-
 def test_a_warm_start_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
     step = planted_step(rng)[0]
     solver = FastSolver(step)
@@ -157,12 +126,3 @@ def test_a_step_that_couples_what_the_step_before_did_not_is_solved(rng):
     for one in (step, coupled):
         answer = solve_step(one, solver, certify="off").delta_q
         assert error(one, answer, solve_step(one, "none").delta_q) <= ACTIVE_SET
-
-
-def test_every_exit_flag_of_daqp_has_a_word(rng):
-    """By its manual 1 and 2 are solutions, -1 to -6 are none; -1 is that of no feasible point."""
-    assert sorted(STATUS) == [-6, -5, -4, -3, -2, -1, 1, 2]
-    A = np.array([[1.0], [-1.0]])
-    b = np.array([1.0, 1.0])
-    flag = daqp.solve(np.eye(1), np.zeros(1), A, np.full(2, np.inf), b, np.zeros(2, np.int32))[2]
-    assert STATUS[flag] == "infeasible"

@@ -306,15 +306,3 @@ def test_a_copy_is_a_fast_simulator_of_its_own():
     assert other.simulator is not one.simulator
     q = scenario.system.q_start
     assert bits(other.step(q, goal).q) == bits(one.step(q, goal).q)
-
-
-@needs_compiler
-def test_a_step_that_is_formed_in_c_is_equal_to_the_checked_one():
-    scenario = load_scenario("two_finger_pinch", fast=True)
-    step = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h)).step
-    checked = step.replace(contacts=replace(step.contacts))
-    assert checked == step
-    for name in ("H", "counts", "mask", "offsets"):
-        np.testing.assert_array_equal(getattr(checked, name), getattr(step, name))
-    with pytest.raises(StepDataError, match=r"^tau_u: must contain finite"):
-        step.replace(tau_u=np.full(step.n_u, np.nan))
