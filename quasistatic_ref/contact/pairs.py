@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
@@ -70,9 +69,6 @@ class ContactPair(Plain):
     hull: bool = False
 
     def __post_init__(self) -> None:
-        for key in ("alpha", "beta"):
-            remedy = ", such as system.shapes[0] or PlacedShape.in_world"
-            check_kind(getattr(self, key), PlacedShape, f"{self.name}.{key}", remedy)
         for key in ("mu_v", "mu_omega"):
             friction = checked_array(getattr(self, key), f"{self.name}.{key}", (), ContactError)
             if friction < 0:

@@ -69,7 +69,7 @@ class Body(Plain):
     package_dirs: Sequence[str | Path] = ()
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not self.name or self.name == "world":
+        if not self.name or self.name == "world":
             problem = "must be a name other than 'world'"
             raise ModelError(problem, field="body.name", value=self.name)
         if any(c in "/#*" or c.isspace() for c in self.name):

@@ -269,9 +269,6 @@ class Mechanism(ABC):
         ModelError
             If there is no such name, or a value is not of its kind.
         """
-        if not isinstance(values, Mapping):
-            problem = 'must name joints and bodies, as in {"arm/elbow": 0.3}'
-            raise ModelError(problem, field="values", value=values)
         before = self.q_start if q is None else self.checked(q)
         return self.checked(self.named.placed(before, values))
 
@@ -333,9 +330,6 @@ class Mechanism(ABC):
 
 def _taken(x: ArrayLike, entries: Indices, lengths: set[int], field: str, name: str) -> Array:
     """Entries of the last axis of an array, without that axis if there is one entry."""
-    if not isinstance(x, np.ndarray | list | tuple):
-        problem = f'must be numbers, of one step or of all of a run, run["{field}"]'
-        raise ModelError(problem, field=field, value=x)
     x = checked_numbers(x, field, ModelError)
     if x.ndim == 0 or x.shape[-1] not in lengths or entries.max() >= x.shape[-1]:
         wanted = " or ".join(map(str, sorted(lengths)))

@@ -106,7 +106,7 @@ class System(Mechanism):
     """
 
     def __init__(self, bodies: Sequence[Body]) -> None:
-        self._make(world_of(bodies))
+        self._make(world_of(tuple(bodies)))
 
     def __getstate__(self) -> tuple[World]:
         return (self._world,)

@@ -8,7 +8,6 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.formats.kinds import checked_items
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.together import together
@@ -89,7 +88,7 @@ class World(Plain):
 
 
 @together()
-def world_of(bodies: Sequence[Body]) -> World:
+def world_of(bodies: tuple[Body, ...]) -> World:
     """Load every body's URDF and append it to one model.
 
     Raises
@@ -99,7 +98,7 @@ def world_of(bodies: Sequence[Body]) -> World:
         does not have.
     """
     urdfs: dict[str, Urdf] = {}
-    for body in checked_items(bodies, Body, "bodies"):
+    for body in bodies:
         if body.name in urdfs:
             problem = "is the name of two bodies; rename one"
             raise ModelError(problem, field="body.name", value=body.name)
@@ -130,7 +129,7 @@ def world_of(bodies: Sequence[Body]) -> World:
             joints.append(joint)
             start[joint.q] = position
     return World(
-        bodies=tuple(bodies),
+        bodies=bodies,
         texts=tuple(urdf.text for urdf in urdfs.values()),
         joints=tuple(joints),
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),

@@ -1,7 +1,7 @@
 """Overrides of a scenario's tables before they are read: ``--set`` of a command, or from Python."""
 
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
@@ -37,7 +37,7 @@ def apply_settings(
         If a key is none, or leads to no table; or a value is nested without end.
     """
     before = _second_level(tables)
-    if isinstance(settings, str) or not isinstance(settings, Mapping | Iterable):
+    if isinstance(settings, str):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
     if isinstance(settings, Mapping):

@@ -204,9 +204,6 @@ def load_scenario(
         apply_settings(tables, settings, fields)
         check_sizes(tables)
         return _scenario(HERE, TableReader(tables, error=ScenarioError))
-    if not isinstance(name, str | Path):
-        problem = "must be a file, the name of a scenario of the package, or a mapping"
-        raise ScenarioError(problem, field="name", value=name)
     path = scenario_path(name)
     with about_file(path):
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")

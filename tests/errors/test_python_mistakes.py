@@ -114,11 +114,9 @@ MISTAKES = {
         (lambda: qr.Box(), "half_extents: must be given, or size, twice as long, and not both"),
     ],
     "bodies": [
-        (lambda: qr.System(["arm.urdf"]), r"bodies\[0\]: must be a Body"),
         (lambda: qr.System([ball(actuated=["joint1"])]), "has no such joint; known: base"),
         (lambda: ball(mass=0), "ball.mass: must be greater than 0"),
         (lambda: qr.System([qr.Body("arm", "arm.urdf")]), "arm.urdf: no such file"),
-        (lambda: SYSTEM.placed(Q), "values: must name joints and bodies, as in"),
         (lambda: SYSTEM.of(RUN.delta_q, "block"), "the last axis must have 7 or 14 entries"),
         (lambda: SYSTEM.pose(Q, "blok"), "did you mean 'block'"),
     ],

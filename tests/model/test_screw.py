@@ -5,9 +5,7 @@ import pytest
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.model.joints.continuous import Continuous
 from quasistatic_ref.model.joints.floating import Floating
-from quasistatic_ref.model.joints.planar import Planar
 from tests.closeness import assert_close, assert_within
 from tests.tolerances import ROUNDING
 
@@ -15,8 +13,6 @@ ANGLES = (0.0, 1e-9, 0.3, 3.0)
 LINEAR = (0.3, -0.7, 1.1)
 AXIS = np.array([2.0, -3.0, 6.0]) / 7
 FLOATING = Floating("base", False, slice(1, 8), slice(1, 7))
-PLANAR = Planar("puck", False, slice(1, 5), slice(1, 4))
-CONTINUOUS = Continuous("wheel", False, slice(1, 3), slice(1, 2))
 
 
 def next_entries(joint, q, delta_q):
@@ -55,28 +51,6 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     assert_within(q_next[1:4], expected, ROUNDING * 4)
     found = change(FLOATING, q, q_next)
     assert_within(found, delta_q[1:], 8 * ROUNDING)
-
-
-@pytest.mark.parametrize("angle", ANGLES)
-def test_a_planar_base_moves_by_its_twist_in_its_own_frame(angle):
-    heading = 0.7
-    at = np.array([0.5, -0.25])
-    delta_q = [7.0, 0.3, -0.7, angle]
-    R = screw(np.zeros(3), [0, 0, heading])[0]
-    q = [9.0, *at, np.cos(heading), np.sin(heading)]
-    expected = at + (R @ screw([0.3, -0.7, 0.0], [0.0, 0.0, angle])[1])[:2]
-    expected = [*expected, np.cos(heading + angle), np.sin(heading + angle)]
-    assert_within(next_entries(PLANAR, q, delta_q), expected, ROUNDING * 4)
-    found = change(PLANAR, q, [9.0, *expected])
-    assert_within(found, delta_q[1:], 8 * ROUNDING)
-
-
-@pytest.mark.parametrize("angle", [*ANGLES, -0.3, -3.0])
-def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle):
-    q = [9.0, np.cos(0.7), np.sin(0.7)]
-    q_next = [9.0, np.cos(0.7 + angle), np.sin(0.7 + angle)]
-    np.testing.assert_allclose(change(CONTINUOUS, q, q_next), [angle], atol=ROUNDING)
-    np.testing.assert_allclose(next_entries(CONTINUOUS, q, [0.0, angle]), q_next[1:], atol=ROUNDING)
 
 
 @pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])

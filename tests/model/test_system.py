@@ -1,11 +1,10 @@
 """System: the paper's order, twists in the body frame, poses and Jacobians of links."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, System
-from tests.closeness import assert_close, assert_within
-from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, urdf_of_text
+from tests.closeness import assert_close
+from tests.model.urdf.urdf_texts import inertial, joint, link, robot, urdf_of_text
 from tests.tolerances import ROUNDING
 
 
@@ -22,16 +21,6 @@ def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene):
     units = {coordinate.name: coordinate.unit for coordinate in scene.coordinates}
     assert units["arm/base.z"] == units["arm/slide"] == "m"
     assert units["arm/base.rx"] == units["arm/spin"] == units["arm/swing"] == "rad"
-
-
-def test_a_planar_base_has_three_coordinates_and_starts_where_it_was_put():
-    system = System([Body("box", BOX, "planar", xyz=(0.5, 0.6, 0.7), rpy=(0, 0, 0.3))])
-    coordinates = [(c.name, c.unit) for c in system.coordinates]
-    assert coordinates == [("box/base.x", "m"), ("box/base.y", "m"), ("box/base.rz", "rad")]
-    pose = system.kinematics(system.q_start)
-    R = Rotation.from_euler("z", 0.3).as_matrix()
-    assert_within(pose.t[1], [0.5, 0.6, 0.7], ROUNDING)
-    assert_within(pose.R[1], R, ROUNDING)
 
 
 def test_difference_is_the_inverse_of_integrate(scene, q, rng):

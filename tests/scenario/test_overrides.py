@@ -64,7 +64,7 @@ RECURSIVE = {}
 RECURSIVE["inner"] = RECURSIVE
 
 REFUSED = {
-    "a number": (5, {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "one string": ("h=1", {}, "settings: must be a list of dotted.key=value, or a mapping"),
     "a value that holds itself": ({"h": RECURSIVE}, {}, "h: is nested too deeply, or holds itself"),
     "a keyword that holds itself": ((), {"solver": RECURSIVE}, "solver: is nested too deeply"),
     "a contact that is not there": (

@@ -67,17 +67,6 @@ def scene(tmp_path, monkeypatch):
     return str(scene_written(tmp_path, with_pad))
 
 
-def test_its_distances_of_points_are_those_of_the_formula():
-    corner = HALF
-    beyond = np.array([0.02, 0.03, 0.06])
-    points = np.array([[0.0, 0.1, HALF[2] + 0.05], [0.0, 0.0, 0.03], corner + beyond])
-    phi, normal = PAD.signed_distance(points)
-    away = np.sqrt(beyond @ beyond)
-    assert_relative(phi, [0.05 - RADIUS, -0.01 - RADIUS, away - RADIUS], ROUNDING)
-    np.testing.assert_allclose(normal, [[0, 0, 1], [0, 0, 1], beyond / away], atol=ROUNDING)
-    assert PAD.extent == pytest.approx(2 * (HALF.max() + RADIUS), rel=ROUNDING)
-
-
 @pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace((0, 0, -1.0), 0.05)])
 def test_its_distance_to_other_solids_is_that_of_the_faces(other):
     # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.

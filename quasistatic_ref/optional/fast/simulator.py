@@ -13,7 +13,6 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.formats.kinds import check_kind
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.library import ffi, library, missing
@@ -120,7 +119,6 @@ class FastSimulator(Simulator):
     fast = True
 
     def __init__(self, simulator: Simulator) -> None:
-        check_kind(simulator, Simulator, "simulator", ", such as scenario.simulator()")
         if type(simulator) is not Simulator:
             problem = "has steps of its own, which compiled code does not know"
             raise InputError(problem, field="simulator", value=type(simulator).__name__)
