@@ -213,22 +213,12 @@ def _surface_and_solid(
     path: Path, unit: str | None, notes: list[str]
 ) -> tuple[Array, Solid | None]:
     """Points on the surface, shape (N, 3) [m], and the solid; what was done is added to notes."""
-    vertices = np.zeros((0, 3))
-    triangles = np.zeros((0, 3), dtype=np.int64)
     if path.suffix.lower() in MESHES:
         mesh = loaded_mesh(path)
-        vertices, triangles = mesh.vertices, mesh.triangles
-        if not len(vertices):
+        if not len(mesh.vertices):
             raise InputError("is empty: the file holds no vertices", field="vertices")
-    if len(triangles):
-        vertices = vertices * _metres(vertices, unit)
-        surface = closed_mesh(vertices, triangles, notes)
-        if surface is not None:
-            notes.append(f"a closed mesh of {len(triangles)} triangles")
-            return _points_on(*surface), Solid.of_mesh(*surface)
-        notes.append("the mesh is not closed: its surface is taken as points")
-        points = _points_on(vertices, triangles)
-        return points, _enclosed(points, notes)
+        if len(mesh.triangles):
+            return _of_mesh(mesh.vertices * _metres(mesh.vertices, unit), mesh.triangles, notes)
     written, unseen = seen_points(path)
     written = np.unique(written, axis=0) if len(written) else written
     points = written * _metres(written, unit)
@@ -249,6 +239,18 @@ def _surface_and_solid(
         more = "" if strays.sum() <= 3 else ", ..."
         notes.append(f"{strays.sum()} stray points are left out, at ({where}{more}) mm")
     points = points[~strays]
+    return points, _enclosed(points, notes)
+
+
+def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Array, Solid | None]:
+    """The same of a mesh of vertices, (V, 3) [m], and triangles, (T, 3)."""
+    surface = closed_mesh(vertices, triangles, notes)
+    if surface is not None:
+        notes.append(f"a closed mesh of {len(triangles)} triangles")
+        vertices, triangles = surface
+        return _points_on(vertices, triangles), Solid.of_triangles(vertices[triangles])
+    notes.append("the mesh is not closed: its surface is taken as points")
+    points = _points_on(vertices, triangles)
     return points, _enclosed(points, notes)
 
 

@@ -3,8 +3,6 @@
 import numpy as np
 import trimesh
 from manifold3d import Error, Manifold, Mesh64
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from quasistatic_ref.errors import InputError
@@ -55,8 +53,7 @@ def _joined(vertices: Array, apart: float) -> Indices:
     """For each vertex the number of the first that stands at its place, shape (V,)."""
     _, first, same = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
     pairs = cKDTree(vertices[first]).query_pairs(apart, output_type="ndarray")
-    near = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(first), len(first)))
-    _, group = connected_components(near, directed=False)
+    group = trimesh.graph.connected_component_labels(pairs, len(first))
     _, chosen = np.unique(group, return_index=True)
     return np.asarray(first[chosen[group]][same.ravel()])
 

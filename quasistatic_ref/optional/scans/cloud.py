@@ -1,12 +1,10 @@
 """Points of a scan: strays left out, noise smoothed, thinned."""
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
+import trimesh
 from scipy.spatial import ConvexHull, cKDTree
 
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, Mask
 
 LINKED = 6.0
 """Points of one surface are linked by gaps of at most so many median distances to the nearest."""
@@ -32,15 +30,15 @@ def spacing(points: Array) -> float:
     return float(np.median(distances[:, 1]))
 
 
-def stray(points: Array) -> NDArray[np.bool_]:
+def stray(points: Array) -> Mask:
     """Which points, shape (N, 3) [m], belong to no surface of the others, shape (N,)."""
     n = len(points)
     tree = cKDTree(points)
-    for links in (LINKS // 2, LINKS):  # half of them join most surfaces, in less time
-        away, near = tree.query(points, k=min(links, n))
+    for count in (LINKS // 2, LINKS):  # half of them join most surfaces, in less time
+        away, near = tree.query(points, k=min(count, n))
         of, place = np.nonzero(away < LINKED * np.median(away[:, 1]))
-        linked = csr_array((np.ones(len(of)), (of, near[of, place])), shape=(n, n))
-        _, group = connected_components(linked, directed=False)
+        links = np.stack([of, near[of, place]], axis=1)
+        group = trimesh.graph.connected_component_labels(links, n)
         few = np.bincount(group)[group] < SURFACE
         if not few.any():
             break

@@ -4,17 +4,16 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
+import trimesh
 from scipy.spatial import ConvexHull, Delaunay, QhullError
 
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.scans.cloud import smoothed, spacing
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, Mask
 
-FACES = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
-"""Corners of the face of a tetrahedron that lies across from each of its corners."""
+FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
+"""Corners of the face of a tetrahedron that lies across from each of its corners, wound outwards
+if its volume is positive."""
 PROBE = 3.0
 """Radius of the first probe, in spacings of the points [-]."""
 WIDER = 2.0
@@ -52,27 +51,11 @@ class Solid(Plain):
     gap: float = 0.0
 
     @classmethod
-    def of_tetrahedra(cls, corners: Array, gap: float = 0.0) -> Self:
-        """A solid of tetrahedra, shape (T, 4, 3) [m]; those with negative volume are taken away.
-
-        The integral of x x' over one of them, of volume V and with corners x_i, is
-        V/20 (s s' + sum of x_i x_i'), with s the sum of the x_i.
-        """
-        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
-        sums = corners.sum(axis=1)
-        volume = volumes.sum()
-        centre = volumes @ sums / 4 / volume
-        second = np.einsum("t,ti,tj->ij", volumes, sums, sums)
-        second += np.einsum("t,tki,tkj->ij", volumes, corners, corners)
-        spread = second / 20 / volume - np.outer(centre, centre)
-        return cls(float(volume), centre, np.trace(spread) * np.eye(3) - spread, gap)
-
-    @classmethod
-    def of_mesh(cls, vertices: Array, triangles: Indices) -> Self:
-        """The inside of a closed mesh of vertices, (V, 3) [m], wound outwards, (T, 3)."""
-        middle = vertices[triangles].mean(axis=(0, 1))
-        tops = np.full((len(triangles), 1, 3), middle)
-        return cls.of_tetrahedra(np.concatenate([tops, vertices[triangles]], axis=1))
+    def of_triangles(cls, triangles: Array, gap: float = 0.0) -> Self:
+        """What triangles, shape (T, 3, 3) [m], enclose; they are wound outwards."""
+        middle = triangles.mean(axis=(0, 1))  # far from it sums would lose digits
+        mass = trimesh.triangles.mass_properties(triangles - middle, density=1.0)
+        return cls(float(mass.volume), mass.center_mass + middle, mass.inertia / mass.volume, gap)
 
 
 def solid_of_points(points: Array) -> Solid | None:
@@ -92,10 +75,11 @@ def solid_of_points(points: Array) -> Solid | None:
     points = points + SHAKEN * apart * np.random.default_rng(0).normal(size=points.shape)
     mesh = Delaunay(points)
     corners = points[mesh.simplices]
-    ways = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
-    corners[ways] = corners[ways][:, [1, 0, 2, 3]]  # each volume positive
-    volumes = abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
-    radii = _circumscribed(points[mesh.simplices[:, FACES]])
+    volumes = np.linalg.det(corners[:, 1:] - corners[:, :1])
+    triangles = corners[:, FACES]
+    triangles[volumes < 0] = triangles[volumes < 0][:, :, ::-1]
+    volumes = abs(volumes)
+    radii = _circumscribed(triangles)
     gap = PROBE * apart
     extent = float(np.ptp(points, axis=0).max())
     before: Solid | None = None
@@ -103,7 +87,7 @@ def solid_of_points(points: Array) -> Solid | None:
         one = _largest_unreached(mesh.neighbors, radii > gap, volumes)
         solid = None
         if len(np.unique(mesh.simplices[one])) >= HELD * len(points):
-            solid = Solid.of_tetrahedra(corners[one], gap)
+            solid = Solid.of_triangles(triangles[one].reshape(-1, 3, 3), gap)
         if solid is not None and before is not None and solid.volume < LEAK * before.volume:
             return before
         before = solid
@@ -111,7 +95,7 @@ def solid_of_points(points: Array) -> Solid | None:
     return before
 
 
-def _largest_unreached(neighbours: Indices, passable: NDArray[np.bool_], volumes: Array) -> Indices:
+def _largest_unreached(neighbours: Indices, passable: Mask, volumes: Array) -> Indices:
     """Numbers of the tetrahedra of the largest part that no way leads to from outside.
 
     Parameters
@@ -129,19 +113,18 @@ def _largest_unreached(neighbours: Indices, passable: NDArray[np.bool_], volumes
     return np.flatnonzero(inside & (part == np.bincount(part, volumes * inside).argmax()))
 
 
-def _joined(neighbours: Indices, through: NDArray[np.bool_]) -> Indices:
+def _joined(neighbours: Indices, through: Mask) -> Indices:
     """Number of the part of each tetrahedron, and last of the outside, joined through faces."""
     n = len(neighbours)
     of, face = np.nonzero(through)
-    links = coo_matrix((np.ones(len(of)), (of, neighbours[of, face] % (n + 1))), (n + 1, n + 1))
-    return np.asarray(connected_components(links, directed=False)[1])
+    links = np.stack([of, neighbours[of, face] % (n + 1)], axis=1)
+    return np.asarray(trimesh.graph.connected_component_labels(links, n + 1))
 
 
-def _circumscribed(faces: Array) -> Array:
+def _circumscribed(triangles: Array) -> Array:
     """Radii of the circles through triangles, shape (T, 4, 3, 3) [m] -> (T, 4)."""
-    a, b, c = np.moveaxis(faces, -2, 0)
-    sides = [np.linalg.norm(side, axis=-1) for side in (b - c, c - a, a - b)]
-    twice_area = np.linalg.norm(np.cross(b - a, c - a), axis=-1)
-    product = sides[0] * sides[1] * sides[2]
-    flat = twice_area <= 0
-    return np.where(flat, np.inf, product / np.where(flat, 1.0, 2 * twice_area))
+    sides = np.linalg.norm(triangles - np.roll(triangles, 1, axis=2), axis=3)
+    areas = trimesh.triangles.area(triangles.reshape(-1, 3, 3)).reshape(-1, 4)
+    radii = np.full(areas.shape, np.inf)
+    np.divide(sides.prod(axis=2), 4 * areas, out=radii, where=areas > 0)
+    return radii

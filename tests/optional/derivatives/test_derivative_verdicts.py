@@ -10,7 +10,6 @@ from quasistatic_ref import (
     ContactPair,
     Cylinder,
     Ellipsoid,
-    FastSimulator,
     PointCloud,
     Simulator,
     Sphere,
@@ -212,10 +211,30 @@ def test_a_rim_so_level_that_float64_does_not_know_its_lowest_point(tilt, kind):
     assert np.isnan(found.dq_dtau).all() == kind
 
 
-def test_a_target_half_a_turn_away_is_named():
-    system = System([Body("rail", WHEEL, actuated=("turn",))])
-    simulator = FastSimulator(Simulator(system, [], h=H, K_q=np.eye(1)))
-    found = derivatives(simulator, np.array([1.0, 0.0]), np.array([-1.0, 0.0]))
-    assert [why.kind for why in found.reasons] == [reason.HALF_TURN]
+TURNING = {
+    "a wheel": (Body("hand", WHEEL, actuated=("turn",)), [1, 0], [-1, 0], [0, 1]),
+    "a puck": (
+        Body.of_shape("hand", Sphere(0.05), 0.3, base="planar", actuated=["base"]),
+        [0, 0, 1, 0], [0.1, 0, -1, 0], [0.1, 0, 0, 1],
+    ),
+    "a floating hand": (
+        Body.of_shape("hand", Sphere(0.05), 0.3, actuated=["base"]),
+        [0, 0, 0, 0, 0, 0, 1], [0, 0, 0.1, 0, 0.6, 0.8, 0], [0, 0, 0.1, 0, 0.6, 0, 0.8],
+    ),
+}  # fmt: skip
+"""A body, where it is, a target half a turn away and another one."""
+
+
+@pytest.mark.parametrize("turning", TURNING)
+def test_a_target_half_a_turn_away_is_named(turning):
+    body, q, half, other = (np.array(x) if isinstance(x, list) else x for x in TURNING[turning])
+    # A body that is not actuated has no target.
+    system = System([body, Body.of_shape("ball", Sphere(0.05), 0.3)])
+    simulator = Simulator(system, [], h=H, K_q=np.eye(system.n_a))
+    q = system.with_actuated(system.q_start, q)
+    found = derivatives(simulator, q, half)
+    assert [(why.kind, why.where[0].partition("/")[0]) for why in found.reasons] == [
+        (reason.HALF_TURN, "hand")
+    ]
     assert np.isnan(found.dq_dq_bar_a).all()
-    assert derivatives(simulator, np.array([1.0, 0.0]), np.array([0.0, 1.0])).differentiable
+    assert derivatives(simulator, q, other).differentiable

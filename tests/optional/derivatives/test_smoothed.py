@@ -1,4 +1,4 @@
-"""The smoothed step: differences, and what is refused."""
+"""The smoothed step: differences, a closed form at every size, and what is refused."""
 
 import numpy as np
 import pytest
@@ -7,18 +7,18 @@ from quasistatic_ref import InputError, Sphere, StepNotSolved, smoothed
 from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
+from tests.closeness import assert_relative
+from tests.helpers import point_on_floor
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import rate, unit
-from tests.tolerances import DIFFERENCE_OF_STEPS
+from tests.tolerances import CLOSED_FORM, DIFFERENCE_OF_STEPS
 
-G = 9.81
 NONE = np.zeros(0)
 
 
 @pytest.mark.parametrize("name", ["ellipsoid_capsule_0", "box_cloud_1", "cone_convex_0"])
 @pytest.mark.parametrize("kappa", [1e-4, 1e-8])
-def test_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa):
-    rng = np.random.default_rng(5)
+def test_r36_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa, rng):
     simulator, q, q_bar_a = vector_scene(f"pair/{name}")
     found = smoothed(simulator, q, q_bar_a, kappa)
     assert found.differentiable
@@ -40,6 +40,17 @@ def test_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa):
 
     size = np.abs(found.dq_dtau).max()
     assert np.abs(found.dq_dtau @ e - rate(pressed, 1e-4)).max() <= 10 * DIFFERENCE_OF_STEPS * size
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e-12, 1e12])
+def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
+    """Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z."""
+    kappa = 1e-4 * scale
+    step = point_on_floor(0.3 * scale, 0.0, force=(0.0, 0.0, -2.0 * scale), h=0.01)
+    z = max(np.roots([0.3 * scale / 0.01, 0.01 * 2.0 * scale, -4 * kappa]))
+    barrier = barrier_step(step, kappa)
+    assert_relative(barrier.x, [0.0, 0.0, z], CLOSED_FORM)
+    assert_relative(barrier.lam, kappa / barrier.slack, CLOSED_FORM)
 
 
 def test_what_cannot_be_smoothed_is_refused():

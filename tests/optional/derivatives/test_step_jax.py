@@ -1,4 +1,4 @@
-"""Steps as functions of JAX: its own check of gradients, and no number at a kink unsaid."""
+"""Steps as functions of JAX: its own check of gradients, kinks, the arguments of a step."""
 
 from importlib import import_module
 
@@ -167,8 +167,6 @@ def test_a_wrong_question_is_refused_in_a_sentence():
         step_jax(simulator, "one-sided")
     with pytest.raises(InputError, match="kappa: has no derivative"):
         jax.grad(lambda kappa: smoothed_jax(simulator)(q, NONE, kappa)[0][2])(1e-6)
-    with jax.enable_x64(False), pytest.raises(InputError, match="must be float64"):
-        step_jax(simulator)(q, NONE)
 
 
 SECOND = {
@@ -189,10 +187,69 @@ def test_second_derivatives_are_refused_in_a_sentence(twice):
 
 def test_elements_of_a_vmap_are_steps_taken_once(monkeypatch):
     simulator, q = body_at_rest(Sphere(RADIUS), RADIUS)
+    end = simulator.step(q, NONE).q
     taken = []
     step_of = type(simulator).step
-    monkeypatch.setattr(type(simulator), "step", lambda *given: taken.append(1) or step_of(*given))
+    monkeypatch.setattr(type(simulator), "step", lambda *args: taken.append(1) or step_of(*args))
     step = step_jax(simulator)
+    three = np.tile(q, (3, 1))
+    np.testing.assert_array_equal(jax.vmap(lambda q: step(q, NONE)[0])(three), [end] * 3)
+    taken.clear()
     by_q = jax.jit(jax.vmap(jax.jacfwd(lambda q: step(q, NONE)[0])))
-    jax.block_until_ready(by_q(np.tile(q, (3, 1))))
+    jax.block_until_ready(by_q(three))
     assert len(taken) == 3
+
+
+WRONG = {
+    "a number": lambda q, target: (q, target, 0.5),
+    "seven entries": lambda q, target: (q, target, np.zeros(7)),
+    "a batch": lambda q, target: (np.stack([q, q]), np.stack([target, target])),
+    "a short target": lambda q, target: (q, target[:6]),
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG)
+@pytest.mark.parametrize("how", [lambda step: step, jax.jit], ids=["alone", "jit"])
+def test_arguments_have_the_shapes_of_simulator_step(wrong, how):
+    simulator, q, target = floating_hand_and_body()
+    arguments = WRONG[wrong](q, target)
+    with pytest.raises(InputError):
+        simulator.step(*arguments)
+    with pytest.raises(InputError, match=r"must have shape .*jax\.vmap"):
+        how(step_jax(simulator))(*arguments)
+
+
+def test_whole_numbers_are_numbers_and_float32_is_named():
+    simulator, q, target = floating_hand_and_body()
+    step = step_jax(simulator)
+    force = 3 * np.arange(12)
+    np.testing.assert_array_equal(step(q, target, force)[0], simulator.step(q, target, force).q)
+    np.testing.assert_array_equal(step(q, target, 0)[0], simulator.step(q, target).q)
+    smooth = smoothed_jax(simulator)
+    np.testing.assert_array_equal(smooth(q, target, 1)[0], smooth(q, target, 1.0)[0])
+    with pytest.raises(InputError, match=r"q: must be float64; make it so .*float32"):
+        step(q.astype(np.float32), target)
+    with pytest.raises(InputError, match="kappa: must be float64; make it so"):
+        smooth(q, target, np.float32(1e-6))
+    with jax.enable_x64(False), pytest.raises(InputError, match="jax_enable_x64"):
+        step(q, target)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0, True, "1e-9", [1e-9, 1e-9]])
+def test_what_is_no_weight_and_no_distance_is_refused(bad):
+    simulator, q, target = floating_hand_and_body()
+    with pytest.raises(InputError, match="kappa"):
+        smoothed(simulator, q, target, bad)
+    with pytest.raises(InputError, match="nearly"):
+        derivatives(simulator, q, target, nearly=bad)
+    with pytest.raises(InputError, match="nearly"):
+        step_jax(simulator, nearly=bad)
+    with pytest.raises(InputError, match="kappa"):
+        step_jax(simulator, "smoothed", kappa=bad)
+
+
+def test_under_jit_an_error_about_values_is_jax_s():
+    simulator, q, target = floating_hand_and_body()
+    step = jax.jit(step_jax(simulator))
+    with pytest.raises(jax.errors.JaxRuntimeError, match="finite"):
+        jax.block_until_ready(step(np.full_like(q, np.nan), target))

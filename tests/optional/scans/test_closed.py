@@ -19,7 +19,7 @@ def solid(vertices, faces, *words):
     surface = closed_mesh(vertices, faces, notes)
     assert len(notes) == len(words)
     assert all(word in note for word, note in zip(words, notes, strict=True))
-    return surface and Solid.of_mesh(*surface)
+    return surface and Solid.of_triangles(surface[0][surface[1]])
 
 
 def joined(*meshes):

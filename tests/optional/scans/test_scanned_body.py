@@ -10,13 +10,11 @@ from scipy.spatial import cKDTree
 import quasistatic_ref as qr
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.scans.cloud import stray, thinned
+from quasistatic_ref.optional.scans.cloud import thinned
 from quasistatic_ref.optional.scans.lying import points_to_lie_on
-from quasistatic_ref.optional.scans.solid import Solid
 from quasistatic_ref.scenario.scenario import scenario_path
 from tests.closeness import assert_relative, assert_within
 from tests.oracles.scanned import SCANS, SOLIDS, on_block
-from tests.tolerances import ROUNDING
 
 WITHIN, WITH_HOLES = 0.05, 0.10
 """Errors of mass properties that are asked for, over the extent or the largest moment."""
@@ -60,12 +58,6 @@ def test_a_scan_in_millimetres_is_asked_for_its_unit(tmp_path):
         body(tmp_path, points, unit="mmm")
 
 
-def test_a_density_gives_the_mass(tmp_path):
-    points, (volume, *_) = SOLIDS["box"](np.random.default_rng(2), 3000)
-    made = body(tmp_path, points, mass=None, density=700.0)
-    assert made.mass == pytest.approx(700.0 * volume, rel=0.02)
-
-
 def test_a_closed_mesh_is_exact(tmp_path):
     """The bunny of models/, whose URDF was summed by its own program from the same mesh."""
     folder = scenario_path("bunny_grasp").parent
@@ -81,18 +73,6 @@ def test_the_papers_cloud_of_992_points_is_enough():
     of_mesh = qr.scanned_body(folder / "bunny.obj", mass=0.2)
     assert abs(made.centre - of_mesh.centre).max() < 0.0016
     assert abs(made.inertia - of_mesh.inertia).max() < 0.05 * of_mesh.inertia.max()
-
-
-def test_the_inertia_of_a_tetrahedron(tmp_path):
-    """Corners 0, e1, e2, e3: V = 1/6, centre 1/4; about it x x' has 3/80 and -1/80 on average.
-
-    So each moment is 2 * 3/80, and each product of inertia +1/80.
-    """
-    solid = Solid.of_tetrahedra(np.array([np.vstack([np.zeros(3), np.eye(3)])]))
-    assert solid.volume == pytest.approx(1 / 6, rel=ROUNDING)
-    assert_relative(solid.centre, 0.25, ROUNDING)
-    expected = np.full((3, 3), 1 / 80) + np.eye(3) * (6 / 80 - 1 / 80)
-    assert_relative(solid.gyration, expected, 1e-12)
 
 
 def test_a_wide_gap_is_doubted(tmp_path):
@@ -111,14 +91,6 @@ def test_a_face_and_what_encloses_nothing_is_refused(tmp_path):
         body(tmp_path, flat[:20])
     with pytest.raises(InputError, match="say one of them"):
         body(tmp_path, flat, mass=None)
-
-
-def test_two_close_strays_are_strays():
-    """They are 0.1 mm apart, and link to each other only."""
-    rng = np.random.default_rng(5)
-    points = on_block(rng, 4000, (0.1, 0.1, 0.1))
-    pair = np.array([[0.2, 0.0, 0.0], [0.2001, 0.0, 0.0]])
-    assert stray(np.concatenate([points, pair])).tolist() == [False] * 4000 + [True] * 2
 
 
 def test_thinned_points_keep_the_corners_and_cover_the_rest():

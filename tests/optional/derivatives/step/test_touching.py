@@ -12,14 +12,11 @@ from quasistatic_ref.optional.derivatives.step.touching import (
     BEARING,
     SHARE,
     TOUCHING,
-    _most,
     bearing,
     touching_rows,
 )
 from quasistatic_ref.tolerances import FILLED, SPLIT
-from tests.closeness import assert_close
 from tests.helpers import changed, point_on_floor
-from tests.tolerances import ROUNDING
 
 
 def test_a_multiplier_is_nothing_compared_with_the_size_of_the_step():
@@ -55,19 +52,6 @@ def test_without_a_load_rows_that_face_each_other_bear_all_the_same():
     """For each t, t a_1 + t a_2 = 0: both bear in some optimal lam. The last row does in none."""
     rows = np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]])
     assert bearing(rows, np.zeros(3), 0.0).tolist() == [True, True, False]
-
-
-def test_the_most_that_a_row_bears_is_what_the_others_can_add_to_the_load():
-    """The load z is s (1, 0, 0) + |f| f / |f| with f = (-s, 0, 1): the first row bears s.
-
-    It is below SHARE, which is tried first. With f = (s, 0, 1) it bears nothing.
-    """
-    s = SHARE / 10
-    for side, most in ((-s, s), (s, 0.0)):
-        f = np.array([side, 0.0, 1.0])
-        rows = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], f / np.linalg.norm(f)])
-        found = _most(rows, rows[1], 0)
-        assert_close(found, [most, 0.0, bool(most) * np.linalg.norm(f)], ROUNDING)  # fmt: skip
 
 
 def answer(step, lam):
