@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref import Extra, solve_step
 from quasistatic_ref.lab.bench.scenes import boxes
+from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.fast.program import NaturalProgram, Program, Workspace
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.reply import Reply
@@ -108,6 +109,9 @@ def test_boxes_that_cannot_touch_are_groups_of_their_own(rng):
     answer = solve_step(step, solver, certify="off")
     assert error(step, answer.delta_q, solve_step(step, "none").delta_q) <= ACTIVE_SET
     assert answer.statistics.iterations > 3
+    lifted = step.replace(contacts=repeated(step.contacts, range(8)))  # the third has no rows
+    free = solve_step(lifted, FastSolver(lifted), certify="off").delta_q
+    assert error(lifted, free, solve_step(lifted, "none").delta_q) <= ACTIVE_SET
     coupled = step.replace(extra=Extra(("rod",), np.ones((1, 18)), [-1.0]))
     joined = FastSolver(coupled)
     assert len(joined.program.groups) == 1
