@@ -31,9 +31,7 @@ def solid_size(pair: ContactPair) -> Array | None:
     return np.array([*solid.core[0], solid.core[1]]) if isinstance(solid, Rounded) else None
 
 
-def cloud(
-    pair: ContactPair, size: Array, poses: Poses, written: dict[str, Array | Indices]
-) -> Structure:
+def cloud(pair: ContactPair, size: Array, poses: Poses, written: ClosestPoints) -> Structure:
     """``Cloud`` of fast.h.
 
     Parameters
@@ -42,8 +40,8 @@ def cloud(
     size : ndarray, shape (4,)
         Of its :func:`solid_size` [m; -].
     poses : Poses
-    written : dict of str to ndarray
-        Where its contacts go, shapes (n_c,) and (n_c, 3) [m; of a normal -].
+    written : ClosestPoints
+        Where its contacts go.
     """
     first = isinstance(pair.alpha.shape, PointCloud)
     side, other = (pair.alpha, pair.beta) if first else (pair.beta, pair.alpha)
@@ -60,7 +58,11 @@ def cloud(
         "cloud_on_link": np.column_stack([side.R, side.t]),
         "point": points.T,
         "distance": np.zeros(len(points)),
-        **written,
+        "phi": written.phi,
+        "n": written.n,
+        "alpha": written.alpha,
+        "beta": written.beta,
+        "index": written.point,
         "R_solid": int(poses.R[other.link]),
         "t_solid": int(poses.t[other.link]),
         "R_cloud": int(poses.R[side.link]),
@@ -93,14 +95,7 @@ class Closest:
             if size is None:
                 self._by_core.append((pair, out))
             else:
-                names: dict[str, Array | Indices] = {
-                    "phi": out.phi,
-                    "n": out.n,
-                    "alpha": out.alpha,
-                    "beta": out.beta,
-                    "index": out.point,
-                }
-                self._by_c.append((cloud(pair, size, poses, names), pair, out))
+                self._by_c.append((cloud(pair, size, poses, out), pair, out))
 
     def write(self) -> None:
         """Write the contacts at the poses; ContactError as of ``closest_points``."""

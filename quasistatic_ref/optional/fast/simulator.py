@@ -216,12 +216,11 @@ class FastSimulator(Simulator):
         natural = self._natural
         if (
             not isinstance(solver, FastSolver)
-            or natural is None
+            or not natural
             or natural.program is not solver.program
         ):
-            self.solver = solver = FastSolver(
-                self._steps.template
-            )  # whose J has no zeros by chance
+            # The template's J has no zeros by chance.
+            self.solver = solver = FastSolver(self._steps.template)
             self._natural = natural = NaturalProgram(self._steps, solver.program)
         hessian = self._hessian
         units = None
@@ -248,17 +247,18 @@ class FastSimulator(Simulator):
         kinematics = self.system.kinematics(q)
         plain_points = self.closest_points(kinematics)
         plain = self.step_data(q, q_bar_a, force, plain_points, kinematics)
-        if not (plain == step and bits(points) == bits(plain_points)):
+        if plain != step or bits(points) != bits(plain_points):
+            return False
+        if cone(self.cone).polyhedral and bits(form) != bits(standard_form(plain)):
             return False
         if both is None:
-            return not cone(self.cone).polyhedral or bits(form) == bits(standard_form(plain))
+            return True
         assert self._natural is not None
         program = self._natural.program
-        written = [program.f + 0.0, program.A + 0.0, program.b + 0.0]
-        in_c = self._natural.write(both.hessian)
-        also = [program.f + 0.0, program.A + 0.0, program.b + 0.0]
-        same = in_c is None or (bits(written) == bits(also) and in_c[1:] == both.units[1:])
-        return same and bits(form) == bits(standard_form(plain))
+        by_core = bits((program.f, program.A, program.b))
+        units = self._natural.write(both.hessian)
+        by_c = bits((program.f, program.A, program.b))
+        return units is None or (by_c == by_core and units[1:] == both.units[1:])
 
     def _solution(self, step: StepData, both: StepInBothUnits | None, q: Array) -> StepSolution:
         """The solution of a step from q, (n_q,); errors as of the plain path."""

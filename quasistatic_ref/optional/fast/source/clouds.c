@@ -26,13 +26,6 @@ static void relative_pose(const double *solid, const double *other, double *pose
     }
 }
 
-/* The point p of a cloud, whose coordinates stand axis by axis. */
-static void point_of(const Cloud *s, int64_t p, double *out)
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = s->point[i * s->points + p];
-}
-
 /* shapes/half_space, `signed_distance`, of all points of the cloud. */
 static void to_half_space(const Cloud *s, const double *pose, double *restrict distance)
 {
@@ -45,6 +38,16 @@ static void to_half_space(const Cloud *s, const double *pose, double *restrict d
     }
 }
 
+/* How far x is beyond each pair of faces of a box, and how far it is outside. */
+static inline double outside_of(const double *half, const double *x, double *excess, double *beyond)
+{
+    for (int i = 0; i < 3; i++) {
+        excess[i] = fabs(x[i]) - half[i];
+        beyond[i] = larger(excess[i], 0.0);
+    }
+    return sqrt(dot(beyond, beyond));
+}
+
 /* shapes/rounded, `distance_to_rounded_box`, of all points of the cloud. */
 static void to_core(const Cloud *s, const double *pose, double *restrict distance)
 {
@@ -53,24 +56,16 @@ static void to_core(const Cloud *s, const double *pose, double *restrict distanc
     for (int64_t p = 0; p < s->points; p++) {
         double at[3] = {px[p], py[p], pz[p]}, x[3], beyond[3], excess[3];
         carried(pose, at, x);
-        for (int i = 0; i < 3; i++) {
-            excess[i] = fabs(x[i]) - half[i];
-            beyond[i] = larger(excess[i], 0.0);
-        }
+        double outside = outside_of(half, x, excess, beyond);
         double inside = larger(larger(excess[0], excess[1]), excess[2]);
-        distance[p] = sqrt(dot(beyond, beyond)) + smaller(inside, 0.0) - radius;
+        distance[p] = outside + smaller(inside, 0.0) - radius;
     }
 }
 
 /* shapes/rounded, `distance_to_rounded_box`: the normal. */
 static void normal_of_core(const double *size, const double *x, double *normal)
 {
-    double excess[3], beyond[3];
-    for (int i = 0; i < 3; i++) {
-        excess[i] = fabs(x[i]) - size[i];
-        beyond[i] = larger(excess[i], 0.0);
-    }
-    double outside = sqrt(dot(beyond, beyond));
+    double excess[3], beyond[3], outside = outside_of(size, x, excess, beyond);
     int face = excess[1] > excess[0] ? 1 : 0;
     if (excess[2] > excess[face])
         face = 2;
@@ -82,14 +77,16 @@ static void normal_of_core(const double *size, const double *x, double *normal)
    or is inside. Then Python says which one the normal is of. */
 static int faces_tie(const double *size, const double *x, double phi, double within)
 {
-    double most = -INFINITY;
+    double height[FACES], most = -INFINITY;
     int level = 0;
     if (size[3] != 0.0 || phi > within)
         return 0;
+    for (int f = 0; f < FACES; f++) {
+        height[f] = (f < 3 ? x[f] : -x[f - 3]) - size[f % 3];
+        most = larger(most, height[f]);
+    }
     for (int f = 0; f < FACES; f++)
-        most = larger(most, (f < 3 ? x[f] : -x[f - 3]) - size[f % 3]);
-    for (int f = 0; f < FACES; f++)
-        level += (f < 3 ? x[f] : -x[f - 3]) - size[f % 3] >= most - within;
+        level += height[f] >= most - within;
     return level > 1;
 }
 
@@ -150,7 +147,8 @@ int closest_of_cloud(const Cloud *s)
         places += fabs(solid[4 * k + 3]) + fabs(cloud[4 * k + 3]);
     for (int64_t j = 0; j < s->count; j++) {
         double at[3], x[3], normal[3], n[3], on_solid[3], on_cloud[3], phi = s->phi[j] + 0.0;
-        point_of(s, s->index[j], at);
+        for (int i = 0; i < 3; i++) /* coordinates stand axis by axis */
+            at[i] = s->point[i * s->points + s->index[j]];
         carried(pose, at, x);
         if (s->is_half_space)
             for (int i = 0; i < 3; i++)
