@@ -121,7 +121,7 @@ def bytes_written(path: str | Path, content: bytes) -> Path:
 
 
 def bytes_read(
-    path: str | Path, error: type[InputError] = InputError, largest: int | None = None
+    path: str | Path, error: type[InputError] = InputError, largest: int = LARGEST
 ) -> bytes:
     """The content of a file.
 
@@ -130,8 +130,8 @@ def bytes_read(
     path : str or Path
     error : type
         The :class:`~quasistatic_ref.errors.InputError` to raise.
-    largest : int, optional
-        Largest size that is read [bytes]; ``LARGEST`` by default.
+    largest : int
+        Largest size that is read [bytes].
 
     Raises
     ------
@@ -139,14 +139,13 @@ def bytes_read(
         If it is missing, not a file, not readable, or larger than any input should be.
     """
     path = Path(path)
-    most = LARGEST if largest is None else min(largest, LARGEST)
     try:
         status = path.stat()
         # Devices and pipes may never end, or never begin.
         if not stat.S_ISREG(status.st_mode) and not stat.S_ISDIR(status.st_mode):
             raise error("cannot be read: it is a device or a pipe, not a file", file=path)
-        if status.st_size > most:
-            raise error(f"is larger than {most / 2**20:g} MiB", file=path)
+        if status.st_size > largest:
+            raise error(f"is larger than {largest / 2**20:g} MiB", file=path)
         return path.read_bytes()
     except FileNotFoundError:
         raise error("no such file", file=path) from None

@@ -112,5 +112,7 @@ def test_the_power_of_a_load_is_force_times_velocity_of_its_point():
             omega = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
             power = force @ velocity + torque @ omega
             assert tau @ delta_q == pytest.approx(power, abs=1e-4)
+            there = SYSTEM.integrate(q, 0.1 * delta_q)
+            np.testing.assert_allclose(SYSTEM.difference(q, there), 0.1 * delta_q, atol=1e-14)
     with pytest.raises(ModelError, match="name: has a fixed base, so a load has no effect"):
         SYSTEM.load(q, "rail", force=(1, 0, 0))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -62,6 +62,23 @@ FileShape = Shape | FileMesh
 """A shape as written."""
 
 
+class FileCollision(NamedTuple):
+    """A collision shape as written.
+
+    Parameters
+    ----------
+    name : str or None
+    shape : FileShape
+    R, t : ndarray, shapes (3, 3) and (3,)
+        Its frame in the link's [-, m].
+    """
+
+    name: str | None
+    shape: FileShape
+    R: Array
+    t: Array
+
+
 @dataclass(frozen=True, eq=False)
 class FileLink:
     """A link as written.
@@ -75,10 +92,7 @@ class FileLink:
         Centre of mass in the link's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of (FileShape, R (3, 3), t (3,))
-        Each shape and its frame in the link's [m].
-    named : tuple of (str or None)
-        The name of each, where its ``collision`` has one.
+    collisions : tuple of FileCollision
     defect : Defect or None
         Why no rigid body has this inertia; an error where an un-actuated joint moves the link.
     digit : float
@@ -89,10 +103,9 @@ class FileLink:
     mass: float
     com: Array
     inertia: Array
-    collisions: tuple[tuple[FileShape, Array, Array], ...]
-    defect: Defect | None = None
-    named: tuple[str | None, ...] = ()
-    digit: float = 0.0
+    collisions: tuple[FileCollision, ...]
+    defect: Defect | None
+    digit: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,11 +167,13 @@ def _content(path: Path, text: str) -> UrdfFile:
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
-    Tag(robot, "robot").text("name")
+    ignored: list[str] = []
+    top = Tag(robot, "robot", ignored)
+    top.text("name")
     notes = []
     if "xmlns" in robot.attrib:
         notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
-    ignored = Tag(robot, "robot").ignored("link", "joint", attributes=_ROBOT)
+    top.pass_over("link", "joint", attributes=_ROBOT)
     links: dict[str, FileLink] = {}
     counts = {
         "links": (len(robot.findall("link")), MOST_LINKS),
@@ -188,33 +203,29 @@ def _content(path: Path, text: str) -> UrdfFile:
 
 def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
     name = Tag(element, "link").text("name")
-    link = Tag(element, f"link[{name}]")
-    ignored += link.ignored("inertial", "collision", attributes=("name",))
-    mass, com, inertia, defect, digit = _inertial(link, ignored)
+    link = Tag(element, f"link[{name}]", ignored)
+    link.pass_over("inertial", "collision", attributes=("name",))
+    mass, com, inertia, defect, digit = _inertial(link)
     collisions = []
-    named = []
     for number, each in enumerate(element.findall("collision")):
-        collision = Tag(each, f"{link.where}.collision[{number}]")
-        ignored += collision.ignored("origin", "geometry", attributes=("name",))
+        collision = Tag(each, f"{link.where}.collision[{number}]", ignored)
+        collision.pass_over("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
         shape = written_shape(collision, notes)
-        ignored += collision.child("geometry").ignored(*_GEOMETRIES)
-        ignored += collision.unread
+        collision.child("geometry").pass_over(*_GEOMETRIES)
         if shape is None:
             notes.append(f"{collision.where}: left out, since its shape has no size")
             continue
-        collisions.append((shape, R, t))
-        named.append(each.get("name"))
-    ignored += link.unread
-    return FileLink(name, mass, com, inertia, tuple(collisions), defect, tuple(named), digit)
+        collisions.append(FileCollision(each.get("name"), shape, R, t))
+    return FileLink(name, mass, com, inertia, tuple(collisions), defect, digit)
 
 
-def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None, float]:
+def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
     """Mass [kg], centre of mass (3,) [m], inertia (3, 3) [kg m^2] along the link's axes; digit."""
     inertial = link.perhaps("inertial")
     if inertial is None:
         return 0.0, np.zeros(3), np.zeros((3, 3)), None, 0.0
-    ignored += inertial.ignored("origin", "mass", "inertia")
+    inertial.pass_over("origin", "mass", "inertia")
     R, com = inertial.frame()
     mass = inertial.child("mass", "value").number("value")
     if mass < 0:
@@ -283,17 +294,22 @@ def written_shape(collision: Tag, notes: list[str]) -> FileShape | None:
         if not (scale != 0).all():
             return None
         return FileMesh(shape.text("filename").strip(), scale)
-    names = [name for name in _GEOMETRIES[kind] if kind != "box"]
-    sizes = [*shape.numbers("size", 3)] if kind == "box" else [*map(shape.number, names)]
+    if kind == "box":
+        sizes = shape.numbers("size", 3).tolist()
+    else:
+        sizes = [shape.number(name) for name in _GEOMETRIES[kind]]
     if min(sizes) == 0 and not (kind == "capsule" and sizes[0] > 0):
         return None
     try:
-        if kind == "box":
-            return Box(shape.numbers("size", 3) / 2)
-        radius = shape.number("radius")
-        if kind == "sphere":
-            return Sphere(radius)
-        return (Capsule if kind == "capsule" else Cylinder)(radius, shape.number("length") / 2)
+        match kind:
+            case "box":
+                return Box(size=sizes)
+            case "sphere":
+                return Sphere(*sizes)
+            case "capsule":
+                return Capsule(sizes[0], length=sizes[1])
+            case _:
+                return Cylinder(sizes[0], length=sizes[1])
     except ModelError as error:
         written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
         if error.field in written:  # about a size: name it as the file does
@@ -307,7 +323,7 @@ def _joint(
     element: Element, ignored: list[str], notes: list[str], limits_needed: bool
 ) -> FileJoint:
     name = Tag(element, "joint").text("name")
-    joint = Tag(element, f"joint[{name}]")
+    joint = Tag(element, f"joint[{name}]", ignored)
     kind = joint.text("type")
     if kind != "fixed" and kind not in _MOVING:
         problem = f"this type is not supported; use {', '.join(_MOVING)} or fixed"
@@ -315,10 +331,10 @@ def _joint(
             problem += ', or base = "floating" where the whole body floats'
         raise ModelError(problem, field=f"{joint.where}.type", value=kind)
     read = ("origin", "parent", "child", "axis", "mimic", "dynamics")
-    ignored += joint.ignored(*read, attributes=("name", "type"))
+    joint.pass_over(*read, attributes=("name", "type"))
     dynamics = joint.perhaps("dynamics")
     if dynamics is not None:  # a scenario may read the friction
-        ignored += dynamics.ignored()
+        dynamics.pass_over()
     R, t = joint.frame()
     parent, child = (joint.child(end, "link").text("link") for end in ("parent", "child"))
     axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
@@ -337,7 +353,6 @@ def _joint(
     if kind == "fixed" and mimic is not None:
         ignored.append(f"{joint.where}.mimic")
         mimic = None
-    ignored += joint.unread
     return FileJoint(name, kind, parent, child, R, t, axis, mimic, bounded)
 
 

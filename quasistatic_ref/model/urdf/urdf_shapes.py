@@ -18,7 +18,7 @@ from quasistatic_ref.model.readers.mesh_files import (
 )
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
-from quasistatic_ref.shapes.placed_shape import PlacedShape, Sphere
+from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, Sphere
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
 
@@ -106,29 +106,31 @@ def checked_shapes(
     """
     shapes = []
     notes = []
-    every = [name for link in file.links.values() for name in (link.name, *link.named)]
+    names = [link.name for link in file.links.values()]
+    names += [one.name for link in file.links.values() for one in link.collisions if one.name]
     for number, (link, frame) in enumerate(zip(links, frames, strict=True)):
         collisions = file.links[link].collisions
         loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
         where = f"link[{link}].collision"
         if len(loaded) != len(collisions):
-            capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in collisions)
+            capsules = any(isinstance(written.shape, Capsule) for written in collisions)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
             problem = (
                 f"only {len(loaded)} of its shapes were loaded, "
                 f"for the reason printed on standard error{hint}"
             )
             raise ModelError(problem, field=where, value=len(collisions))
-        for count, ((shape, R, t), of_pinocchio) in enumerate(zip(collisions, loaded, strict=True)):
+        for count, (written, of_pinocchio) in enumerate(zip(collisions, loaded, strict=True)):
+            shape = written.shape
             placement = model.frames[frame].placement.actInv(of_pinocchio.placement)
-            written = IN_PLACE if isinstance(shape, FileMesh) else shape
-            same = (of_pinocchio.meshScale == 1).all() and of_pinocchio.geometry == written.coal
-            if not (same and same_pose(placement, R, t)):
+            solid = IN_PLACE if isinstance(shape, FileMesh) else shape
+            same = (of_pinocchio.meshScale == 1).all() and of_pinocchio.geometry == solid.coal
+            if not (same and same_pose(placement, written.R, written.t)):
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
-            written_name = file.links[link].named[count]
-            usable = written_name and _usable(written_name, every)
-            name = written_name if written_name and usable else f"{link}#{count}"
+            name = f"{link}#{count}"
+            if written.name and _usable(written.name, names):
+                name = written.name
             if isinstance(shape, FileMesh):
                 with about_field(f"{where}[{count}].mesh"):
                     path = mesh_path(shape.uri, file.path.parent, package_dirs)
@@ -151,7 +153,7 @@ def checked_shapes(
     return tuple(shapes), tuple(notes)
 
 
-def _usable(name: str, every: Sequence[str | None]) -> bool:
+def _usable(name: str, every: Sequence[str]) -> bool:
     """Whether a collision's name means nothing else among the links and shapes of its file."""
     return every.count(name) == 1 and not any(c in "/#*?[" or c.isspace() for c in name)
 

@@ -82,7 +82,7 @@ class Tag:
     where : str
         E.g. ``link[base].inertial``.
     unread : list of str
-        Attributes below it that nothing reads, shared by the elements that are read of it.
+        Elements and attributes that nothing reads, shared by all elements that are read of it.
     """
 
     element: Element
@@ -172,8 +172,8 @@ class Tag:
             raise ModelError("is missing", field=f"{self.where}.{tag}")
         return child
 
-    def ignored(self, *read: str, attributes: Sequence[str] = ()) -> list[str]:
-        """Names of the children and attributes that are not read.
+    def pass_over(self, *read: str, attributes: Sequence[str] = ()) -> None:
+        """Note the children and attributes that are not read.
 
         Parameters
         ----------
@@ -189,8 +189,8 @@ class Tag:
         """
         tags = [child.tag for child in self.element]
         names = [name for name in self.element.attrib if not name.startswith("xmlns")]
-        ignored = self._unknown(names, attributes, 0.8) + self._unknown(tags, read, 0.8)
-        return list(dict.fromkeys(ignored))
+        unread = self._unknown(names, attributes, 0.8) + self._unknown(tags, read, 0.8)
+        self.unread.extend(dict.fromkeys(unread))
 
     def _unknown(self, names: Sequence[str], known: Sequence[str], alike: float) -> list[str]:
         ignored = []
