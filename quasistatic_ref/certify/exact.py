@@ -31,7 +31,7 @@ from quasistatic_ref.certify.norm import energy_norm, single_loads
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group, group_steps, groups
+from quasistatic_ref.step.groups import Group, group_step, group_steps, groups
 from quasistatic_ref.step.standard_form import standard_form
 
 ILL_POSED: Final = 1e6
@@ -172,12 +172,12 @@ def optimum_by_groups(
     """The same, however long it is, from the groups of the step; StepInfeasible as above."""
     optima: list[tuple[Group, ExactOptimum]] = []
     for group in parts:
-        whole = len(group.coordinates) == step.n_v and len(group.rows) == step.m
-        form = StepForm(step, None if whole else group)
+        part = group_step(step, group)
+        form = StepForm(part)
         optimum = form_optimum(form, group.within(warm))
         if isinstance(optimum, Farkas):
             raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
-        if whole:
+        if part is step:
             return optimum
         optima.append((group, optimum))
     delta_q = np.zeros(step.n_v)
@@ -231,8 +231,7 @@ def check_length(step: StepData, delta_q: Array, parts: Sequence[Group]) -> None
     if surely_short(step, delta_q, parts):
         return
     lengths = [
-        relative_length(group_step, delta_q[group.coordinates])
-        for group, group_step in group_steps(step)
+        relative_length(part, delta_q[group.coordinates]) for group, part in group_steps(step)
     ]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:

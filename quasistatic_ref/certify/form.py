@@ -32,8 +32,7 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.groups import Group, split
+from quasistatic_ref.step.data import Array, StepData
 
 EXACT: Final = 1 << 30
 """Bits at which no sum or product is rounded. What is short costs no more than at few bits."""
@@ -207,13 +206,11 @@ class MatrixForm(ExactForm):
 
 
 class StepForm(ExactForm):
-    """The program of a step, or of a group of one.
+    """The program of a step.
 
     Parameters
     ----------
     step : StepData
-    group : Group, optional
-        By default the whole step.
 
     Raises
     ------
@@ -221,52 +218,39 @@ class StepForm(ExactForm):
         If nothing can be proved in this thread.
     """
 
-    def __init__(self, step: StepData, group: Group | None = None) -> None:
+    def __init__(self, step: StepData) -> None:
         check_arithmetic()
         contacts = step.contacts
-        extra = np.column_stack([step.extra.A, -step.extra.b])
-        at: slice | Indices = slice(None)
-        a: slice | Indices = slice(None)
-        u: slice | Indices = slice(None)
-        self._J = contacts.J
-        if group is not None:
-            at = group.contacts
-            a, u = split(step, group)
-            self._J = contacts.columns(group.contacts, group.coordinates)
-            extra = extra[np.ix_(group.extra_rows, np.append(group.coordinates, step.n_v))]
         friction_cone = cone(step.cone)
-        self._phi = contacts.phi[at]
-        self._mu = friction_cone.row_coefficients(contacts.mu)[at]
-        self._mask = step.mask[at]
+        self._J = contacts.J
+        self._phi = contacts.phi
+        self._mu = friction_cone.row_coefficients(contacts.mu)
+        self._mask = step.mask
         self._cone_name = step.cone
         self._cone_matrix = friction_cone.matrix
         self._exact_cone = exact_matrix(self._cone_matrix)
-        self._frame = np.zeros((len(self._phi), 4, 4))
+        self._frame = np.zeros((contacts.n_c, 4, 4))
         for k, axis in enumerate((contacts.n, contacts.d1, contacts.d2)):
-            self._frame[:, k, :3] = axis[at]
+            self._frame[:, k, :3] = axis
         self._frame[:, 3, 3] = 1.0
-        self._extra = extra
+        self._extra = np.column_stack([step.extra.A, -step.extra.b])
         contact, kind = np.nonzero(self._mask)
         self._places = [*zip(contact.tolist(), kind.tolist(), strict=True)]
-        self._places += [(len(self._phi) + k, 0) for k in range(len(extra))]
+        self._places += [(contacts.n_c + k, 0) for k in range(len(self._extra))]
         self._factors: dict[int, tuple[arb_mat, arb_mat]] = {}
         self._rows: dict[int, list[Row]] = {}
-        self.m = len(self._places)
+        self.n = step.n_v
+        self.m = step.m
         self.h = arb(step.h)
-        target = step.delta_q_bar_a[a]
-        tau = np.concatenate([step.tau_a[a], step.tau_u[u]])
-        n_a = len(target)
-        self.n = len(tau)
+        n_a = step.n_a
         parts = np.zeros((3, self.n, self.n))
-        parts[0, :n_a, :n_a] = step.K_q[a][:, a]
-        parts[1, n_a:, n_a:] = step.M_u[u][:, u]
+        parts[0, :n_a, :n_a] = step.K_q
+        parts[1, n_a:, n_a:] = step.M_u
         loads = np.zeros((3, self.n, 1))
-        loads[0, :n_a, 0] = target
-        loads[1, :, 0] = tau
+        loads[0, :n_a, 0] = step.delta_q_bar_a
+        loads[1, :, 0] = np.concatenate([step.tau_a, step.tau_u])
         if step.extra.cost is not None:
-            c = np.arange(step.n_v) if group is None else group.coordinates
-            parts[2] = step.extra.cost[0][np.ix_(c, c)]
-            loads[2, :, 0] = step.extra.cost[1][c]
+            parts[2], loads[2, :, 0] = step.extra.cost
         springs, self.H, self.H_inverse = _hessian(parts.tobytes(), self.n, step.h)
         shift, force, pull = map(exact_matrix, loads)
         with working_precision(EXACT):

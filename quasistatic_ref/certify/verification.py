@@ -31,7 +31,7 @@ from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.parts import needing
 from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group, groups
+from quasistatic_ref.step.groups import Group, group_steps
 
 
 def verify(
@@ -98,8 +98,8 @@ def verify(
     lam_exact = np.zeros(step.m)
     reason = ""
     solved = []
-    for group in groups(step):
-        form = StepForm(step, group)
+    for group, part in group_steps(step):
+        form = StepForm(part)
         working_rows = group.within(working)
         try:
             exact = fraction_solution(form, working_rows)

@@ -164,11 +164,7 @@ def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndL
         If it takes other arguments.
     """
     needed = needed_arguments(function, name)
-    if needed == 3:
-        return function
-    if needed == 2:
-        return lambda t, q, last: function(t, q)
-    return lambda t, q, last: function(t)
+    return lambda *t_q_last: function(*t_q_last[:needed])
 
 
 def needed_arguments(function: Callable[..., Value], name: str) -> int:

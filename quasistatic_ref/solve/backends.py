@@ -226,9 +226,9 @@ def others_installed() -> tuple[str, ...]:
     return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
 
 
-def is_function(name: object) -> bool:
+def is_function(name: str) -> bool:
     """Whether a backend's name is that of a function, ``MODULE:FUNCTION``."""
-    return isinstance(name, str) and ":" in name and not name.startswith(QPSOLVERS)
+    return ":" in name and not name.startswith(QPSOLVERS)
 
 
 def installed_backends() -> tuple[str, ...]:
@@ -253,7 +253,7 @@ def backend(name: str) -> Backend:
     BackendError
         If the name is unknown, or its solver is not installed.
     """
-    if str(name).startswith(QPSOLVERS):
+    if name.startswith(QPSOLVERS):
         with needing(name):
             from quasistatic_ref.optional.qpsolvers import through_qpsolvers as part  # noqa: F401 only whether it is there
     elif is_function(name):
@@ -261,11 +261,11 @@ def backend(name: str) -> Backend:
     elif name in REQUIRED and find_spec(name):
         return BACKENDS[name]  # CVXPY is not asked: its import takes longer than a short run
     known = backend_names()
-    entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
-    if entry is None and isinstance(name, str) and name in others_installed():
+    entry = BACKENDS.get(name.removeprefix(QPSOLVERS))
+    if entry is None and name in others_installed():
         return Backend(name, "not in this table", lambda _: ({},))
     if entry is None or not entry.steps:
-        hint = suggestion(str(name), known)
+        hint = suggestion(name, known)
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:
         other = QPSOLVERS + name

@@ -101,22 +101,12 @@ class Contacts(Plain, Shown):
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
-        return Contacts(
+        keys = ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows")
+        return Contacts.unchecked(
             name=tuple(self.name[j] for j in contacts.tolist()),
-            phi=self.phi[contacts],
-            n=self.n[contacts],
-            d1=self.d1[contacts],
-            d2=self.d2[contacts],
-            J=self.columns(contacts, coordinates),
-            mu_v=self.mu_v[contacts],
-            mu_omega=self.mu_omega[contacts],
-            rows=self.rows[contacts],
+            J=read_only(self.J[contacts][:, :, coordinates]),
+            **{key: read_only(getattr(self, key)[contacts]) for key in keys},
         )
-
-    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
-        """J of some contacts, those columns of it, shape (k, 4, n)."""
-        columns: Array = self.J[contacts][:, :, coordinates]
-        return columns
 
     @cached_property
     def n_c(self) -> int:

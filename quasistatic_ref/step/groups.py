@@ -119,35 +119,30 @@ def labels(couplings: Mask) -> tuple[Indices, Indices]:
 
 
 def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
-    """The groups of a step, each with its own step; the step itself if there is one group.
+    """The groups of a step, each with its own step.
 
     Parameters
     ----------
     step : StepData
     """
-    members = groups(step)
-    if len(members) == 1:
-        return [(members[0], step)]
-    return [(group, _group_step(step, group)) for group in members]
+    return [(group, group_step(step, group)) for group in groups(step)]
 
 
-def _group_step(step: StepData, group: Group) -> StepData:
-    """The step of one group."""
-    a, u = split(step, group)
-    return StepData(
-        h=step.h,
-        K_q=step.K_q[np.ix_(a, a)],
-        M_u=step.inertia(u),
-        tau_a=step.tau_a[a],
-        tau_u=step.tau_u[u],
-        delta_q_bar_a=step.delta_q_bar_a[a],
-        contacts=step.contacts.some(group.contacts, group.coordinates),
-        cone=step.cone,
-        extra=step.extra.of(group.extra_rows, group.coordinates),
-    )
-
-
-def split(step: StepData, group: Group) -> tuple[Indices, Indices]:
-    """Actuated and un-actuated coordinates of a group, each counted from the first of its kind."""
+def group_step(step: StepData, group: Group) -> StepData:
+    """The step of one group, right by construction; the step itself if it has no other."""
     c = group.coordinates
-    return c[c < step.n_a], c[c >= step.n_a] - step.n_a
+    if len(c) == step.n_v and len(group.rows) == step.m:
+        return step
+    a = c[c < step.n_a]
+    u = c[c >= step.n_a] - step.n_a
+    return StepData.unchecked(
+        h=step.h,
+        K_q=read_only(step.K_q[np.ix_(a, a)]),
+        M_u=read_only(step.M_u[np.ix_(u, u)]),
+        tau_a=read_only(step.tau_a[a]),
+        tau_u=read_only(step.tau_u[u]),
+        delta_q_bar_a=read_only(step.delta_q_bar_a[a]),
+        contacts=step.contacts.some(group.contacts, c),
+        cone=step.cone,
+        extra=step.extra.of(group.extra_rows, c),
+    )

@@ -184,7 +184,7 @@ class LookedAt:
             amount = float(np.linalg.norm(missing[coordinates]))
             if amount > run.light:
                 force, turn = np.split(missing[coordinates], [3])
-                gyration = np.linalg.cholesky(step.inertia(coordinates))[3:, 3:]
+                gyration = np.linalg.cholesky(step.M_u[np.ix_(coordinates, coordinates)])[3:, 3:]
                 torque = gyration @ turn / np.sqrt(run.system.mass(name))
                 lengths = float(np.linalg.norm(force)), float(np.linalg.norm(torque))
                 unbalanced[name] = Missing(amount, *lengths, self.k)
