@@ -10,11 +10,15 @@ from quasistatic_ref import Extra, StepData
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.norm import (
     digits_of_error,
+    energy_norm,
+    error_length,
+    single_loads,
 )
 from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from tests.certify.test_farkas import EAST, point_between_walls
+from tests.tolerances import ROUNDING
 
 HALF_DIGIT = 0.5
 """Rounding in the norms moves a digit count by far less."""
@@ -73,3 +77,14 @@ def test_a_limit_that_is_far_away_lends_no_digits():
     off = exact * (1 + 1e-5)
     assert correct_digits(far, off, exact) == correct_digits(step, off, exact)
     assert correct_digits(step, off, exact) == pytest.approx(5, abs=HALF_DIGIT)
+
+
+@pytest.mark.parametrize("scene", ["block_push", "two_finger_pinch", "stack"])
+def test_driven_steps_are_measured_by_the_unconstrained_step(scene):
+    run = qr.load_scenario(scene, record="full", steps=4).run(progress=False)
+    for k, delta_q in enumerate(run["delta_q"]):
+        step = run.step_data(k)
+        norm = energy_norm(step.H)
+        g = qr.standard_form(step).g
+        length = error_length(step.H, g, delta_q, single_loads(step))
+        assert length == pytest.approx(norm.of_impulse(g), rel=ROUNDING)
