@@ -58,16 +58,9 @@ def limit_surfaces(cones: Sequence[str] = SHOWN) -> Figure:
 
 def _faces(points: Array) -> list[Array]:
     """Faces of the convex hull, each with its corners in order, shapes (corners, 3)."""
-    hull = ConvexHull(points)
-    members: dict[tuple[float, ...], set[int]] = {}
-    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
-        members.setdefault(tuple(np.round(plane, SAME_PLANE)), set()).update(simplex.tolist())
-    ordered = []
-    for plane, corners in members.items():
-        at = points[sorted(corners)]
-        centre = at.mean(axis=0)
-        normal = np.array(plane[:3])
-        first = at[0] - centre
-        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
-        ordered.append(at[np.argsort(angle)])
-    return ordered
+    faces = []
+    for plane in np.unique(ConvexHull(points).equations.round(SAME_PLANE), axis=0):
+        corners = points[np.isclose(points @ plane[:3], -plane[3])]
+        along = np.linalg.svd(plane[None, :3])[2][1:]  # two directions in the plane
+        faces.append(corners[ConvexHull(corners @ along.T).vertices])
+    return faces

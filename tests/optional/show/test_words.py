@@ -62,6 +62,8 @@ def test_every_object_of_a_run_is_short():
     run = scenario.run(progress=False)
     light = replace(scenario, record="light").run(progress=False)
     check(run, light, result.step, result.solution.certificate)
+    loads = [float(line.split()[-2]) for line in repr(run).splitlines()[-13:-1]]
+    assert loads[0] > 1e-3 * max(loads) >= loads[-1]  # what bears load comes first
 
 
 def test_empty_things_are_short_too(tmp_path):
