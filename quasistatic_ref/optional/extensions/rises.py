@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
@@ -28,10 +29,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     n_v = step.n_v
     contacts = step.contacts
     columns = np.arange(n_v, n_v + p)
-    M_u = np.zeros((step.n_u + p, step.n_u + p))
-    M_u[: step.n_u, : step.n_u] = step.M_u
-    M_u[step.n_u :, step.n_u :] = np.diag(rises.masses)
-    J = np.concatenate([contacts.J, np.zeros((contacts.n_c, 4, p))], axis=2)
+    J = np.pad(contacts.J, ((0, 0), (0, 0), (0, p)))
     J[rises.contacts, :3, columns[c:]] = contacts.n[rises.contacts]
     rows = np.zeros((2, c, n_v + p))
     rows[:, np.arange(c), columns[:c]] = 1.0
@@ -40,7 +38,7 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     H, g = extra.cost or (None, None)
     names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in rises.coordinates)
     return step.replace(
-        M_u=M_u,
+        M_u=block_diag(step.M_u, np.diag(rises.masses)),
         tau_u=np.concatenate([step.tau_u, -rises.loads]),
         contacts=replace(contacts, J=J),
         extra=Extra(

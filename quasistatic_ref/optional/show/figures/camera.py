@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.step.data import Array
 
@@ -24,10 +25,9 @@ class Camera:
 
     def axes(self) -> Array:
         """Rows: to the right, upwards, towards the camera; shape (3, 3), world frame."""
-        a, e = np.radians([self.azimuth, self.elevation])
-        right = np.array([-np.sin(a), np.cos(a), 0.0])
-        towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
-        return np.array([right, np.cross(towards, right), towards])
+        turn = Rotation.from_euler("ZY", [self.azimuth, -self.elevation], degrees=True)
+        towards, right, up = turn.as_matrix().T
+        return np.array([right, up, towards])
 
     def seen(self, points: Array) -> Array:
         """Right, up and nearness of world points, shape (N, 3) [m]."""

@@ -198,11 +198,8 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
         What the links look like, besides the shapes that touch.
     """
     looked_at = [moments[0], moments[len(moments) // 2], moments[-1]]
-    places = np.array([m.t_links for m in looked_at])
-    turns = np.array([m.R for m in looked_at])
-    moved = (np.abs(places - places[0]).max(axis=(0, 2)) > MOVES) | (
-        np.abs(turns - turns[0]).max(axis=(0, 2, 3)) > MOVES
-    )
+    poses = np.array([np.concatenate([m.R, m.t_links[:, :, None]], axis=2) for m in looked_at])
+    moved = np.abs(poses - poses[0]).max(axis=(0, 2, 3)) > MOVES
     if not moved.any():
         moved[1:] = True
     points = [c.beta[None] for m in looked_at for c in m.contacts]

@@ -36,16 +36,9 @@ def surface_points(shape: shapes.Shape, around: int = AROUND, up: int = UP) -> A
     flat = polytope(shape)
     if flat is not None and not flat.margin:
         return flat.vertices
-    every = np.array([shape.support_point(direction) for direction in ball(around, up)])
+    directions = trimesh.creation.uv_sphere(count=(up, around // 2)).vertices
+    every = np.array([shape.support_point(direction) for direction in directions])
     return np.unique(every.round(DECIMALS), axis=0)
-
-
-def ball(around: int, up: int) -> Array:
-    """Points of the unit sphere, shape (up around, 3) [-]."""
-    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, around), np.linspace(-1, 1, up))
-    r = np.sqrt(1 - height**2)
-    points = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1)
-    return points.reshape(-1, 3)
 
 
 def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
