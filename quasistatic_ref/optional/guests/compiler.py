@@ -21,10 +21,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS, MOST_SHAPES
+from quasistatic_ref.model.urdf.urdf_file import MOST_LINKS
 from quasistatic_ref.optional.guests.fence import Fence
-from quasistatic_ref.step.arrays import Mask
+from quasistatic_ref.parts import needed_package
 
 if TYPE_CHECKING:
     from mujoco import MjModel
@@ -51,16 +50,14 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
 
     Raises
     ------
+    InputError
+        If MuJoCo is not installed.
     ModelError
-        If MuJoCo is not installed or refuses the file; if the file reads from elsewhere, or needs
-        more time or memory than any robot: naming element and attribute.
+        If MuJoCo refuses the file; if the file reads from elsewhere, or needs more time or memory
+        than any robot: naming element and attribute.
     """
     fence = Fence(path, roots)
-    try:
-        mujoco: ModuleType = import_module("mujoco")
-    except ImportError:
-        problem = "MJCF needs MuJoCo: pip install 'quasistatic-ref[engines]'"
-        raise ModelError(problem) from None
+    mujoco = needed_package("mujoco", "engines", "MJCF")
     try:
         line, _, binary = printed(path.resolve()).partition(b"\n")
     except subprocess.TimeoutExpired:
@@ -97,7 +94,7 @@ def printed(path: Path) -> bytes:
 
 def answer(path: Path) -> bytes:
     """An empty JSON object and the model; or an object that says why there is none."""
-    mujoco: ModuleType = import_module("mujoco")
+    mujoco = needed_package("mujoco", "engines", "MJCF")
     # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
     mujoco.set_mju_user_warning(lambda text: None)
     try:
@@ -108,7 +105,6 @@ def answer(path: Path) -> bytes:
         return _line(refused=str(error))
     sizes = {
         "bodies": (model.nbody, MOST_LINKS),
-        "geoms that touch": (int(touching(model).sum()), MOST_SHAPES),
         "bytes of a compiled model": (mujoco.mj_sizeModel(model), LARGEST_MODEL),
     }
     for what, (count, most) in sizes.items():
@@ -117,13 +113,6 @@ def answer(path: Path) -> bytes:
     binary = np.empty((mujoco.mj_sizeModel(model), 1), np.uint8)
     mujoco.mj_saveModel(model, None, binary)
     return _line() + binary.tobytes()
-
-
-def touching(model: MjModel) -> Mask:
-    """Whether each geom touches others and is not a plane or field of the world, shape (ngeom,)."""
-    touches = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    endless = np.isin(model.geom_type, (0, 1)) & (model.geom_bodyid == 0)
-    return np.asarray(touches & ~endless)
 
 
 def _line(**outcome: str) -> bytes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
 from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -113,14 +112,13 @@ def _activations_after(system: MujocoSystem, act: Array, values: Array) -> Array
     its control. `act` are those before, and `values` those of a Drive.
     """
     model = system.model
-    integrates = model.actuator_dyntype == import_module("mujoco").mjtDyn.mjDYN_INTEGRATOR
     after = act.copy()
     for i in np.flatnonzero(model.actuator_actadr >= 0).tolist():
         place = model.actuator_actadr[i] + model.actuator_actnum[i] - 1
         u = values[i]
         if model.actuator_ctrllimited[i]:
             u = np.clip(u, *model.actuator_ctrlrange[i])
-        after[place] = act[place] + system.h * u if integrates[i] else u
+        after[place] = act[place] + system.h * u if i in system.integrators else u
         if model.actuator_actlimited[i]:
             after[place] = np.clip(after[place], *model.actuator_actrange[i])
     return after

@@ -70,22 +70,57 @@ def findings(
         Speed up to which a contact holds [m/s].
     words : Words
     """
-    by_name = {body.name: body for body in bodies}
+    every = _meetings(contacts, bodies)
+    movers = {meeting.contacts[0].bodies: meeting.mover for meeting in every}
     for body in bodies:
-        touching = [c for c in contacts if _mover(c, by_name) is body]
+        touching = [c for c in contacts if movers[c.bodies] is body]
         yield from _motion(body, touching, tolerance, words)
-    for two in dict.fromkeys(c.bodies for c in contacts):
-        between = [c for c in contacts if c.bodies == two]
-        both = [by_name[name] for name in two if name in by_name]
-        body = _mover(between[0], by_name)
-        least = min(one.size for one in both)
-        depth = max(c.depth for c in between)
-        if depth > PIERCES * least:
-            yield _inside(between, body, depth, least, words)
-        elif all(one.rests or one.steady for one in both) and (
-            depth > DEEP or not _borne(contacts, both)
+    for meeting in every:
+        least = min(body.size for body in meeting.bodies)
+        if meeting.depth > PIERCES * least:
+            yield _inside(meeting, least, words)
+        elif all(body.rests or body.steady for body in meeting.bodies) and (
+            meeting.depth > DEEP or not _borne(contacts, meeting.bodies)
         ):
-            yield from _penetration(between, body, weight, words)
+            yield from _penetration(meeting, weight, words)
+
+
+class _Meeting(NamedTuple):
+    """Two bodies that touch: their contacts, and those of them that can move."""
+
+    contacts: list[Contact]
+    bodies: list[Body]
+
+    @property
+    def mover(self) -> Body:
+        """The body that moves more: the other is at rest, or nearly."""
+        return max(self.bodies, key=lambda b: b.fastest(b.theirs) + b.fastest(b.exact))
+
+    @property
+    def depth(self) -> float:
+        """[m]."""
+        return max(c.depth for c in self.contacts)
+
+    @property
+    def theirs(self) -> float:
+        """The engine's normal force [N]."""
+        return sum(c.theirs.normal for c in self.contacts)
+
+    @property
+    def exact(self) -> float:
+        """The exact one [N]."""
+        return sum(c.exact.normal for c in self.contacts if c.exact)
+
+
+def _meetings(contacts: Sequence[Contact], bodies: Sequence[Body]) -> list[_Meeting]:
+    by_name = {body.name: body for body in bodies}
+    return [
+        _Meeting(
+            [c for c in contacts if c.bodies == two],
+            [by_name[name] for name in two if name in by_name],
+        )
+        for two in dict.fromkeys(c.bodies for c in contacts)
+    ]
 
 
 def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
@@ -103,23 +138,13 @@ def not_unique(
 
     `weight` is that of the whole model [N].
     """
-    by_name = {body.name: body for body in bodies}
-    for two in dict.fromkeys(c.bodies for c in contacts):
-        between = [c for c in contacts if c.bodies == two]
-        both = [by_name[name] for name in two if name in by_name]
-        theirs = sum(c.theirs.normal for c in between)
-        more = abs(theirs - sum(c.exact.normal for c in between if c.exact))
-        rest = all(body.rests for body in both)
-        if rest and more > FORCES_AGREE * max(theirs, weight) and _borne(contacts, both):
-            pairs = " and ".join(dict.fromkeys(c.pair for c in between))
+    for meeting in _meetings(contacts, bodies):
+        more = abs(meeting.theirs - meeting.exact)
+        rest = all(body.rests for body in meeting.bodies)
+        bound = FORCES_AGREE * max(meeting.theirs, weight)
+        if rest and more > bound and _borne(contacts, meeting.bodies):
             alike = f"{words.engine}'s balance the loads inside the cones, as the exact ones do"
-            yield f"{pairs}: forces are not unique; {alike}"
-
-
-def _mover(contact: Contact, bodies: Mapping[str, Body]) -> Body:
-    """The body of a contact that moves more: the other is at rest, or nearly."""
-    two = [bodies[name] for name in contact.bodies if name in bodies]
-    return max(two, key=lambda b: b.fastest(b.theirs) + b.fastest(b.exact))
+            yield f"{_pairs(meeting.contacts)}: forces are not unique; {alike}"
 
 
 def _motion(
@@ -210,35 +235,28 @@ def _moves(body: Body, through: Sequence[Contact], words: Words) -> Named:
     return _finding("moves", body, through, words.rests, cause, numbers)
 
 
-def _penetration(
-    between: Sequence[Contact], body: Body, weight: float, words: Words
-) -> Iterator[Named]:
+def _penetration(meeting: _Meeting, weight: float, words: Words) -> Iterator[Named]:
     """Whether two bodies are pushed apart by more than their loads."""
-    depth = max(c.depth for c in between)
-    theirs = sum(c.theirs.normal for c in between)
-    ours = sum(c.exact.normal for c in between if c.exact)
+    theirs, ours = meeting.theirs, meeting.exact
     pushes = theirs - ours > FORCES_AGREE * max(theirs, weight)
-    if not pushes or (depth <= DEEP and theirs <= PRESSES * ours):
+    if not pushes or (meeting.depth <= DEEP and theirs <= PRESSES * ours):
         return
     cause = f"and are pushed apart with {theirs:.3g} N where their loads ask for {ours:.3g} N"
-    yield _penetrates(between, body, depth, cause, words.apart)
+    yield _penetrates(meeting, cause, words.apart)
 
 
-def _inside(
-    between: Sequence[Contact], body: Body, depth: float, size: float, words: Words
-) -> Named:
+def _inside(meeting: _Meeting, size: float, words: Words) -> Named:
     """Two bodies that are so deep in each other that they are not rigid."""
-    cause = f"{depth / size:.0%} of the distance from the middle to the farthest point of the "
-    cause += "smaller one; rigid bodies do not"
-    return _penetrates(between, body, depth, cause, words.stiffer)
+    cause = f"{meeting.depth / size:.0%} of the distance from the middle to the farthest point of "
+    cause += "the smaller one; rigid bodies do not"
+    return _penetrates(meeting, cause, words.stiffer)
 
 
-def _penetrates(
-    between: Sequence[Contact], body: Body, depth: float, cause: str, remedy: str
-) -> Named:
-    other = next(name for name in between[0].bodies if name != body.name)
-    cause = f"{body.name} and {other} penetrate by {1e3 * depth:.3g} mm, {cause}"
-    return _finding("penetrates", body, between, remedy, cause, {"depth_mm": 1e3 * depth})
+def _penetrates(meeting: _Meeting, cause: str, remedy: str) -> Named:
+    body, depth = meeting.mover, 1e3 * meeting.depth
+    other = next(name for name in meeting.contacts[0].bodies if name != body.name)
+    cause = f"{body.name} and {other} penetrate by {depth:.3g} mm, {cause}"
+    return _finding("penetrates", body, meeting.contacts, remedy, cause, {"depth_mm": depth})
 
 
 def overlapping(name: str, bodies: tuple[str, str], depth: float, when: str, words: Words) -> Named:
@@ -253,5 +271,8 @@ def _finding(
     numbers: Mapping[str, float],
 ) -> Named:  # fmt: skip
     """A finding whose cause begins with its contacts, each pair once."""
-    pairs = " and ".join(dict.fromkeys(c.pair for c in through))
-    return body.name, Finding(kind, True, remedy, f"{pairs}: {cause}", numbers)
+    return body.name, Finding(kind, True, remedy, f"{_pairs(through)}: {cause}", numbers)
+
+
+def _pairs(contacts: Sequence[Contact]) -> str:
+    return " and ".join(dict.fromkeys(c.pair for c in contacts))

@@ -88,9 +88,7 @@ class Places:
         self.geoms = np.array(geoms, dtype=np.int64).reshape(-1, 2)
         self.counts = np.array([pair.n_c for pair in pairs], dtype=np.int64)
         self.first = np.cumsum(self.counts) - self.counts
-        self.number = np.full((state.model.ngeom,) * 2, -1)
-        self.number[self.geoms[:, 0], self.geoms[:, 1]] = np.arange(len(pairs))
-        self.number[self.geoms[:, 1], self.geoms[:, 0]] = np.arange(len(pairs))
+        self.number = {frozenset(two): i for i, two in enumerate(geoms)}
         for gaps, share in _gaps(state.adapted):
             gaps += share * margin
 
@@ -111,25 +109,15 @@ class Places:
         those of a pair's contacts have the centres of its geoms, a vertical normal, and the gap
         ``FILLED``, at which no row binds.
         """
-        data = state.data
-        listed = data.contact
-        used = np.flatnonzero(np.isin(listed.exclude, USED_OR_IN_GAP))
-        geoms = np.asarray(listed.geom).reshape(-1, 2)[used]
-        pair = self.number[geoms[:, 0], geoms[:, 1]]
-        phi = (listed.dist - listed.includemargin)[used]
-        order = np.lexsort((used, phi, pair))
-        order = order[pair[order] >= 0]
-        used, geoms, pair, phi = used[order], geoms[order], pair[order], phi[order]
-        rank = np.arange(len(pair)) - np.searchsorted(pair, pair)
-        kept = rank < self.counts[pair]
-        used, geoms, pair, phi, rank = (x[kept] for x in (used, geoms, pair, phi, rank))
-        turned = np.where(geoms[:, 0] == self.geoms[pair, 0], 1.0, -1.0)[:, None]
-        n = turned * listed.frame.reshape(-1, 9)[used, :3]
-        half = listed.dist[used, None] / 2 * n
-        middle = listed.pos.reshape(-1, 3)[used]
-
+        listed = state.data.contact
+        dist = np.asarray(listed.dist)
+        phi = dist - listed.includemargin
+        used = np.isin(listed.exclude, USED_OR_IN_GAP)
+        geoms = np.asarray(listed.geom).reshape(-1, 2).tolist()
+        normals = listed.frame.reshape(-1, 9)[:, :3]
+        middles = listed.pos.reshape(-1, 3)
         of_place = np.repeat(np.arange(len(self.pairs)), self.counts)
-        centres = data.geom_xpos[self.geoms[of_place]]
+        centres = state.data.geom_xpos[self.geoms[of_place]]
         every = ClosestPoints(
             phi=np.full(len(of_place), FILLED),
             alpha=centres[:, 0],
@@ -138,11 +126,19 @@ class Places:
             point=np.arange(len(of_place)) - self.first[of_place],
             tie=np.full(len(of_place), UNIQUE_NORMAL),
         )
-        at = self.first[pair] + rank
-        every.phi[at] = phi
-        every.alpha[at] = middle - half
-        every.beta[at] = middle + half
-        every.n[at] = n
+        count = np.zeros(len(self.pairs), dtype=np.int64)
+        for i in np.argsort(phi, kind="stable").tolist():
+            pair = self.number.get(frozenset(geoms[i]))
+            if not used[i] or pair is None or count[pair] == self.counts[pair]:
+                continue
+            place = self.first[pair] + count[pair]
+            count[pair] += 1
+            n = normals[i] if geoms[i][0] == self.geoms[pair, 0] else -normals[i]
+            half = dist[i] / 2 * n
+            every.phi[place] = phi[i]
+            every.alpha[place] = middles[i] - half
+            every.beta[place] = middles[i] + half
+            every.n[place] = n
         return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 

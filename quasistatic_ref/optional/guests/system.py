@@ -209,6 +209,12 @@ class MujocoSystem(Mechanism):
         state = self._state
         return [i for i in range(self.model.nu) if stiffness(state, i) and not disabled(state, i)]
 
+    @property
+    def integrators(self) -> list[int]:
+        """The actuators whose activation is the integral of their control."""
+        kinds = [kind_of(self._state, "actuator_dyntype", i) for i in range(self.model.nu)]
+        return [i for i, kind in enumerate(kinds) if kind == "INTEGRATOR"]
+
     def _driven_spring(self, name: str, k: float) -> Spring:
         """The spring of a hinge or slide towards its targets."""
         state = self._state
