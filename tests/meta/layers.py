@@ -142,10 +142,10 @@ DYNAMIC = ("import_module", "__import__")
 GUARDS = {"needing", "if_there"}
 
 
-def guarded(tree):
+def guarded(nodes):
     """The nodes of functions below a GUARDS, which say what to do where a part is missing."""
     inside = set()
-    for function in ast.walk(tree):
+    for function in nodes:
         if isinstance(function, ast.FunctionDef):
             for node in ast.walk(function):
                 if isinstance(node, ast.With) and any(
@@ -157,10 +157,10 @@ def guarded(tree):
     return inside
 
 
-def imports(tree, package, module):
+def imports(nodes, package, module):
     """(line, dotted name) of everything imported anywhere in a file, for types too."""
-    below_guards = guarded(tree)
-    for node in ast.walk(tree):
+    below_guards = guarded(nodes)
+    for node in nodes:
         of_part = isinstance(node, ast.ImportFrom) and f"{package}.optional." in f"{node.module}"
         if of_part and node in below_guards:
             continue
@@ -206,9 +206,9 @@ def crosses(own, other):
     return "another part" if rank(other) == rank(own) else "a later folder"
 
 
-def names_of(dotted, tree):
+def names_of(dotted, nodes):
     """Lines on which a string names a folder of the package."""
-    for node in ast.walk(tree):
+    for node in nodes:
         if (
             isinstance(node, ast.Constant)
             and isinstance(node.value, str)
@@ -218,9 +218,9 @@ def names_of(dotted, tree):
             yield node.lineno
 
 
-def kinds_asked_for(tree, name):
+def kinds_asked_for(nodes, name):
     """Lines on which a file asks which cone or which joint something is."""
-    for node in ast.walk(tree):
+    for node in nodes:
         asks = isinstance(node, ast.Compare) or (
             isinstance(node, ast.Call) and ast.unparse(node.func) in {"isinstance", "issubclass"}
         )
@@ -252,13 +252,13 @@ def violations(root):
         if own is not None and rank(own) is None:
             found.append(f"{name}: {own} is no folder of the package")
             continue
-        tree = ast.parse(path.read_text())
+        nodes = list(ast.walk(ast.parse(path.read_text())))
         if parts[0] != "lab" and name != LAB_DOOR:
-            found += [f"{name}:{line}: names the lab" for line in names_of("lab", tree)]
+            found += [f"{name}:{line}: names the lab" for line in names_of("lab", nodes)]
         if parts[0] not in {"lab", "optional"} and name != PARTS_DOOR:
-            found += [f"{name}:{line}: names a part" for line in names_of("optional", tree)]
-        found += [f"{name}:{line}: asks for a kind" for line in kinds_asked_for(tree, name)]
-        for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):
+            found += [f"{name}:{line}: names a part" for line in names_of("optional", nodes)]
+        found += [f"{name}:{line}: asks for a kind" for line in kinds_asked_for(nodes, name)]
+        for line, imported in imports(nodes, package, (package, *inside.with_suffix("").parts)):
             top, *rest = imported.split(".")
             if top == package:
                 if not rest or rest[0].startswith("__"):

@@ -8,6 +8,7 @@ import hashlib
 import os
 import subprocess
 import sys
+from functools import cache
 
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ WITHOUT = {
 }
 
 
+@cache
 def hashes():
     """SHA-256 of q of some runs."""
     settings = ["record=light", f"steps={STEPS}"]

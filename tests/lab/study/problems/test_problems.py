@@ -1,4 +1,4 @@
-"""Problems made of the steps of scenarios: the same each time, with answers that are proved."""
+"""Problems made of the steps of scenarios: read back alike, with answers that are proved."""
 
 from os.path import relpath
 
@@ -31,9 +31,8 @@ def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmeti
         assert refutation(one.form.H, one.g, one.form.A, one.b, *x) is None
     read = set_read(tmp_path / FOLDER)
     assert [dict(one.facts) for one in read] == [dict(one.facts) for one in made]
-    again = study_problems(own, tmp_path / "again", progress=False)
-    for one, other, there in zip(made, again, read, strict=True):
-        assert one.answer.x.tobytes() == other.answer.x.tobytes() == there.answer.x.tobytes()
+    for one, there in zip(made, read, strict=True):
+        assert one.answer.x.tobytes() == there.answer.x.tobytes()
 
 
 def test_scenarios_of_one_name_are_refused(study):
