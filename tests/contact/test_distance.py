@@ -88,16 +88,6 @@ def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_squ
     assert found.alpha[:, :2].tolist() == [[0.25, 0.25], [0, 0], [0, 0.25], [0.25, 0]]
 
 
-def test_a_capsule_that_lies_above_a_box_has_its_contacts_below_the_centres_of_its_caps():
-    table = Box((1.0, 1.0, 0.5))
-    along_x = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
-    there = standing_links((along_x, 1.0 * Z))
-    found = found_for(placed_shape(table), placed_shape(Capsule(0.125, 0.25), 1), there, 2)
-    assert found.phi.tolist() == [0.375, 0.375]  # 1 - 0.125 - 0.5
-    assert found.alpha.tolist() == [[-0.25, 0, 0.5], [0.25, 0, 0.5]]
-    assert found.beta.tolist() == [[-0.25, 0, 0.875], [0.25, 0, 0.875]]
-
-
 def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
     along_x = placed_shape(Box((0.5, 0.25, 0.25)))
     along_y = placed_shape(Box((0.25, 0.5, 0.25)), 1)

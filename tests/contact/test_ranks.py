@@ -13,7 +13,6 @@ from quasistatic_ref.contact.distance import (
     ClosestPoints,
     closest_points,
     repeated,
-    rounded_gaps,
 )
 from quasistatic_ref.contact.pairs import RANKED
 from quasistatic_ref.contact.separations import OF_CLOUD
@@ -93,12 +92,6 @@ def test_points_of_a_rim_on_a_slope_stay_the_same_while_it_moves_by_less_than_is
         assert found.point.tolist() == list(range(8))
 
 
-def test_zero_is_the_middle_of_its_multiple_and_halves_go_to_the_even_one():
-    phi = np.array([-0.5, -0.49, 0.0, 0.5, 0.51, 1.5, np.inf])
-    assert rounded_gaps(phi, 1.0).tolist() == [0, 0, 0, 0, 1, 2, np.inf]
-    assert rounded_gaps(phi, 0.0).tolist() == phi.tolist()
-
-
 def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances():
     """A point is listed before a nearer one of a higher number only within one multiple."""
     size = 0.5
@@ -113,14 +106,6 @@ def test_contacts_rank_by_a_share_of_the_smaller_shape_and_keep_their_distances(
     ball = pair(placed_shape(Sphere(0.1)), placed_shape(PointCloud([[1.0, 0, 0]]), 1))
     assert ball.size == 0.2  # a single point has none
     assert pair(placed_shape(FLOOR), placed_shape(PointCloud([[1.0, 0, 0]]), 1)).resolution == 0
-
-
-def test_the_ends_of_an_edge_are_contacts_and_its_middle_is_none():
-    leaning = Rotation.from_euler("x", np.pi / 4).as_matrix()
-    t = np.array([0.0, 0.0, 0.05 * np.sqrt(2)])
-    bar = Box((0.3, 0.05, 0.05))
-    found = found_for(placed_shape(FLOOR), placed_shape(bar, 1), standing_links((leaning, t)), 2)
-    assert sorted(np.abs(found.beta[:, 0]).tolist()) == [0.3, 0.3]
 
 
 def test_a_closest_pair_that_no_others_span_stays_a_contact():

@@ -110,8 +110,3 @@ def test_minus_zero_is_written_zero_at_any_depth():
 def test_nan_and_infinity_are_not_written(value):
     with pytest.raises(ValueError, match="not JSON compliant"):
         json_text({"a": value})
-
-
-def test_numpy_s_numbers_are_numbers():
-    value = {"i": np.int64(3), "f": np.float64(0.5), "b": np.bool_(True), "n": np.arange(2)}
-    assert json_text(value) == '{"i": 3, "f": 0.5, "b": true, "n": [0, 1]}'

@@ -52,15 +52,6 @@ def test_a_missing_field_is_its_default_whatever_that_is():
     assert fields.boolean("e", False) is False
 
 
-def test_zero_is_a_value_and_not_a_missing_one():
-    fields = TableReader({"a": 0, "b": False, "c": ""})
-    assert (fields.number("a", 5.0), fields.boolean("b", True), fields.text("c", "x")) == (
-        0.0,
-        False,
-        "",
-    )
-
-
 def test_close_refuses_a_misspelt_field_and_suggests_the_right_one():
     fields = TableReader({"mu_w": 0.1}, "contacts.grip")
     assert fields.number("mu_v", 0.5) == 0.5
@@ -76,15 +67,3 @@ def test_a_field_is_taken_once():
     assert "a" not in fields
     with pytest.raises(InputError, match="a: is missing"):
         fields.take("a")
-
-
-@pytest.mark.parametrize("table", [[], "x", None, 3])
-def test_anything_but_a_table_is_refused(table):
-    with pytest.raises(InputError, match="must be a table"):
-        TableReader(table)
-
-
-def test_the_caller_s_own_table_is_left_alone():
-    table = {"a": 1}
-    TableReader(table).take("a")
-    assert table == {"a": 1}

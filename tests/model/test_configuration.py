@@ -91,13 +91,10 @@ def test_the_length_that_is_refused_is_named_with_its_remedy():
 @pytest.mark.parametrize(
     ("entries", "values", "sure"),
     [
-        (slice(0), [], True),
         (slice(0, 3), [-0.0, 1e9, 1.0], True),
         (UNITS["quaternion"], [0.0, 0.0, 0.0, 1 - 2.0**-53], True),
-        (UNITS["quaternion"], [0.0, 1.0, 0.0, 0.0], True),
         (UNITS["quaternion"], [1.0, 0.0, 0.0, 0.0], False),  # refused
         (UNITS["heading"], [1 + 2.0**-31, 0.0], False),  # divided by its length
-        (UNITS["turn"], [0.0, 2.0**-31 - 1], False),
         (slice(13, 14), [np.nan], False),
     ],
 )

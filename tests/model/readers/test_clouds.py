@@ -5,6 +5,7 @@ import struct
 
 import laspy
 import numpy as np
+import pypcd4
 import pytest
 
 from quasistatic_ref import ModelError
@@ -236,32 +237,6 @@ ROWS = [" ".join(f"{x:g}" for x in p) for p in EIGHT]
 XYZ = "property float x\nproperty float y\nproperty float z\n"
 
 
-def packed(content):
-    """LZF: literals of at most 32 bytes, and what repeats the byte before as copies."""
-    out = bytearray()
-    i = 0
-    while i < len(content):
-        run = 1
-        while i + run < len(content) and content[i + run] == content[i] and run < 260:
-            run += 1
-        if run > 3:
-            out += bytes([0, content[i]])
-            length = run - 1 - 2
-            out += bytes([length << 5, 0]) if length < 7 else bytes([7 << 5, length - 7, 0])
-        else:
-            out += bytes([run - 1]) + content[i : i + run]
-        i += run
-    return bytes(out)
-
-
-def compressed(points):
-    content = points.T.astype("<f4").tobytes()
-    n = len(points)
-    header = f"VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH {n}\nHEIGHT 1\nPOINTS {n}\n"
-    sizes = np.array([len(packed(content)), len(content)], "<u4").tobytes()
-    return f"{header}DATA binary_compressed\n".encode() + sizes + packed(content)
-
-
 OTHERS = {
     "colours.xyz": "\n".join(f"{row} 255 0 0" for row in ROWS),
     "commas.xyz": "\n".join(row.replace(" ", ",") for row in ROWS),
@@ -281,7 +256,6 @@ OTHERS = {
     ),
     "big.ply": f"ply\nformat binary_big_endian 1.0\nelement vertex 8\n{XYZ}end_header\n".encode()
     + EIGHT.astype(">f4").tobytes(),
-    "compressed.pcd": compressed(EIGHT),
     "unseen.xyz": "\n".join([*ROWS[:3], "nan nan nan", *ROWS[3:], "0 NaN 1"]),
 }  # fmt: skip
 
@@ -296,9 +270,12 @@ def test_what_others_read_is_read(tmp_path, name):
     assert unseen == (2 if name == "unseen.xyz" else 0)
 
 
-def test_a_compressed_pcd_that_is_cut_off_or_of_another_number_is_refused(tmp_path):
+def test_a_compressed_pcd_is_read_and_one_that_is_cut_off_or_of_another_number_refused(tmp_path):
     path = tmp_path / "a.pcd"
-    for content in (compressed(EIGHT)[:-3], compressed(EIGHT).replace(b"POINTS 8", b"POINTS 9")):
+    pypcd4.PointCloud.from_xyz_points(EIGHT).save(path, pypcd4.Encoding.BINARY_COMPRESSED)
+    assert point_cloud(path).points == pytest.approx(EIGHT, abs=1e-8)
+    whole = path.read_bytes()
+    for content in (whole[:-3], whole.replace(b"POINTS 8", b"POINTS 9")):
         path.write_bytes(content)
         with pytest.raises(ModelError, match="cannot be read as PCD"):
             point_cloud(path)
