@@ -62,7 +62,6 @@ class JointColumns(ColumnMap):
             owner[of_joint] = v + np.arange(of_joint.stop - of_joint.start)
         super().__init__(moves, order.v_back[owner], int(model.nv))
         self.order = order
-        self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]
         copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
@@ -75,9 +74,6 @@ class JointColumns(ColumnMap):
 
     def of_coordinates(self, columns: Array) -> Array:
         """Columns per unit of delta_q, shape (..., n_v), from `columns` of pinocchio [m, rad]."""
-        # Without mimics it is a permutation, which costs less for many coordinates.
-        if not self.mimics:
-            return self.order.paper_v(columns)
         of_joints = columns.take(self.owned, axis=-1)
         for x, owner in self.copies:
             # A view: `of_joints[..., owner] += ...` would write the sums a second time.

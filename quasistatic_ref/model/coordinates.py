@@ -52,23 +52,17 @@ class Order:
         """The same for delta_q, shape (n_v,)."""
         return np.argsort(self.v)
 
-    @cached_property
-    def same(self) -> bool:
-        """Whether both orders are equal, as when all actuated joints come before the others."""
-        return bool((np.diff(self.q) > 0).all())
-
     def paper_q(self, q: Array) -> Array:
         """Configuration in the paper's order, from pinocchio's; both of shape (n_q,)."""
-        return q if self.same else q.take(self.q)
+        return q.take(self.q)
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
-        q = with_shape(q, "q", self.q.shape)
-        return q if self.same else q.take(self.q_back)
+        return with_shape(q, "q", self.q.shape).take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
         """Delta_q, or J, shape (..., n_v), its last axis in the paper's order, from pinocchio's."""
-        return v if self.same else v.take(self.v, axis=-1)
+        return v.take(self.v, axis=-1)
 
 
 def with_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:

@@ -107,18 +107,13 @@ def world_of(bodies: tuple[Body, ...]) -> World:
         )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
+    written = [urdf.file.links[link] for urdf in urdfs.values() for link in urdf.links]
     links = ["world"]
-    masses = [0.0]
     roots = {}
     shapes = []
-    centres = [np.zeros(3)]
-    inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
-        masses += [urdf.file.links[link].mass for link in urdf.links]
-        centres += [urdf.file.links[link].com for link in urdf.links]
-        inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
     model = joined(bodies, [urdf.model for urdf in urdfs.values()])
@@ -135,9 +130,9 @@ def world_of(bodies: tuple[Body, ...]) -> World:
         mimics=tuple(m for name, urdf in urdfs.items() for m in _mimics(name, urdf)),
         links=tuple(links),
         frames=tuple(body_frame(model, link) for link in links[1:]),
-        masses=np.array(masses),
-        centres=np.array(centres),
-        inertias=np.array(inertias),
+        masses=np.array([0.0, *(link.mass for link in written)]),
+        centres=np.array([np.zeros(3), *(link.com for link in written)]),
+        inertias=np.array([np.zeros((3, 3)), *(link.inertia for link in written)]),
         shapes=tuple(shapes),
         roots=roots,
         start=start,
@@ -183,7 +178,7 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
     kinds = {joint.name: joint for joint in urdf.file.joints if joint.kind != FIXED}
     free = {name for name, joint in kinds.items() if joint.mimic is None}
     scalar = {name for name in free if issubclass(JOINTS[kinds[name].kind], AxisJoint)}
-    moves = urdf.base != FIXED
+    moves = body.base != FIXED
     known = free | {BASE} if moves else free
     actuated = () if body.actuated == "all" else body.actuated
     for key, names, allowed in (

@@ -117,18 +117,14 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         problem = 'no body can move; give one of them base = "floating", or a URDF with joints'
         raise ScenarioError(problem, field="bodies")
     kinematics = system.kinematics(system.q_start)
+    # Of each link's body extended to the world's origin: two links move as one if these are equal.
+    columns = kinematics.columns * system.column_map.moves
+    twists = system.column_map.of_coordinates(columns)
     for pair in pairs:
         a = pair.alpha.link
         b = pair.beta.link
-        nu_a = kinematics.J[a, :3]
-        omega_a = kinematics.J[a, 3:]
-        nu_b = kinematics.J[b, :3]
-        omega_b = kinematics.J[b, 3:]
-        arm = kinematics.t[b] - kinematics.t[a]
-        # Velocities of alpha's link, extended to the origin of beta's.
-        nu_at_b = nu_a + np.cross(omega_a, arm, axis=0)
-        scale = 1 + np.abs(arm).max()
-        if max(np.abs(nu_b - nu_at_b).max(), np.abs(omega_b - omega_a).max()) <= WELDED * scale:
+        scale = 1 + np.abs(kinematics.t[[a, b]]).max()
+        if np.abs(twists[a] - twists[b]).max() <= WELDED * scale:
             problem = "its two sides cannot move relative to each other, so it has no effect"
             names = {system.links[link].partition("/")[0] for link in (a, b)}
             still = [body.name for body in system.bodies if body.base == "fixed"]

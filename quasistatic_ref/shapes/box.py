@@ -49,12 +49,8 @@ class Box(Rounded):
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above six planes."""
-        heights = np.concatenate([points, -points], axis=1) - self._reach
+        heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
         return heights, np.broadcast_to(AXES, (len(points), 6, 3))
-
-    @cached_property
-    def _reach(self) -> Array:
-        return np.tile(self.half_extents, 2)
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""

@@ -46,8 +46,6 @@ class Urdf:
     text : str
         What was loaded: the file's text without what the model ignores in links, each mesh URI
         replaced by the path of its file.
-    base : str
-        How its root link moves (joint ``base``), as ``Body.base``.
     model : pinocchio.Model
         Its kinematics and inertias.
     links : tuple of str
@@ -62,7 +60,6 @@ class Urdf:
 
     file: UrdfFile
     text: str
-    base: str
     model: pin.Model
     links: tuple[str, ...]
     shapes: tuple[PlacedShape, ...]
@@ -109,7 +106,7 @@ def loaded_urdf(
         links = (file.root, *(joint.child for joint in file.joints))
         frames = [body_frame(model, link) for link in links]
         shapes, hulls = checked_shapes(file, model, geometry, links, frames, package_dirs)
-    return Urdf(file, text, base, model, links, shapes, (*file.notes, *inertias, *hulls))
+    return Urdf(file, text, model, links, shapes, (*file.notes, *inertias, *hulls))
 
 
 def body_frame(model: pin.Model, link: str) -> int:
