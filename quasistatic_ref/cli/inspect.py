@@ -2,7 +2,7 @@
 
 import argparse
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -197,24 +197,22 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_wrapped(time_step_words(record["time_step"]))
         print(f"solved by {record['backend']}")
         shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
-    if record.get("tied"):
-        print("\nnormals that are one of several at the start:")
-    for sentence in record.get("tied", []):
-        shared.print_wrapped(sentence, "  ", "- ")
-    if record.get("findings"):
-        print("\nfindings, before a run:")
-    for finding in record.get("findings", []):
-        shared.print_wrapped(finding["sentence"], "  ", "- ")
+    _print_list("normals that are one of several at the start", record.get("tied", []))
+    findings = [finding["sentence"] for finding in record.get("findings", [])]
+    _print_list("findings, before a run", findings)
     if record.get("not_looked_at"):
         shared.print_wrapped(f"not looked at: {record['not_looked_at']}")
-    print("\nthe model ignores:")
-    for sentence in record["ignored"]:
-        shared.print_wrapped(sentence, "  ", "- ")
+    _print_list("the model ignores", record["ignored"])
     if "fields" in record:
         print("\nthe fields of its file; --set NAME=VALUE changes one:")
         for line in field_lines(record["fields"]):
             print(f"  {line}")
-    if record["notes"]:
-        print("\nthe model differs from its files in:")
-    for sentence in record["notes"]:
+    _print_list("the model differs from its files in", record["notes"])
+
+
+def _print_list(heading: str, sentences: Sequence[str]) -> None:
+    """Print a heading and sentences below it; nothing for no sentences."""
+    if sentences:
+        print(f"\n{heading}:")
+    for sentence in sentences:
         shared.print_wrapped(sentence, "  ", "- ")

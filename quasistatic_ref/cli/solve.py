@@ -15,8 +15,8 @@ from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.backends import CERTIFY
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 

@@ -33,8 +33,9 @@ from quasistatic_ref.simulate.settings import Settings, usable_backend
 from quasistatic_ref.simulate.stiffness import stiffness_matrix
 from quasistatic_ref.simulate.user_functions import checked_force
 from quasistatic_ref.solve.backends import DEFAULT, NONE, REQUIRED, check_certify
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import check_accuracy, solve_step, solved_step
-from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts

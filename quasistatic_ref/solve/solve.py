@@ -19,7 +19,8 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, ste
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver, solver_for
+from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.data import StepData
@@ -52,11 +53,11 @@ def solve_step(
         Clarabel's, with `fast` DAQP's; ``"none"``, with ``certify="full"`` only, is the exact
         method from a cold start. Any other solver that CVXPY has installed, or qpsolvers behind
         ``qpsolvers:``. A function (P, q, G, h) -> (x, z, status). Or what
-        :func:`~quasistatic_ref.solve.solver.solver_for` makes of these: an object that holds a
+        :func:`~quasistatic_ref.solve.choice.solver_for` makes of these: an object that holds a
         compiled problem and is kept between steps of one kind. What is certified does not depend
         on it.
     fast : bool
-        As for :func:`~quasistatic_ref.solve.solver.solver_for`; not with a Solver, which is made
+        As for :func:`~quasistatic_ref.solve.choice.solver_for`; not with a Solver, which is made
         fast or not.
     accuracy : float
         Of the backend's answer, in natural units [-].

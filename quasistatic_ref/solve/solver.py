@@ -2,14 +2,13 @@
 
 It knows its backend (``name``), by which interface it calls that (``interface``), and the kind of
 step that its problem was compiled for (:meth:`Solver.fits`). Each interface is one class in a file
-of its own, and :func:`solver_for` chooses among them.
+of its own, and :func:`~quasistatic_ref.solve.choice.solver_for` chooses among them.
 """
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -17,19 +16,15 @@ from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
     BACKENDS,
-    DEFAULT,
-    NONE,
     QPSOLVERS,
     RESIDUAL,
     UNSAFE,
     Options,
     backend,
-    check_backend,
-    is_function,
 )
 from quasistatic_ref.solve.greeting import greeting_silenced
 from quasistatic_ref.solve.reply import Reply
@@ -344,51 +339,3 @@ class NoSolver(Solver):
         optimum = step_optimum(both.si_step, self._working_set)
         self._working_set = optimum.working_set
         return optimum
-
-
-def solver_for(
-    step: StepData, name: str | Callable[..., Any] | None = None, fast: bool = False
-) -> Solver:
-    """A solver of steps like this one.
-
-    Parameters
-    ----------
-    step : StepData
-    name : str or callable, optional
-        Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
-        CVXPY. By default Clarabel; with `fast` DAQP. Or a function (P, q, G, h) -> (x, z, status),
-        also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.solve.by_function`.
-    fast : bool
-        Whether to solve as ``optional/fast`` does: DAQP by its own interface, in arrays that are
-        kept from step to step. Any other backend is called as without.
-
-    Raises
-    ------
-    BackendError
-        If the backend is unknown or not installed, or does not take the cone.
-    InputError
-        If `fast` is wanted, and its folder is not there.
-    """
-    if name is not None and (callable(name) or is_function(name)):
-        from quasistatic_ref.solve.by_function import FunctionSolver
-
-        if not cone(step.cone).polyhedral:
-            problem = f"is a function, which takes linear rows only; not the {step.cone}"
-            raise BackendError(problem, field="backend", value=str(name))
-        return FunctionSolver(step, name)
-    if fast:
-        with needing("fast"):
-            from quasistatic_ref.optional.fast.solver import fast_solver
-        return fast_solver(step, name)
-    name = DEFAULT if name is None else name
-    check_backend(name, step.cone)
-    if name == NONE:
-        return NoSolver(step, name)
-    if name.startswith(QPSOLVERS):
-        with needing(name):
-            from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
-        return QpsolversSolver(step, name)
-    # CVXPY takes longer to import than a short run.
-    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-
-    return CvxpySolver(step, name)

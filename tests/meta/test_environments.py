@@ -17,7 +17,7 @@ from quasistatic_ref import InputError, QuasistaticError, load_scenario, solve_s
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from tests.oracles.random_steps import mixed_step
 
 STEP = mixed_step(1)

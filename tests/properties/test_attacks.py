@@ -14,7 +14,7 @@ from quasistatic_ref import QuasistaticError, StepInfeasible, solve_step
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.step.files import step_text
 from tests.helpers import verify_refusal
 from tests.oracles.attacked_steps import steps

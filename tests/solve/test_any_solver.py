@@ -9,7 +9,7 @@ import qpsolvers
 
 import quasistatic_ref as qr
 from quasistatic_ref.solve import backends
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from tests.helpers import one_sentence, pinch
 
 STEP = pinch()

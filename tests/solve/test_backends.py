@@ -13,7 +13,7 @@ from quasistatic_ref.solve.backends import (
     backend,
     installed_backends,
 )
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from tests.closeness import assert_within
 from tests.helpers import (

@@ -6,7 +6,7 @@ import pytest
 
 from quasistatic_ref import QuasistaticError, solve_step
 from quasistatic_ref.solve.backends import NONE, installed_backends
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from tests.oracles.attacked_steps import steps
 
 PATHS = [

@@ -7,7 +7,8 @@ from quasistatic_ref import Extra, StepDataError, StepNotSolved, solve_step
 from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.solver import NoSolver, solver_for
+from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.units import StepInBothUnits
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING

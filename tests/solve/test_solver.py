@@ -20,7 +20,8 @@ from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.solve import through_cvxpy
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
-from quasistatic_ref.solve.solver import NoSolver, solver_for
+from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.solver import NoSolver
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from tests.helpers import (
     REQUIRED,

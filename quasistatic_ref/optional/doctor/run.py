@@ -19,8 +19,9 @@ from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData

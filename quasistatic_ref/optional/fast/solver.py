@@ -8,8 +8,9 @@ from typing import Final
 from quasistatic_ref.optional.fast.program import Program, Workspaces
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import RESIDUAL, check_backend
+from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import BackendSolver, OptionSet, Solver, solver_for
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet, Solver
 from quasistatic_ref.solve.units import (
     HessianInBothUnits,
     StepInBothUnits,

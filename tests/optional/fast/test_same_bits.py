@@ -20,7 +20,7 @@ from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import EXACT
 from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.choice import solver_for
 from tests.extras import SCENARIOS
 from tests.lab.vectors.committed_cases import cases
 from tests.oracles.degenerate_steps import degenerate_step

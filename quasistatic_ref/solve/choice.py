@@ -1,0 +1,58 @@
+"""Which solver a step gets: by the name of its backend, and by which interface that is called."""
+
+from collections.abc import Callable
+from typing import Any
+
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.parts import needing
+from quasistatic_ref.solve.backends import DEFAULT, NONE, QPSOLVERS, check_backend, is_function
+from quasistatic_ref.solve.by_function import FunctionSolver
+from quasistatic_ref.solve.solver import NoSolver, Solver
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import StepData
+
+
+def solver_for(
+    step: StepData, name: str | Callable[..., Any] | None = None, fast: bool = False
+) -> Solver:
+    """A solver of steps like this one.
+
+    Parameters
+    ----------
+    step : StepData
+    name : str or callable, optional
+        Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
+        CVXPY. By default Clarabel; with `fast` DAQP. Or a function (P, q, G, h) -> (x, z, status),
+        also as ``MODULE:FUNCTION``: see :mod:`~quasistatic_ref.solve.by_function`.
+    fast : bool
+        Whether to solve as ``optional/fast`` does: DAQP by its own interface, in arrays that are
+        kept from step to step. Any other backend is called as without.
+
+    Raises
+    ------
+    BackendError
+        If the backend is unknown or not installed, or does not take the cone.
+    InputError
+        If `fast` is wanted, and its folder is not there.
+    """
+    if name is not None and (callable(name) or is_function(name)):
+        if not cone(step.cone).polyhedral:
+            problem = f"is a function, which takes linear rows only; not the {step.cone}"
+            raise BackendError(problem, field="backend", value=str(name))
+        return FunctionSolver(step, name)
+    if fast:
+        with needing("fast"):
+            from quasistatic_ref.optional.fast.solver import fast_solver
+        return fast_solver(step, name)
+    name = DEFAULT if name is None else name
+    check_backend(name, step.cone)
+    if name == NONE:
+        return NoSolver(step, name)
+    if name.startswith(QPSOLVERS):
+        with needing(name):
+            from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
+        return QpsolversSolver(step, name)
+    # CVXPY takes longer to import than a short run.
+    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+
+    return CvxpySolver(step, name)
