@@ -47,6 +47,7 @@ CAUSES = {
         "solver.backend", "has no answer of its own; use certify = 'full' (got 'none')",
     ),
     "no depth at all": (("limits/penetration", 0), "limits.penetration", "greater than 0 (got 0)"),
+    "no reach at all": (("limits/reach", 0), "limits.reach", "must be greater than 0 (got 0)"),
     "a body out of the scene": (
         (BALL + "pose/xyz/0", 200.0), "bodies", "at the start, link ball/ball is 200 m",
     ),

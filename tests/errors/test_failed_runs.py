@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from quasistatic_ref import InputError, RunFailed, load_scenario, step_read, trajectory_read
+from quasistatic_ref import RunFailed, load_scenario, step_read, trajectory_read
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.limits import Limits
@@ -92,15 +92,6 @@ def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
         trajectory = scenario.run(progress=False)
         # Pushed out in one step: the sphere's lowest point is on the floor.
         assert_relative(trajectory["q"][1, 3], 0.05, ROUNDING)
-
-
-def test_limits_have_defaults_and_signs(tmp_path):
-    scenario = load_scenario(scene_written(tmp_path, changed(SCENE, ("limits", ...))), fast=True)
-    assert scenario.limits == Limits(penetration=0.05, reach=100.0)
-    for name in ("penetration", "reach"):
-        for value in (0.0, -1.0, float("nan")):
-            with pytest.raises(InputError, match=rf"limits\.{name}: must be greater than 0"):
-                Limits(**{name: value})
 
 
 def test_a_position_that_is_no_number_is_out_of_the_scene():

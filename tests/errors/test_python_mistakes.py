@@ -10,6 +10,7 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, QuasistaticError
+from quasistatic_ref.simulate.limits import Limits
 from tests.model.urdf.urdf_texts import collision, inertial, link, robot, urdf_of_text
 from tests.scenes import PUSH, written_scenario
 
@@ -106,6 +107,7 @@ MISTAKES = {
         (lambda: simulator(backend="clarable"), "did you mean 'clarabel'"),
         (lambda: setattr(SIMULATOR, "h", 0.02), "simulator.h: is fixed when a simulator is made"),
         (lambda: simulator(cone="elliptic"), "did you mean 'ellipsoid'"),
+        (lambda: Limits(reach=np.nan), "limits.reach: must be greater than 0"),
     ],
     "what touches": [
         (lambda: pair(mu_v=-1.0), "f.mu_v: must be at least 0"),

@@ -135,12 +135,3 @@ print("done")
         [sys.executable, "-c", source], capture_output=True, text=True, check=False, cwd=ROOT
     )
     assert (run.returncode, run.stdout.strip()) == (0, "done"), run.stderr
-
-
-def test_a_shape_that_cases_share_stands_once_and_is_put_back():
-    shared = json.loads((VECTORS / "inputs" / "step.json").read_text())["shapes"]
-    (cloud,) = (shape for shape in shared.values() if len(shape.get("points", [])) == 992)
-    holders = [case for case in cases("step") if case.id.startswith("step/bunny_grasp")]
-    assert len(holders) > 1
-    for case in holders:
-        assert cloud in [entry["shape"] for entry in case.input["shapes"].values()]
