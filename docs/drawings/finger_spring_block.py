@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 
@@ -76,12 +76,12 @@ def figure(
     coil = np.linspace(0.0, 1.0, 80)
     way = free * coil
     wave = 2.2 * top + 0.25 * gap * np.sin(40 * coil)
-    left.plot(way, wave, "k-", linewidth=scaled(0.7), gid=DRAWING, label="spring to the target")
+    left.plot(way, wave, "k-", linewidth=scaled(0.7), label="spring to the target")
     left.fill_between([-2 * gap, 0], 0, top, facecolor="0.75", edgecolor="0.3", label="finger")
     left.fill_between(
         [gap, free + gap], 0, 2 * top, facecolor="0.9", edgecolor="0.3", label="block"
     )
-    left.axhline(0, color="0.3", linestyle="-", gid=DRAWING)
+    left.axhline(0, color="0.3", linestyle="-")
     left.axvline(free, color="#009E73", linestyle="--", label="target")
     left.set(xlim=(-2.4 * gap, free + 1.4 * gap), ylim=(-gap / 2, 2.6 * top), yticks=[])
     label_axes(left, "x [mm]")

@@ -14,7 +14,7 @@ from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.step.data import Array
 
 M, LENGTH, TILT, H, STEPS = 0.5, 0.2, 20.0, 0.02, 9
@@ -146,12 +146,12 @@ def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figur
     ends = 1e3 * np.array([np.zeros(3), R @ (2 * c)])
     middle = ends.mean(axis=0)
     scale = 1e3 * length / 4
-    left.plot(ends[:, 0], ends[:, 2], color="0.8", linestyle="-", linewidth=scaled(7), gid=DRAWING)
+    left.plot(ends[:, 0], ends[:, 2], color="0.8", linestyle="-", linewidth=scaled(7))
     for axis, pattern in ((R[:, 0], "--"), (R[:, 2], ":")):
-        left.plot([0, scale * axis[0]], [0, scale * axis[2]], pattern, color="black", gid=DRAWING,
+        left.plot([0, scale * axis[0]], [0, scale * axis[2]], pattern, color="black",
                   label=f"body's {'x' if pattern == '--' else 'z'}")  # fmt: skip
     left.plot(middle[0] * np.ones(2), middle[2] - [0, 1.4 * scale], color="#D55E00", linestyle="-",
-              gid=DRAWING, label=r"weight $m g$")  # fmt: skip
+              label=r"weight $m g$")  # fmt: skip
     left.plot(*middle[[0, 2]], "ko", markersize=scaled(5), label="centre of mass, at c")
     left.plot(0, 0, "ks", markerfacecolor="white", markersize=scaled(5), label="origin")
     left.set(aspect="equal", xlim=(-0.3 * 1e3 * length, 1.1 * 1e3 * length))
@@ -159,8 +159,8 @@ def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figur
     for coupled, colour, pattern in ((False, "#D55E00", "--"), (True, "black", "-")):
         for k, pose in enumerate(falls(length, tilt, h, coupled)[:: STEPS // 3]):
             label = ("with $m C$" if coupled else "without $m C$") if k == 0 else None
-            right.plot(*1e3 * pose[:, [0, 2]].T, pattern, color=colour, gid=DRAWING, label=label)
-            right.plot(*1e3 * pose[0, [0, 2]], "s", color=colour, markersize=scaled(3), gid=DRAWING)
+            right.plot(*1e3 * pose[:, [0, 2]].T, pattern, color=colour, label=label)
+            right.plot(*1e3 * pose[0, [0, 2]], "s", color=colour, markersize=scaled(3))
     right.set_aspect("equal")
     label_axes(right, "x [mm]", "z [mm]", caption(h, "frictionless"))
     return page

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Array, Contacts
@@ -142,7 +142,7 @@ def figure(*, phi: float = PHI, turn: float = TURN) -> Figure:
     ):
         end = start + motion[[0, 2]]
         head = {"arrowstyle": "-|>", "color": colour, "linestyle": "none", "shrinkB": 0}
-        left.plot(*np.transpose([start, end]), pattern, color=colour, gid=DRAWING, label=name)
+        left.plot(*np.transpose([start, end]), pattern, color=colour, label=name)
         left.annotate("", end, (start + 9 * end) / 10, arrowprops=head, annotation_clip=False)
     left.plot(*np.transpose([alpha, beta]), "ko", markersize=scaled(3), label="alpha and beta")
     x, z, reach = *(alpha + beta) / 2, 2.4e3 * RADIUS
@@ -169,9 +169,9 @@ def _columns(axes: Any) -> None:
     axes.plot(
         column[~palm], row[~palm], "D", color="#0072B2", label="columns of beta's body", **style
     )
-    axes.axhline(3.5, color="0.3", linestyle="-", gid=DRAWING)
+    axes.axhline(3.5, color="0.3", linestyle="-")
     for edge in (5.5, 6.5):
-        axes.axvline(edge, color="0.7", linestyle="-", gid=DRAWING)
+        axes.axvline(edge, color="0.7", linestyle="-")
     axes.set(xlim=(-0.6, 12.6), ylim=(7.6, -0.6))
     axes.set_yticks(range(8), ["finger: x", "y", "z", "about n", "floor: x", "y", "z", "about n"])
     axes.set_xticks([2.5, 6, 9.5], ["palm", "width", "bunny"])

@@ -21,13 +21,16 @@ from quasistatic_ref.optional.show.figures.looks import (
     lit,
 )
 from quasistatic_ref.optional.show.figures.moments import Moment
-from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
 PLANES: Final = {"xy": Camera(-90, 90), "xz": Camera(-90, 0), "yz": Camera(0, 0)}
 """Views along an axis of the world, named by what is to the right and what is up."""
+
+EDGE_ON = 1e-6
+"""Cosine of the angle between a view and a normal, below which a plane is seen as a line [-]."""
 
 MILLI = 1e3
 DOT = 5.0
@@ -56,14 +59,14 @@ class Pen:
         self.axes.plot(
             *self.seen(point).T, marker="o", linestyle="", color="black", markeredgewidth=0.6,
             markersize=scaled(3.5 if bears else 2.2), markerfacecolor=FORCE if bears else "white",
-            zorder=9 + bears, gid=DRAWING,
+            zorder=9 + bears,
         )  # fmt: skip
 
     def line(self, points: Array, colour: str, dashes: str, width: float) -> None:
         """A line through points [m]."""
         self.axes.plot(
             *self.seen(points).T, color=colour, linestyle=dashes, linewidth=scaled(width),
-            zorder=7, gid=DRAWING,
+            zorder=7,
         )  # fmt: skip
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
@@ -80,7 +83,7 @@ class Pen:
         bounded = []
         for placed in of.shapes:
             if isinstance(placed.shape, HalfSpace):
-                self._floor(patch(placed.shape, centre, 3 * half))
+                self._floor(placed.shape, patch(placed.shape, centre, 3 * half))
             else:
                 nearness = self.camera.seen(of.world(placed, np.zeros((1, 3))))[0, 2]
                 bounded.append((nearness, placed))
@@ -110,20 +113,18 @@ class Pen:
             zorder=zorder,
         )  # fmt: skip
 
-    def _floor(self, corners: Array) -> None:
-        outline = self.seen(corners)
-        flat = np.linalg.svd(outline - outline.mean(axis=0))[1][-1] < 1e-6 * np.ptp(outline)
-        if flat:  # seen from its side
-            ends = outline[[np.lexsort(outline.T)[0], np.lexsort(outline.T)[-1]]]
-            self.axes.plot(
-                *ends.T, color="0.5", linewidth=1.4, linestyle="-", zorder=0.5, gid=DRAWING
-            )
-        else:
-            self._fill(outline, FLOOR, "0.6", zorder=0)
+    def _floor(self, floor: HalfSpace, corners: Array) -> None:
+        """A square of its surface; a line, where it is seen from its side."""
+        from_the_side = abs(self.camera.axes()[2] @ floor.normal) < EDGE_ON
+        edge, linewidth = ("0.5", 1.4) if from_the_side else ("0.6", 0.6)
+        self._fill(self.seen(corners), FLOOR, edge, linewidth, zorder=0.5)
 
-    def _fill(self, outline: Array, face: str, edge: str, **style: Any) -> None:
-        style = {"linewidth": 0.6} | style
-        self.axes.add_patch(Polygon(outline, facecolor=face, edgecolor=edge, **style))
+    def _fill(
+        self, outline: Array, face: str, edge: str, linewidth: float = 0.6, **style: Any
+    ) -> None:
+        self.axes.add_patch(
+            Polygon(outline, facecolor=face, edgecolor=edge, linewidth=linewidth, **style)
+        )
 
     def hull(self, points: Array) -> None:
         """Its outline, filled; nothing where it is seen edge on."""

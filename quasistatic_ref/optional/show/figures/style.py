@@ -29,9 +29,6 @@ TEXT: Final = 9.0
 STYLES: Final = ("paper", "slides", "poster")
 """Styles that come along, each a file of rcParams next to this module."""
 
-DRAWING: Final = "drawing"
-"""Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
-
 METADATA: Final = {"png": None, "pdf": {"CreationDate": None}}
 """What files of each format say of their making: the same figure has the same bytes."""
 _current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
