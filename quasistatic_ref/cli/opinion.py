@@ -11,7 +11,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.parts import needed_package, needing
+from quasistatic_ref.parts import needing
 from quasistatic_ref.tolerances import CREEP
 
 SETTLE = 2.0
@@ -47,8 +47,6 @@ def run(options: argparse.Namespace) -> int:
     control = controls(options.control)
     with about_file(options.scene):
         model = compiled_model(options.scene, options.roots)
-        mujoco = needed_package("mujoco", "engines", "opinion")
-        mujoco.set_mju_user_warning(lambda text: None)  # or it writes a file where it is called
         data = settled(model, options.settle, options.keyframe, control)
         start = settled(model, 0.0, options.keyframe, control)
         opinion = second_opinion(model, data, options.tolerance, start)

@@ -14,7 +14,7 @@ from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.npz import header_of, npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
-from quasistatic_ref.parts import if_there, needed_package, needing
+from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
 from quasistatic_ref.simulate.finding import finding_table
@@ -240,7 +240,6 @@ def scenario_of(options: argparse.Namespace) -> Scenario:
         from quasistatic_ref.optional.guests.settled import settled
     with about_file(path):
         model = compiled_model(path, options.roots)
-        needed_package("mujoco", "engines", "run").set_mju_user_warning(lambda text: None)
         start = settled(model, 0.0, options.keyframe)
         data = None if options.keyframe is None else start
         source = options.targets

@@ -40,7 +40,7 @@ LARGEST_MODEL = 256 * 2**20
 
 
 def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
-    """The model of an MJCF file as MuJoCo compiles it.
+    """The model of an MJCF file as MuJoCo compiles it; its warnings are not printed from then on.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
         than any robot: naming element and attribute.
     """
     fence = Fence(path, roots)
-    mujoco = needed_package("mujoco", "engines", "MJCF")
+    mujoco = quiet_mujoco()
     try:
         line, _, binary = printed(path.resolve()).partition(b"\n")
     except subprocess.TimeoutExpired:
@@ -78,6 +78,13 @@ def compiled_model(path: Path, roots: Sequence[str | Path] = ()) -> MjModel:
     return model
 
 
+def quiet_mujoco() -> ModuleType:
+    """MuJoCo, which else prints what it warns of, and writes MUJOCO_LOG.TXT where it is called."""
+    mujoco = needed_package("mujoco", "engines", "MJCF")
+    mujoco.set_mju_user_warning(lambda text: None)
+    return mujoco
+
+
 def printed(path: Path) -> bytes:
     """The answer of a process of its own."""
     return subprocess.run(
@@ -94,9 +101,7 @@ def printed(path: Path) -> bytes:
 
 def answer(path: Path) -> bytes:
     """An empty JSON object and the model; or an object that says why there is none."""
-    mujoco = needed_package("mujoco", "engines", "MJCF")
-    # Without one, MuJoCo prints what it warns of, and writes MUJOCO_LOG.TXT where it is called.
-    mujoco.set_mju_user_warning(lambda text: None)
+    mujoco = quiet_mujoco()
     try:
         spec = mujoco.MjSpec.from_file(str(path))
         spec.compiler.usethread = False

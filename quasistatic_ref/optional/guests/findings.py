@@ -259,13 +259,6 @@ def _penetrates(meeting: _Meeting, cause: str, remedy: str) -> Named:
     return _finding("penetrates", body, meeting.contacts, remedy, cause, {"depth_mm": depth})
 
 
-def overlapping(name: str, bodies: tuple[str, str], depth: float, when: str, words: Words) -> Named:
-    """The finding about two bodies that overlap by a depth [m], whatever an engine makes of it."""
-    body, other = bodies if bodies[0] != "world" else bodies[::-1]
-    cause = f"{name}: {body} and {other} overlap by {1e3 * depth:.3g} mm {when}"
-    return body, Finding("penetrates", True, words.apart, cause, {"depth_mm": 1e3 * depth})
-
-
 def _finding(
     kind: str, body: Body, through: Sequence[Contact], remedy: str, cause: str,
     numbers: Mapping[str, float],

@@ -11,7 +11,7 @@ import numpy as np
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import Words, overlapping
+from quasistatic_ref.optional.guests.findings import Words
 from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
@@ -106,19 +106,11 @@ def second_opinion(
 
     weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
     words = _words(model)
-    deep = [(one, "now, without a contact of MuJoCo's") for one in unlisted(state)]
+    overlaps = [*unlisted(state, words)]
     if start is not None:
         first = mujoco_state(model, start)
         first.run()
-        deep += [(one, "at the start") for one in misplaced(first)]
-    overlaps = [
-        overlapping(
-            one.name,
-            (touches.mover_name(state, one.geoms[0]), touches.mover_name(state, one.geoms[1])),
-            one.depth, when, words,
-        )
-        for one, when in deep
-    ]  # fmt: skip
+        overlaps += misplaced(first, words)
     h = float(model.opt.timestep)
     return opinion_of(of_engine, step_of, h, tolerance, words, weight, overlaps)
 
