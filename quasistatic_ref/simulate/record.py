@@ -69,11 +69,11 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.words("slots", [])
     extra = top.words("extra")
     iterated = ITERATED if top.text("law", CONVEX, LAWS) == COULOMB else ()
-    needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
-        needed = (*needed, *(FORCES if record == "forces" else ()), *iterated)
-        _check_present(arrays, needed)
+        _check_present(arrays, (*needed, *(FORCES if record == "forces" else ()), *iterated))
+    if any(name in arrays for name in COST):
+        _check_present(arrays, COST)
     of_record = {"full": (*PROGRAM, *COST, "forces"), "forces": FORCES}.get(record, ())
     known = ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
     for name in arrays:
@@ -85,11 +85,8 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
         if array.dtype.kind == "f" and not np.isfinite(numbers).all():
             raise InputError("must contain finite numbers only", field=name)
-    needed = (*needed, *(["forces"] if full and "forces" in arrays else []))
-    if full and any(name in arrays for name in COST):
-        _check_present(arrays, COST)
-        needed = (*needed, *COST)
-    for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
+    lengths = {name: steps for name in arrays if name not in ("q", *CONSTANT)}
+    for name, length in {**lengths, "q": steps + 1}.items():
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
             raise InputError(problem, field=name, value=arrays[name].shape)

@@ -71,10 +71,12 @@ class JointTrack(Plain):
         joint = self.joint
         if isinstance(joint, AxisJoint):
             positions = piecewise_linear(self.times, self.values, t)[:, 0]
-            return np.array([joint.at(position) for position in positions.tolist()])
-        intervals, shares = _interval(self.times, t)
-        each = zip(intervals.tolist(), shares.tolist(), strict=True)
-        return np.array([self._within(i, s) for i, s in each], dtype=np.float64)
+            rows = [joint.at(position) for position in positions.tolist()]
+        else:
+            intervals, shares = _interval(self.times, t)
+            each = zip(intervals.tolist(), shares.tolist(), strict=True)
+            rows = [self._within(i, s) for i, s in each]
+        return np.reshape(rows, (len(t), joint.q.stop - joint.q.start)).astype(np.float64)
 
     def _within(self, i: int, s: float) -> list[float]:
         """Where it is in interval i, a share s of which has passed: nq entries of q."""

@@ -4,7 +4,6 @@ They are functions of the time, of where the step starts, and of the result of t
 """
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING
 
@@ -33,8 +32,6 @@ Force = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 FROM_LOADS = 'system.load(q, "BODY", force=(1, 0, 0)) makes it from a force in world axes'
 NO_FORCE = read_only(np.zeros(()))
-AT_ONCE = 100
-"""Steps whose targets are evaluated at once."""
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
@@ -71,7 +68,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         )
 
     if isinstance(target, Targets):
-        return _by_blocks(system, h, target, checked)
+        target = target.over(np.arange(1.0, steps + 1.0) * h)
     if callable(target):
         goal = _returning(with_all_arguments(target, "target"), unnamed, (n,), "target")
         return lambda t, q, last: checked(goal(t, q, last))
@@ -83,27 +80,9 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     if values.ndim == 1:
         constant = checked(values)
         return lambda t, q, last: constant
-    table = [checked(row) for row in values]
-    return lambda t, q, last: table[round(t / h) - 1]
-
-
-def _by_blocks(
-    system: System, h: float, targets: Targets, checked: Callable[[Array], Array]
-) -> Checked:
-    """The targets of waypoints, evaluated and checked for many steps at once."""
-
-    @lru_cache(maxsize=1)
-    def block(first: int) -> Array | None:
-        t: Array = np.arange(first + 1.0, first + AT_ONCE + 1.0) * h
-        q_bar_a = read_only(targets.over(t) + 0.0)
-        return q_bar_a if system.surely_actuated(q_bar_a) else None
-
-    def at(t: float, q: Array, last: "StepResult | None") -> Array:
-        k = round(t / h) - 1
-        values = block(k - k % AT_ONCE)
-        return checked(targets(t)) if values is None else np.asarray(values[k % AT_ONCE])
-
-    return at
+    sure = system.surely_actuated(values)
+    table = read_only(values + 0.0) if sure else [checked(row) for row in values]
+    return lambda t, q, last: np.asarray(table[round(t / h) - 1])
 
 
 def named_target(system: System, values: Values) -> Array:

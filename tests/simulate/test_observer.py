@@ -8,7 +8,6 @@ import pytest
 
 from quasistatic_ref import Extra, InputError, Recorder, RunFailed, load_scenario, rollout
 from quasistatic_ref.simulate import recorder as recorder_module
-from quasistatic_ref.simulate import user_functions
 from quasistatic_ref.simulate.observer import Observer
 
 STEPS = 3
@@ -70,16 +69,14 @@ def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "block_push"])
 def test_a_run_whose_steps_are_packed_one_by_one_is_the_same(name, monkeypatch):
-    """In all arrays, notes and findings, also of targets that are evaluated one by one."""
+    """In all arrays, notes and findings."""
     scene = load_scenario(name, steps=16, record="full", fast=True)
     of_whole = Witness(every_step=False)
     whole = scene.run(progress=False, observers=[of_whole])
     witness = Witness(every_step=True)
-    monkeypatch.setattr(user_functions, "AT_ONCE", 1)
     single = scene.run(progress=False, observers=[witness])
     assert len(witness.asked) == 2 * len(whole) + 1
     assert witness.noted == of_whole.noted
-    monkeypatch.undo()
     monkeypatch.setattr(recorder_module, "PACKED", 7)
     witness = Witness(every_step=False)
     some = scene.run(progress=False, observers=[witness])
