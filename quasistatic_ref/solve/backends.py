@@ -197,32 +197,27 @@ NONE = "none"
 
 
 @cache  # CVXPY tries to import every solver it knows: 2 ms
-def installed(interface: str) -> tuple[str, ...]:
-    """The installed backends, reached by ``"cvxpy"`` or ``"qpsolvers"``."""
-    if interface == "qpsolvers":
-        there = through_qpsolvers()
-        return tuple(name for name in BACKENDS if name in there)
-    import cvxpy
+def reached(interface: str) -> tuple[str, ...]:
+    """Every solver that is here, by ``"cvxpy"`` or, with its optional part, ``"qpsolvers"``."""
+    if interface == "cvxpy":
+        import cvxpy
 
-    here = {name.lower() for name in cvxpy.installed_solvers()}
-    return tuple(b.name for b in BACKENDS.values() if b.cvxpy and b.name in here)
-
-
-def through_qpsolvers() -> list[str]:
-    """The backends that qpsolvers reaches here; none without ``optional/qpsolvers``."""
+        return tuple(name.lower() for name in cvxpy.installed_solvers())
     with if_there():
         from quasistatic_ref.optional.qpsolvers.through_qpsolvers import available_solvers
 
-        return available_solvers()
-    return []
+        return tuple(available_solvers())
+    return ()
+
+
+def installed(interface: str) -> tuple[str, ...]:
+    """The installed backends, reached by ``"cvxpy"`` or ``"qpsolvers"``."""
+    return tuple(name for name in BACKENDS if name in reached(interface))
 
 
 def others_installed() -> tuple[str, ...]:
     """Names of what CVXPY, and behind ``qpsolvers:`` qpsolvers, have that is not in the table."""
-    import cvxpy
-
-    names = [name.lower() for name in cvxpy.installed_solvers()]
-    names += [QPSOLVERS + name for name in through_qpsolvers()]
+    names = [*reached("cvxpy"), *(QPSOLVERS + name for name in reached("qpsolvers"))]
     return tuple(name for name in names if name.removeprefix(QPSOLVERS) not in BACKENDS)
 
 
