@@ -15,8 +15,9 @@ from functools import cache
 from typing import Final, NamedTuple
 
 import numpy as np
+from scipy.optimize import nnls
 
-from quasistatic_ref.optional.forces.faces import Rows, face
+from quasistatic_ref.optional.forces.faces import Rows, face, rows_of
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
@@ -70,7 +71,7 @@ def guessed_faces(step: StepData, compliance: float, wrench: Array) -> list[Rows
     """
     try:
         return list(_Energy(step, compliance).least(wrench).faces)
-    except np.linalg.LinAlgError:
+    except (ValueError, ArithmeticError, RuntimeError):  # of NumPy, of exact fractions, of nnls
         return [()] * step.contacts.n_c
 
 
@@ -183,9 +184,6 @@ def _floats(name: str, count: int, rows: Rows) -> Array:
 def nearest_rows(name: str, count: int, z: Array) -> Rows:
     """The rows of the face on which the point nearest to -z lies: the method of Lawson and Hanson.
 
-    The row whose condition is missed most joins the others; of rows whose multipliers are negative
-    the most negative leaves.
-
     Parameters
     ----------
     name : str
@@ -195,19 +193,5 @@ def nearest_rows(name: str, count: int, z: Array) -> Rows:
     z : ndarray, shape (4,)
         Its lengths [m, or times any positive number].
     """
-    rows: Rows = ()
-    least = -ROUNDING * np.abs(z).max()
-    for _ in range(3 * count):
-        slacks = _floats(name, count, rows)[:-4] @ z
-        slacks[list(rows)] = 0.0
-        missed = int(slacks.argmin())
-        if slacks[missed] >= least:
-            break
-        rows = tuple(sorted((*rows, missed)))
-        while rows:
-            multipliers = (_floats(name, count, rows)[:-4] @ z)[list(rows)]
-            lowest = int(multipliers.argmin())
-            if multipliers[lowest] > 0:
-                break
-            rows = rows[:lowest] + rows[lowest + 1 :]
-    return rows
+    multipliers, _ = nnls(rows_of(name, count).T, -z)
+    return tuple(np.flatnonzero(multipliers > ROUNDING * np.abs(z).max()).tolist())
