@@ -5,7 +5,6 @@ r"""How all data of a step change with what the step is a function of.
 """
 
 from collections.abc import Mapping
-from functools import partial
 
 import numpy as np
 
@@ -47,8 +46,7 @@ def data_rates(
     acts = simulator.gravity_factor[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
-    tau = np.concatenate([step.tau_a, step.tau_u])
-    by = load_rates(h, step.K_q, step.M_u, tau, step.delta_q_bar_a, x)
+    by = load_rates(step, x)
     by_q = h * acts * masses.gravity_rates(gravity)
     by_q[:, :n_a] += by["delta_q_bar_a"] @ target_by_q
     if not simulator.system.constant_mass_matrix and n_a < step.n_v:
@@ -87,24 +85,15 @@ def data_rates(
     for name, J in by_friction.items():
         motion[:, :, places[name]] = (J @ x)[:, :, None] * of_pair[:, None]
         terms[places[name]] = (np.abs(J) @ np.abs(x)).max(initial=0.0)
-    pull = partial(_pull, rows, by_friction, of_pair, places, load.shape)
+
+    def pull(y: Array) -> Array:
+        exerted = np.zeros(load.shape)
+        exerted[:, places["dq_dq"]] = rows.pull(y)
+        for name, J in by_friction.items():
+            exerted[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
+        return exerted
+
     return DataRates(load, motion, terms, pull), places
-
-
-def _pull(
-    rows: RowRates,
-    by_friction: Mapping[str, Array],
-    of_pair: Array,
-    places: Places,
-    shape: tuple[int, ...],
-    y: Array,
-) -> Array:
-    """Derivatives by all parameters of what multipliers y (n_c, 4) exert, shape (n_v, P)."""
-    pull = np.zeros(shape)
-    pull[:, places["dq_dq"]] = rows.pull(y)
-    for name, J in by_friction.items():
-        pull[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
-    return pull
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:

@@ -66,9 +66,9 @@ def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstac
         if safe[places].all():
             continue
         points = rates.result.points.chosen(np.arange(places.start, places.stop))
-        inside, outside = tied_points(kept[places], points)
-        if outside:
-            where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
+        tied = tied_points(kept[places], points)
+        if tied:
+            where = tuple(f"{pair.name}/{i}" for i in tied)
             says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
             yield rates.obstacle(reason.POINTS, where, FIELDS, says)
         jump = spare_pair(kept[places], points, rates.motion.J)

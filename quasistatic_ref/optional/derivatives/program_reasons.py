@@ -5,7 +5,6 @@ from collections.abc import Set
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.derivatives.model.tangent import half_turns
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
@@ -26,11 +25,14 @@ def target_obstacles(simulator: Simulator, rates: StepRates) -> list[Obstacle]:
     rates : StepRates
     """
     change = rates.result.step.delta_q_bar_a
-    says = "the target is half a turn away, where (-) jumps"
-    return [
-        rates.obstacle(reason.HALF_TURN, (name,), ("dq_dq", "dq_dq_bar_a"), f"{name}: {says}")
-        for name in half_turns(simulator.system.joints, change, ON_RIM)
-    ]
+    obstacles = []
+    for joint in simulator.system.joints:
+        turn = change[joint.v][joint.lengths :]
+        if joint.unit and joint.v.stop <= len(change) and np.linalg.norm(turn) >= np.pi - ON_RIM:
+            says = f"{joint.name}: the target is half a turn away, where (-) jumps"
+            fields = ("dq_dq", "dq_dq_bar_a")
+            obstacles.append(rates.obstacle(reason.HALF_TURN, (joint.name,), fields, says))
+    return obstacles
 
 
 def row_obstacles(

@@ -25,7 +25,7 @@ from quasistatic_ref.tolerances import FILLED
 def check_kappa(kappa: float) -> None:
     """Refuse a `kappa` that is no weight of barriers [N m s]: InputError."""
     number = checked_numbers(kappa, "kappa", InputError)
-    if isinstance(kappa, bool) or number.shape or not 0 < number < np.inf:
+    if number.shape or not 0 < number < np.inf:
         raise InputError("must be a finite number greater than 0", field="kappa", value=kappa)
 
 

@@ -9,8 +9,8 @@ from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.tolerances import TIED
 
 
-def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int], list[int]]:
-    """Numbers of the kept points of one pair, and of those left out, that are equally near.
+def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> list[int]:
+    """Numbers of points of one pair that are equally near, of which not all are kept.
 
     Parameters
     ----------
@@ -21,17 +21,14 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
 
     Returns
     -------
-    kept, left_out : list of int
-        Both empty if nothing is tied.
+    list of int
+        Those that are kept first; empty if nothing is tied.
     """
     of = kept[0].of
     pair = of.pair
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
-        return [], []  # all of them, or the closest pair of two solids
-    worst = points.phi.max()
-    as_near = of.search.number[np.abs(of.search.rank - worst) <= TIED * of.size]
-    left_out = as_near[~(as_near[:, None] == points.point).any(axis=1)].tolist()
-    if not left_out:
-        return [], []
-    level = np.abs(points.phi - worst) <= TIED * of.size
-    return points.point[level].tolist(), left_out
+        return []  # all of them, or the closest pair of two solids
+    as_near = np.abs(of.search.rank - points.phi.max()) <= TIED * of.size
+    numbers = of.search.number[as_near]
+    are_kept = np.isin(numbers, points.point)
+    return [] if are_kept.all() else [*numbers[are_kept].tolist(), *numbers[~are_kept].tolist()]

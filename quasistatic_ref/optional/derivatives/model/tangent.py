@@ -112,26 +112,6 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
     return E
 
 
-def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[str]:
-    """Names of the joints whose change is half a turn, where (-) jumps.
-
-    Parameters
-    ----------
-    joints : sequence of Joint
-    change : ndarray, shape (n,)
-        As in :func:`difference_rates` [m, rad].
-    within : float
-        Largest deviation from pi that counts as none [rad].
-    """
-    names = []
-    for joint in joints:
-        if joint.unit and joint.v.stop <= len(change):
-            turn = change[joint.v][joint.lengths :]
-            if np.linalg.norm(turn) >= np.pi - within:
-                names.append(joint.name)
-    return names
-
-
 def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, slice], Array]]:
     """Of each joint that moves by a twist its block of a matrix, and ad of its part of a change."""
     blocks = []

@@ -54,8 +54,7 @@ def derivatives_of(step):
     x = answer.delta_q
     contacts = step.contacts
     n_c = contacts.n_c
-    tau = np.concatenate([step.tau_a, step.tau_u])
-    by = load_rates(step.h, step.K_q, step.M_u, tau, step.delta_q_bar_a, x)
+    by = load_rates(step, x)
     load = np.hstack([by["h"], by["delta_q_bar_a"], by["tau"], by["K_q"]])
     before = load.shape[1]
     load = np.hstack([load, np.zeros((step.n_v, 3 * n_c))])
