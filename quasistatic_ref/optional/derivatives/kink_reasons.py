@@ -5,9 +5,8 @@ from functools import cache
 
 import numpy as np
 
+from quasistatic_ref.optional.derivatives.contact.jumps import jumps
 from quasistatic_ref.optional.derivatives.contact.kinks import kinks
-from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
-from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle
 from quasistatic_ref.optional.derivatives.step.touching import Touching
@@ -41,8 +40,8 @@ def geometry_obstacles(
     felt = range(contacts.n_c) if touching is None else touching.contacts
     obstacles = []
     for j, kind, says in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
-        jumps = kind not in reason.SMOOTH_POINTS
-        if j not in felt and (not jumps or safe[j]):
+        smooth = kind in reason.SMOOTH_POINTS
+        if j not in felt and (smooth or safe[j]):
             continue
         frictionless = not contacts.mu[j, 0] or cone(simulator.cone).name == "frictionless"
         if kind == reason.TANGENTS and (
@@ -53,10 +52,10 @@ def geometry_obstacles(
         fields = tuple(rates.places) if blurred else FIELDS
         name = contacts.name[j]
         obstacles.append(rates.obstacle(kind, (name,), fields, f"{name} {says}"))
-    return [*obstacles, *_ties(simulator, rates, safe)]
+    return [*obstacles, *_jumps(simulator, rates, safe)]
 
 
-def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstacle]:
+def _jumps(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstacle]:
     """What other points a motion may bring in, pair by pair."""
     kept = rates.couples
     at = 0
@@ -66,14 +65,8 @@ def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstac
         if safe[places].all():
             continue
         points = rates.result.points.chosen(np.arange(places.start, places.stop))
-        tied = tied_points(kept[places], points)
-        if tied:
-            where = tuple(f"{pair.name}/{i}" for i in tied)
-            says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
-            yield rates.obstacle(reason.POINTS, where, FIELDS, says)
-        jump = spare_pair(kept[places], points, rates.motion.J)
-        if jump is not None:
-            yield rates.obstacle(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
+        for kind, where, says in jumps(kept[places], points, rates.motion.J):
+            yield rates.obstacle(kind, where, FIELDS, says)
 
 
 def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:

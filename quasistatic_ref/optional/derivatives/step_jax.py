@@ -222,21 +222,16 @@ def _differentiable(
     once.defjvp(twice)
 
     def checked(*arguments: Any) -> Any:
-        traced = any(isinstance(one, jax.core.Tracer) for one in arguments)
-        arrays = jax.numpy if traced else np
         force = arguments[2]
         if not isinstance(force, jax.core.Tracer) and np.ndim(force) == 0 and force == 0:
             arguments = (*arguments[:2], np.zeros(system.n_v), arguments[3])
         named = zip(ARGUMENTS, arguments, sizes, strict=True)
-        numbers = tuple(_checked(jax, arrays, *one) for one in named)
-        return step(*numbers) if traced else called((), *numbers)
+        return step(*(_checked(jax, *one) for one in named))
 
     return checked
 
 
-def _checked(
-    jax: ModuleType, arrays: ModuleType, name: str, value: Any, shape: tuple[int, ...]
-) -> Any:
+def _checked(jax: ModuleType, name: str, value: Any, shape: tuple[int, ...]) -> Any:
     """An argument of a step in float64, of the shape that ``Simulator.step`` takes.
 
     Raises
@@ -244,13 +239,13 @@ def _checked(
     InputError
         If it is of another type or shape.
     """
+    if not jax.config.jax_enable_x64:
+        problem = "must be float64: jax.config.update('jax_enable_x64', True)"
+        raise InputError(problem, field=name)
     try:
-        array = arrays.asarray(value)
+        array = jax.numpy.asarray(value)
     except (TypeError, ValueError) as error:
         raise InputError(f"must be numbers: {error}", field=name) from error
-    if jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
-        problem = "must be float64: jax.config.update('jax_enable_x64', True)"
-        raise InputError(problem, field=name, value=str(array.dtype))
     if array.dtype.kind in "iu":
         array = array.astype(np.float64)
     if array.dtype != np.float64:

@@ -1,11 +1,12 @@
-"""Whether a closest pair that is left out for its corners would be kept after any motion.
+"""Which points that a pair leaves out a motion would bring in: where its contacts jump.
 
-Of two solids the candidates are the corners and the closest pair, which is left out where they span
-it. Where it lies on parallel faces that overlap in more
-than corners, or where its feature ends, a motion makes another point of it: the contacts jump.
+A point that is left out may be as near as the farthest of those that are kept. And of two solids
+the candidates are the corners and the closest pair, which is left out where they span it. Where it
+lies on parallel faces that overlap in more than corners, or where its feature ends, a motion makes
+another point of it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -16,14 +17,16 @@ from quasistatic_ref.optional.derivatives.contact.couples import Couple, PairInW
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import REPEATED
+from quasistatic_ref.tolerances import REPEATED, TIED
 
 LEVEL = 1e-11
 """Difference of heights, relative to the solid, at which corners are of one face."""
 
 
-def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple[str, str] | None:
-    """Kind and sentence of the jump, for the contacts of one pair; None if there is none.
+def jumps(
+    kept: Sequence[Couple], points: ClosestPoints, J: Array
+) -> Iterator[tuple[str, tuple[str, ...], str]]:
+    """The jumps of the contacts of one pair.
 
     Parameters
     ----------
@@ -32,20 +35,38 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         The same.
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
+
+    Yields
+    ------
+    kind : str
+        A name of :mod:`~quasistatic_ref.optional.derivatives.step.reason`.
+    where : tuple of str
+        Points, or the pair.
+    sentence : str
     """
     of = kept[0].of
     pair = of.pair
-    if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
-        return None
+    if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
+        return  # all of them are kept, or the closest pair of two solids
+    as_near = np.abs(of.search.rank - points.phi.max()) <= TIED * of.size
+    tied = of.search.number[as_near]
+    are_kept = np.isin(tied, points.point)
+    if not are_kept.all():
+        where = tuple(f"{pair.name}/{i}" for i in (*tied[are_kept], *tied[~are_kept]))
+        says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
+        yield reason.POINTS, where, says
+    if pair.has_cloud or pair.corners in points.point:
+        return
     nearest = of.closest
     covered = _covered(of)
     if not nearest.at_an_end and (covered or couple_rates([nearest], J).unique[0]):
-        return None
+        return
     if couple_rates([nearest.merged], J).unique[0]:
-        return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
-    if covered:
-        return None
-    return reason.MANY, "has parallel surfaces that overlap in more than corners"
+        says = f"{pair.name} has a closest pair where a vertex, an edge or a face ends"
+        yield reason.FEATURE, (pair.name,), says
+    elif not covered:
+        says = f"{pair.name} has parallel surfaces that overlap in more than corners"
+        yield reason.MANY, (pair.name,), says
 
 
 def _covered(of: PairInWorld) -> bool:
