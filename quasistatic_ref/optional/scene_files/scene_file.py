@@ -26,15 +26,14 @@ from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import FORMAT, VERSION
 from quasistatic_ref.scenario.world_solids import solid_table
-from quasistatic_ref.shapes.placed_shape import (
-    PlacedShape,
-    PointCloud,
-)
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.arrays import Array
 
 WORLD: Final = 0
 """Number of the world among the links."""
+NOT_OF_SIMULATORS: Final = ("targets", "wrenches", "joint_friction", "joint_limits", "support")
+"""What a body's table says and no simulator knows."""
 NEIGHBOURS: Final = 4
 """How many floats on each side of an angle are tried."""
 
@@ -113,7 +112,8 @@ def scenario_written(
         }
         bodies = files.bodies(simulator)
         for name, entry in entries.items():
-            bodies[name] |= _motion_fields(entry)
+            table = entry.table.fields
+            bodies[name] |= {field: table[field] for field in NOT_OF_SIMULATORS if field in table}
         solver = {name: getattr(simulator, name) for name in ("backend", "accuracy", "certify")}
         tables = {"": top, "solver": solver, "limits": vars(simulator.limits)}
         tables |= {f"bodies.{name}": table for name, table in bodies.items()}
@@ -254,21 +254,6 @@ class _SceneFiles:
                         raise InputError(problem, field=f"{body.name}: {mesh_file.name}")
                     copy.write_bytes(mesh_file.read_bytes())
                     mesh.set("filename", name)
-
-
-def _motion_fields(entry: BodyEntry) -> dict[str, Any]:
-    """What a body's table says and no simulator knows: targets, wrenches, friction, limits."""
-    fields: dict[str, Any] = {"targets": entry.targets} if entry.targets else {}
-    if entry.wrenches is not None:
-        rows = zip(entry.wrenches.times.tolist(), entry.wrenches.values.tolist(), strict=True)
-        fields["wrenches"] = [{"t": t, "force": w[:3], "torque": w[3:]} for t, w in rows]
-    if entry.joint_friction is not None:
-        fields["joint_friction"] = entry.joint_friction
-    if entry.joint_limits is not None:
-        fields["joint_limits"] = entry.joint_limits
-    if entry.support is not None:
-        fields["support"] = entry.support.fields
-    return fields
 
 
 def _roll_pitch_yaw(placed: PlacedShape) -> list[float]:

@@ -171,9 +171,7 @@ def test_a_wrong_question_is_refused_in_a_sentence():
 
 SECOND = {
     "forward over reverse": jax.hessian,
-    "reverse over reverse": lambda f: jax.jacrev(jax.jacrev(f)),
     "compiled": lambda f: jax.jit(jax.jacrev(jax.grad(f))),
-    "of several": lambda f: lambda force: jax.vmap(jax.hessian(f))(force[None]),
 }
 
 

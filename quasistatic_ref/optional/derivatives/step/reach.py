@@ -79,7 +79,7 @@ class Reach:
     @cached_property
     def loads(self) -> Array:
         """Multipliers of the touching rows of length one, each far from zero if it can be, (k,)."""
-        for share in self.size * 10.0 ** -np.arange(1, 12) if self.size else ():
+        for share in self.size * 10.0 ** -np.arange(1, 12):
             least = np.full(len(self.cone), share / len(self.cone))
             more, miss = nnls(self.cone.T, self.force - self.cone.T @ least)
             if miss <= SPLIT * share:
@@ -89,6 +89,8 @@ class Reach:
     @cached_property
     def loaded(self) -> Array:
         """How far at least each parameter may change until a row has no load, shape (P,)."""
+        if not self.size:
+            return np.full(self.rates.exerted.shape[1], np.inf)
         shares = np.linalg.lstsq(self.cone.T, self.rates.exerted, rcond=DEPENDENT)[0]
         left = np.full(shares.shape, np.inf)
         np.divide(self.loads[:, None], np.abs(shares), out=left, where=shares != 0)
@@ -140,10 +142,7 @@ class Reach:
     def _goes_on(self, column: int, sign: int, distance: float) -> bool:
         """Whether the rows surely bear what they exert beyond a distance: their cone is convex."""
         change = sign * self.rates.exerted[:, column]
-        speed = float(np.linalg.norm(change))
-        if not self.size or not speed:
-            return True
-        ahead = max(2 * distance, AHEAD * self.size / speed)
+        ahead = max(2 * distance, AHEAD * self.size / float(np.linalg.norm(change)))
         miss = nnls(self.cone.T, self.force + ahead * change)[1]
         return bool(miss <= SPLIT * self.size)
 
@@ -152,8 +151,6 @@ class Reach:
         change = sign * self.rates.exerted[:, column]
         size = self.size
         speed = float(np.linalg.norm(change))
-        if not size or not speed:
-            return NEVER
         _, s, V = np.linalg.svd(self.cone, full_matrices=False)
         V = V[s > DEPENDENT * s[0]]
         rows = self.cone @ V.T
