@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shpython_value
+from quasistatic_ref.formats.quoting import clipped, one_line, short_words, shown_value
 
 
 class QuasistaticError(Exception):
@@ -84,7 +84,7 @@ class InputError(QuasistaticError):
     def __str__(self) -> str:
         where = f"{clipped(str(self.file))}: " if self.file is not None else ""
         what = f"{clipped(self.field)}: " if self.field is not None else ""
-        got = f" (got {shpython_value(self.value)})" if self.value is not None else ""
+        got = f" (got {shown_value(self.value)})" if self.value is not None else ""
         return one_line(f"{where}{what}{short_words(self.problem)}{got}")
 
     def in_file(self, file: str | Path) -> InputError:

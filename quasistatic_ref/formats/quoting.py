@@ -94,7 +94,7 @@ def short_words(text: str) -> str:
     return re.sub(rf"\S{{{LONGEST + 1},}}", lambda word: clipped(word[0]), text)
 
 
-def shpython_value(value: object) -> str:
+def shown_value(value: object) -> str:
     """What `repr` says of a value, on one line and of at most 80 characters."""
     try:
         text = " ".join(repr(value).split())

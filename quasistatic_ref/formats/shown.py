@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.quoting import shpython_value
+from quasistatic_ref.formats.quoting import shown_value
 from quasistatic_ref.parts import if_there
 
 
@@ -39,4 +39,4 @@ class HasPage(Shown):
 
 
 def _short(value: object) -> str:
-    return f"array{value.shape}" if isinstance(value, np.ndarray) else shpython_value(value)
+    return f"array{value.shape}" if isinstance(value, np.ndarray) else shown_value(value)

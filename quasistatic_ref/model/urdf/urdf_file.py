@@ -175,13 +175,8 @@ def _content(path: Path, text: str) -> UrdfFile:
         notes.append(f"its elements are read without their namespace, {robot.attrib['xmlns']}")
     top.pass_over("link", "joint", attributes=_ROBOT)
     links: dict[str, FileLink] = {}
-    counts = {
-        "links": (len(robot.findall("link")), MOST_LINKS),
-        "collisions": (len(robot.findall("link/collision")), MOST_SHAPES),
-    }
-    for what, (count, most) in counts.items():
-        if count > most:
-            raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
+    _check_count(len(robot.findall("link")), MOST_LINKS, "links")
+    _check_count(len(robot.findall("link/collision")), MOST_SHAPES, "collisions")
     for element in robot.findall("link"):
         link = _link(element, ignored, notes)
         if link.name in links:
@@ -192,13 +187,18 @@ def _content(path: Path, text: str) -> UrdfFile:
     needed = version != "1.2"  # which made limits optional
     joints = [_joint(element, ignored, notes, needed) for element in robot.findall("joint")]
     joints = _followers(joints, notes)
-    moving = [JOINTS[joint.kind] for joint in joints if joint.kind in JOINTS]
-    coordinates = sum(len(getattr(kind, "twist", "1")) for kind in moving)
+    moving = [joint.kind for joint in joints if joint.kind != "fixed"]
+    coordinates = sum(3 if kind == "ball" else 1 for kind in moving)
     if coordinates > MOST_COORDINATES:
         problem = f"has joints of more than {MOST_COORDINATES} coordinates; fix some of them"
         raise ModelError(problem, field="robot", value=coordinates)
     root, ordered = checked_tree(links, joints)
     return UrdfFile(path, text, root, links, ordered, tuple(ignored), tuple(notes))
+
+
+def _check_count(count: int, most: int, what: str) -> None:
+    if count > most:
+        raise ModelError(f"holds more than {most} {what}", field="robot", value=count)
 
 
 def _link(element: Element, ignored: list[str], notes: list[str]) -> FileLink:
@@ -330,8 +330,9 @@ def _joint(
         if kind == "floating":
             problem += ', or base = "floating" where the whole body floats'
         raise ModelError(problem, field=f"{joint.where}.type", value=kind)
-    read = ("origin", "parent", "child", "axis", "mimic", "dynamics")
-    joint.pass_over(*read, attributes=("name", "type"))
+    joint.pass_over(
+        "origin", "parent", "child", "axis", "mimic", "dynamics", attributes=("name", "type")
+    )
     dynamics = joint.perhaps("dynamics")
     if dynamics is not None:  # a scenario may read the friction
         dynamics.pass_over()

@@ -47,9 +47,6 @@ CYLINDER = Cylinder(0.05, 0.08)
 FEATURES = {
     "corner of a box": (BOX, (0.03, -0.05, 0.08), along(1, -2, 3)),
     "edge of a box": (BOX, (0.03, 0.01, -0.08), along(1, 0, -2)),
-    "face of a box": (BOX, (0.01, -0.05, 0.02), along(0, -1, 0)),
-    "corner of a mesh": (MESH, (0.2, 0, 0), along(3, 1, -1)),
-    "edge of a mesh": (MESH, (0.05, 0, 0), along(0, -1, -2)),
     "slanting edge of a mesh": (MESH, (0.05, 0.15, 0), along(2, 2, 1)),
     "face of a mesh": (MESH, (0.05, 0.08, 0.07), along(1, 1, 1)),
     "cap of a capsule": (CAPSULE, 0.03 * along(1, 2, -3) - [0, 0, 0.05], along(1, 2, -3)),
@@ -57,7 +54,6 @@ FEATURES = {
     "cap of a cylinder": (CYLINDER, (0.01, 0.02, -0.08), along(0, 0, -1)),
     "side of a cylinder": (CYLINDER, 0.05 * along(1, -3, 0) + [0, 0, 0.02], along(1, -3, 0)),
     "rim of a cylinder": (CYLINDER, 0.05 * along(-1, 3, 0) + [0, 0, 0.08], along(-1, 3, 2)),
-    "other rim of a cylinder": (CYLINDER, 0.05 * along(1, 2, 0) - [0, 0, 0.08], along(1, 2, -2)),
 }
 """A solid, a point of it, and an outward normal there, in its own frame."""
 OTHERS = Ellipsoid((0.03, 0.05, 0.08)), Cone(0.05, 0.08)
