@@ -143,11 +143,9 @@ def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[A
     """The ends of edges (S, 2, 3) [m] of a box or a convex mesh, and their numbers."""
     on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
     facing = on & (dot(flat.normals, way) >= TURNED)
-    ends = flat.vertices[flat.edges]
-    along = ends[:, 1] - ends[:, 0]
-    level = np.abs(dot(along, way)) <= EDGE_COSINE * norm(along)
+    level = np.abs(dot(flat.ways, way)) <= EDGE_COSINE * norm(flat.ways)
     some = facing[flat.sides].any(axis=1) | on[flat.sides].all(axis=1) & level
-    return ends[some], np.flatnonzero(some)
+    return flat.vertices[flat.edges[some]], np.flatnonzero(some)
 
 
 def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:

@@ -170,10 +170,8 @@ class System(Mechanism):
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,). In C: screws.c."""
-        q = with_shape(q, "q", (self.n_q,))
-        self.units.check(q)
+        here = self._entries(q)
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
-        here = q.tolist()
         change = delta_q.tolist()
         there: list[float] = []
         for joint in self.joints:  # in the order of q
@@ -182,11 +180,7 @@ class System(Mechanism):
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        q = with_shape(q, "q", (self.n_q,))
-        q_next = with_shape(q_next, "q", (self.n_q,))
-        self.units.check(q)
-        self.units.check(q_next)
-        return _change(self.joints, q.tolist(), q_next.tolist())
+        return _change(self.joints, self._entries(q), self._entries(q_next))
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,).
@@ -196,11 +190,16 @@ class System(Mechanism):
         ModelError
             Unless q_a has shape (n_q_a,).
         """
-        q = with_shape(q, "q", (self.n_q,))
         q_a = with_shape(q_a, "q_a", (self.n_q_a,))
-        self.units.check(q)
         self.actuated_units.check(q_a)
-        return _change(self.actuated, q.tolist(), q_a.tolist())
+        return _change(self.actuated, self._entries(q), q_a.tolist())
+
+    def _entries(self, q: Array) -> list[float]:
+        """Entries of a q of shape (n_q,), whose quaternions have length one."""
+        q = with_shape(q, "q", (self.n_q,))
+        self.units.check(q)
+        entries: list[float] = q.tolist()
+        return entries
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""

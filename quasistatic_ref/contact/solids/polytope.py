@@ -5,7 +5,7 @@ A capsule is a segment with a margin, its radius. So box, convex mesh and capsul
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -47,6 +47,16 @@ class Polytope:
     offsets: Array
     edges: Indices
     sides: Indices
+
+    @cached_property
+    def tails(self) -> Array:
+        """Where each edge begins, shape (E, 3) [m]."""
+        return self.vertices[self.edges[:, 0]]
+
+    @cached_property
+    def ways(self) -> Array:
+        """From there to its end, shape (E, 3) [m]."""
+        return self.vertices[self.edges[:, 1]] - self.tails
 
     def moved(self, R: Array, t: Array) -> "Polytope":
         """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""

@@ -57,10 +57,10 @@ def _with_margins(a: Polytope, b: Polytope, gap: float, on_a: Array, n: Array) -
 
 def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
     """Two segments have no volume: the distance is never negative, but may be without direction."""
-    tail_a = a.vertices[:1]
-    tail_b = b.vertices[:1]
-    way_a = a.vertices[1:] - tail_a
-    way_b = b.vertices[1:] - tail_b
+    tail_a = a.tails[:1]
+    tail_b = b.tails[:1]
+    way_a = a.ways[:1]
+    way_b = b.ways[:1]
     s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
     on_a = tail_a + s * way_a
     on_b = tail_b + r * way_b
@@ -109,10 +109,8 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     The arc of an edge joins the normals of its two faces; those of b count negated. (D. Gregorius,
     "The separating axis test between convex polyhedra".)
     """
-    way_a = a.vertices[a.edges[:, 1]] - a.vertices[a.edges[:, 0]]
-    way_b = b.vertices[b.edges[:, 1]] - b.vertices[b.edges[:, 0]]
-    b_on_a = product(-way_a, b.normals.T)
-    a_on_b = product(way_b, a.normals.T)
+    b_on_a = product(-a.ways, b.normals.T)
+    a_on_b = product(b.ways, a.normals.T)
     c = b_on_a[:, b.sides[:, 0]]
     d = b_on_a[:, b.sides[:, 1]]
     e = a_on_b[:, a.sides[:, 0]].T
@@ -121,9 +119,11 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     i, j = np.nonzero((c * d < 0) & (e * f < 0))
     if not len(i):
         return np.zeros((0, 3)), np.zeros(0)
-    n = np.cross(way_a[i], way_b[j])
+    way_a = a.ways[i]
+    way_b = b.ways[j]
+    n = np.cross(way_a, way_b)
     length = norm(n)
-    scale = np.sqrt(dot(way_a[i], way_a[i]) * dot(way_b[j], way_b[j]))
+    scale = np.sqrt(dot(way_a, way_a) * dot(way_b, way_b))
     keep = length > ON_SURFACE * scale
     i = i[keep]
     j = j[keep]
@@ -137,7 +137,7 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     i = i[same]
     j = j[same]
     n = n[same] * np.sign(side_a[same])[:, None]
-    apart = b.vertices[b.edges[j, 0]] - a.vertices[a.edges[i, 0]]
+    apart = b.tails[j] - a.tails[i]
     return n, dot(n, apart)
 
 
@@ -173,20 +173,17 @@ def _nearest(
 
 def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Array, Array]:
     """Distances (N,) and closest points (N, 3) of pairs of edges, of those within a bound."""
-    tail_a = a.vertices[a.edges[:, 0]]
-    tail_b = b.vertices[b.edges[:, 0]]
-    way_a = a.vertices[a.edges[:, 1]] - tail_a
-    way_b = b.vertices[b.edges[:, 1]] - tail_b
-    middle_a = tail_a + way_a / 2
-    middle_b = tail_b + way_b / 2
-    reach_a, reach_b = (norm(w) / 2 for w in (way_a, way_b))
+    middle_a = a.tails + a.ways / 2
+    middle_b = b.tails + b.ways / 2
+    reach_a = norm(a.ways) / 2
+    reach_b = norm(b.ways) / 2
     # Only edges whose surrounding balls come within the bound.
     apart = middle_a[:, None] - middle_b
     apart2 = dot(apart, apart)
     i, j = np.nonzero(apart2 <= (reach_a[:, None] + reach_b + bound) ** 2)
-    s, r = nearest_on_segments(tail_a[i], way_a[i], tail_b[j], way_b[j])
-    on_a = tail_a[i] + s[:, None] * way_a[i]
-    on_b = tail_b[j] + r[:, None] * way_b[j]
+    s, r = nearest_on_segments(a.tails[i], a.ways[i], b.tails[j], b.ways[j])
+    on_a = a.tails[i] + s[:, None] * a.ways[i]
+    on_b = b.tails[j] + r[:, None] * b.ways[j]
     return norm(on_b - on_a), on_a, on_b
 
 
@@ -199,7 +196,9 @@ def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, 
     (C. Ericson, "Real-Time Collision Detection", 5.1.9.)
     """
     w = p - q
-    uu, vv, uv = (dot(x, y) for x, y in ((u, u), (v, v), (u, v)))
+    uu = dot(u, u)
+    vv = dot(v, v)
+    uv = dot(u, v)
     uw = dot(u, w)
     vw = dot(v, w)
     cross = np.cross(u, v)

@@ -80,7 +80,7 @@ def kinks(shape: Shape) -> Kinks:
     flat = polytope(shape)
     if flat is None:
         raise shape.lacks("has no known faces")
-    ways = flat.vertices[flat.edges[:, 1]] - flat.vertices[flat.edges[:, 0]]
+    ways = flat.ways
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
     return Kinks(ways, np.zeros(len(ways)), flat.normals)
 
