@@ -1,4 +1,4 @@
-"""Second opinions: the scenes of the guide, healthy scenes, and what is a finding by a formula."""
+"""Second opinions: scenes of the guide, healthy ones, and states that statics decides by hand."""
 
 import json
 
@@ -8,6 +8,7 @@ import pytest
 from jsonschema import Draft4Validator
 
 import quasistatic_ref as qr
+from quasistatic_ref.cli.opinion import controls
 from quasistatic_ref.lab.commands.schema import opinion_schema
 from quasistatic_ref.optional.guests.settled import settled
 from tests.helpers import one_sentence
@@ -19,10 +20,22 @@ WEAK = {"left": 0.001, "right": 0.001}
 GRAVITY = 9.81
 
 
-def opinion_on_settled(text, seconds, keyframe=None, control=None):
-    """The opinion on a scene that has settled."""
+FLOOR = '<geom name="floor" type="plane" size="5 5 1"/>'
+BOX = '<geom name="box" type="box" size=".1 .1 .1" mass="1"/>'
+UP = '<joint name="up" type="slide" axis="0 0 1"'
+FREE = '<body name="b" pos="0 0 .1"><freejoint/>'
+
+
+def scene(world, more="", options=""):
+    """MJCF text."""
+    return f"<mujoco>{options}<worldbody>{world}</worldbody>{more}</mujoco>"
+
+
+def opinion(text, seconds=2.0, keyframe=None, control=None):
+    """The opinion on a scene that has settled, which knows where it started."""
     model = mujoco.MjModel.from_xml_string(text)
-    return qr.second_opinion(model, settled(model, seconds, keyframe, control))
+    start = settled(model, 0.0, keyframe, control)
+    return qr.second_opinion(model, settled(model, seconds, keyframe, control), start=start)
 
 
 def torsional_fingers(text):
@@ -42,7 +55,7 @@ GUIDE = {
 
 @pytest.fixture(scope="module")
 def opinions():
-    return {name: opinion_on_settled(*arguments) for name, arguments in GUIDE.items()}
+    return {name: opinion(*arguments) for name, arguments in GUIDE.items()}
 
 
 def test_the_guide_shows_what_is_found(opinions):
@@ -74,17 +87,16 @@ def test_what_is_asked_for_and_could_be_borne_is_that_of_statics(opinions):
 def test_options_that_are_named_end_the_creep(opinions):
     assert [one.name for one in opinions["capsule"].findings] == ["creeps"]
     slower = SCENES["capsule.xml"].replace('impratio="1"', NOSLIP)
-    assert opinion_on_settled(slower, 2, "grip").findings == ()
+    assert opinion(slower, 2, "grip").findings == ()
     slower = torsional_fingers(SCENES["mug.xml"]).replace('impratio="100"', NOSLIP)
-    assert opinion_on_settled(slower, 2, "grip").findings == ()
+    assert opinion(slower, 2, "grip").findings == ()
 
 
 @pytest.mark.parametrize("normal", [0.5, 1.0, 1.2])
 def test_a_grip_holds_the_share_of_the_weight_that_its_friction_bears(normal):
     """2 mu N of m g, N = kp (control - position)."""
     control = dict.fromkeys(WEAK, normal / 1000 + 0.0001)
-    opinion = opinion_on_settled(torsional_fingers(SCENES["mug.xml"]), 0, "grip", control)
-    (finding,) = opinion.findings
+    (finding,) = opinion(torsional_fingers(SCENES["mug.xml"]), 0, "grip", control).findings
     assert finding.name == "slides"
     share = 2 * 0.8 * normal / (0.3 * GRAVITY)
     assert finding.numbers == {"share": pytest.approx(share, rel=0.02)}
@@ -95,18 +107,18 @@ def free(name, geom, at):
     return f'<body name="{name}" pos="{at}"><freejoint/><geom name="{name}" {geom}/></body>'
 
 
-BOX = 'type="box" size=".05 .06 .04"'
+BRICK = 'type="box" size=".05 .06 .04"'
 HEALTHY = {
     "capsule": free("rod", 'type="capsule" size=".02 .1" euler="0 90 0"', "0 0 .02"),
-    "three boxes": "".join(free(f"b{i}", BOX, f"0 0 {0.04 + 0.08 * i}") for i in range(3)),
-    "plank": free("a", BOX, "-.2 0 .04") + free("b", BOX, ".2 0 .04")
+    "three boxes": "".join(free(f"b{i}", BRICK, f"0 0 {0.04 + 0.08 * i}") for i in range(3)),
+    "plank": free("a", BRICK, "-.2 0 .04") + free("b", BRICK, ".2 0 .04")
     + free("c", 'type="box" size=".3 .05 .01"', "0 0 .09"),
-    "heavy on light": free("a", f'{BOX} mass=".1"', "0 0 .04")
-    + free("b", f'{BOX} mass="2"', "0 0 .12"),
-    "a door on its limit": free("box", BOX, "0 0 .04")
+    "heavy on light": free("a", f'{BRICK} mass=".1"', "0 0 .04")
+    + free("b", f'{BRICK} mass="2"', "0 0 .12"),
+    "a door on its limit": free("box", BRICK, "0 0 .04")
     + '<body pos="1 0 1"><joint axis="0 1 0" range="-20 20" damping=".5"/>'
     '<geom type="box" size=".2 .2 .01" pos=".2 0 0" mass="1"/></body>',
-    "a box that is pushed": free("box", BOX, "0 0 .04")
+    "a box that is pushed": free("box", BRICK, "0 0 .04")
     + '<body pos="-.1 0 .03"><joint name="x" type="slide" axis="1 0 0" damping="50"/>'
     '<geom size=".03" mass=".2"/></body>',
 }  # fmt: skip
@@ -116,20 +128,17 @@ PUSH = '<actuator><position name="x" joint="x" kp="100"/></actuator>'
 
 @pytest.mark.parametrize("name", HEALTHY)
 def test_a_healthy_scene_has_no_finding(name):
-    world = f'<geom name="floor" type="plane" size="5 5 1"/>{HEALTHY[name]}'
     pushed = "pushed" in name
-    options = f'<option cone="elliptic" impratio="100"/>{PUSH if pushed else ""}'
-    text = f"<mujoco>{options}<worldbody>{world}</worldbody></mujoco>"
-    opinion = opinion_on_settled(text, 2, None, {"x": 0.025} if pushed else None)
-    assert opinion.contacts
-    assert opinion.findings == ()
+    options = '<option cone="elliptic" impratio="100"/>'
+    text = scene(FLOOR + HEALTHY[name], PUSH if pushed else "", options)
+    answer = opinion(text, control={"x": 0.025} if pushed else None)
+    assert answer.contacts
+    assert answer.findings == ()
 
 
 def test_bodies_in_each_other_are_found_with_their_depth_and_forces():
     """A box of 1 kg/dm^3 that begins 5 mm deep, its weight by hand."""
-    world = f'<geom name="floor" type="plane" size="5 5 1"/>{free("box", BOX, "0 0 .035")}'
-    opinion = opinion_on_settled(f"<mujoco><worldbody>{world}</worldbody></mujoco>", 0)
-    (finding,) = opinion.findings
+    (finding,) = opinion(scene(FLOOR + free("box", BRICK, "0 0 .035")), 0).findings
     assert (finding.name, finding.numbers) == ("penetrates", {"depth_mm": pytest.approx(5.0)})
     weight = 1000 * 0.1 * 0.12 * 0.08 * GRAVITY
     assert "box and world penetrate by 5 mm, and are pushed apart with" in finding.cause
@@ -145,8 +154,7 @@ def test_what_rests_by_rolling_friction_alone_is_found():
         "ball", f'size=".1" {rolls}', "0 0 .1"
     )
     options = f'<option gravity="{g}" cone="elliptic" {NOSLIP}/>'
-    opinion = opinion_on_settled(f"<mujoco>{options}<worldbody>{world}</worldbody></mujoco>", 2)
-    (finding,) = opinion.findings
+    (finding,) = opinion(scene(world, options=options)).findings
     assert (finding.name, "ball rests in MuJoCo" in finding.cause) == ("moves", True)
     assert "rolling friction" in finding.remedy
 
@@ -188,7 +196,7 @@ def test_what_cannot_be_asked_ends_with_2_and_is_named(named, tmp_path, cli):
 def test_a_simulation_that_is_unstable_is_refused():
     text = SCENES["capsule.xml"].replace('impratio="1"', 'timestep="0.2"')
     with pytest.raises(qr.ModelError, match=r"option\.timestep: is too large"):
-        opinion_on_settled(text, 20, "grip")
+        opinion(text, 20, "grip")
 
 
 def test_a_body_that_slips_because_it_turns_is_asked_for_a_force():
@@ -200,5 +208,217 @@ def test_a_body_that_slips_because_it_turns_is_asked_for_a_force():
     <body name="cap" pos="0.3 0 0.12"><freejoint/>
       <geom type="capsule" size=".03 .1" mass="0.2" friction="0.1"/></body></worldbody>
     <equality><weld body1="box" body2="cap"/></equality></mujoco>"""
-    (finding,) = [one for one in opinion_on_settled(text, 2).findings if one.name == "creeps"]
+    (finding,) = [one for one in opinion(text, 2).findings if one.name == "creeps"]
     assert "N mm" not in finding.sentence
+
+
+def groove(angle, mu):
+    """A ball of 1 kg in a groove of two planes."""
+    planes = "".join(
+        f'<geom name="side{k}" type="plane" size="5 5 1" euler="0 {k * angle} 0"/>' for k in (-1, 1)
+    )
+    height = 0.0999 / np.cos(np.radians(angle))
+    ball = f'<body name="ball" pos="0 0 {height}"><freejoint/><geom size=".1" mass="1"/></body>'
+    options = f'<default><geom friction="{mu}"/></default>'
+    return scene(planes + ball, options=options)
+
+
+SHARED = {
+    "a groove of 60 degrees": groove(60, 0.6),
+    "a groove of 45 degrees": groove(45, 1.0),
+    "a groove of 30 degrees": groove(30, 0.5),
+    "a weld": scene(
+        f"{FLOOR}{FREE}{BOX}</body>", '<equality><weld body1="b" body2="world"/></equality>'
+    ),
+    "a connect": scene(
+        f"{FLOOR}{FREE}{BOX}</body>",
+        '<equality><connect body1="b" body2="world" anchor="0 0 0"/></equality>',
+    ),
+    "friction of a joint": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP} frictionloss="9"/>{BOX}</body>'
+    ),
+    "the limit of a joint": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP} limited="true" range="-.00001 1"/>{BOX}</body>'
+    ),
+    "the limit of a tendon": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP}/>{BOX}</body>',
+        '<tendon><fixed limited="true" range="-.00001 1"><joint joint="up" coef="1"/></fixed>'
+        "</tendon>",
+    ),
+    "friction of a tendon": scene(
+        f'{FLOOR}<body name="b" pos="0 0 .1">{UP}/>{BOX}</body>',
+        '<tendon><fixed frictionloss="9"><joint joint="up" coef="1"/></fixed></tendon>',
+    ),
+}
+
+
+@pytest.mark.parametrize("shared", SHARED)
+def test_a_load_that_is_shared_accuses_nobody(shared):
+    """All bodies rest, and MuJoCo's forces balance the weight inside the cones."""
+    answer = opinion(SHARED[shared])
+    assert answer.findings == ()
+    assert all(body.balanced and body.rests for body in answer.bodies)
+    more = sum(c.theirs.normal - (c.exact.normal if c.exact else 0.0) for c in answer.contacts)
+    noted = any("not unique" in sentence for sentence in answer.left_out)
+    assert noted == (abs(more) > 0.01 * GRAVITY)
+
+
+LIFT = '<geom name="plate" type="box" size=".3 .3 .02" mass="5"/>'
+CARRIED = {
+    "a damper": ('damping="2e5"', ""),
+    "a velocity servo": ("", '<actuator><velocity joint="up" kv="2e5"/></actuator>'),
+    "a damped servo": ("", '<actuator><general joint="up" biastype="affine" '
+                       'biasprm="0 0 -2e5"/></actuator>'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("by", CARRIED)
+def test_what_a_damper_bears_is_a_load(by):
+    """A plate that sinks at a steady speed carries a box: 9.81 N in both answers."""
+    joint, more = CARRIED[by]
+    lift = f'<body name="lift">{UP} {joint}/>{LIFT}</body>'
+    box = f'<body name="b" pos="0 0 .12"><freejoint/>{BOX}</body>'
+    answer = opinion(scene(lift + box, more, '<option integrator="implicitfast"/>'))
+    assert answer.findings == ()
+    assert sum(c.exact.normal for c in answer.contacts) == pytest.approx(GRAVITY, rel=0.01)
+    assert any("dampers" in sentence for sentence in answer.left_out)
+
+
+def test_adhesion_that_holds_presses_with_what_is_left_of_it():
+    ceiling = '<geom name="ceiling" type="box" size="1 1 .1" pos="0 0 .3"/>'
+    ball = '<geom name="ball" size=".1" mass="1" adhesion="12" gap=".01"/>'
+    answer = opinion(scene(f"{ceiling}{FREE}{ball}</body>"))
+    assert answer.findings == ()
+    (contact,) = answer.contacts
+    assert contact.depth == 0.0
+    assert contact.exact.normal == pytest.approx(12 - GRAVITY, rel=1e-6)
+    assert contact.theirs.normal == pytest.approx(12 - GRAVITY, rel=1e-3)
+
+
+SLOPE = '<option gravity="-2.539 0 -9.4757" {}>{}</option>'  # 15 degrees
+ON_SLOPE = f"{FLOOR}{FREE}{BOX}</body>".replace("size", 'friction="0.5" size')
+
+
+def test_what_sleeps_is_looked_at_as_if_awake():
+    """It creeps by 0.97 mm/s, as the same block does that may not sleep."""
+    asleep = SLOPE.format("", '<flag sleep="enable"/>')
+    speeds = [
+        opinion(scene(ON_SLOPE, options=options)).findings[0].numbers["slip_mm_s"]
+        for options in (asleep, SLOPE.format("", ""))
+    ]
+    assert speeds == pytest.approx([0.97] * 2, rel=0.02)
+
+
+@pytest.mark.parametrize("iterations", [0, 10])
+def test_in_the_pyramid_the_elliptic_cone_is_named_first(iterations):
+    options = SLOPE.format(f'noslip_iterations="{iterations}"', "")
+    answer = opinion(scene(ON_SLOPE, options=options))
+    (creep,) = answer.findings
+    assert creep.remedy.startswith('set option cone="elliptic" first')
+    elliptic = SLOPE.format('cone="elliptic" noslip_iterations="10" impratio="10"', "")
+    assert opinion(scene(ON_SLOPE, options=elliptic)).findings == ()
+
+
+def test_the_number_of_a_creep_is_its_slip():
+    """A block on a soft floor sinks at 41 mm/s, and slips at that of its joint along the floor."""
+    soft = 'solref="1 1"'
+    floor = f'<geom name="floor" type="plane" size="1 1 .1" {soft}/>'
+    joints = '<joint name="x" type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    box = BOX.replace("/>", f" {soft}/>")
+    more = '<actuator><motor joint="x" name="push"/></actuator>'
+    more += '<keyframe><key name="k" ctrl="3"/></keyframe>'
+    options = '<option cone="elliptic" impratio="100000"/>'
+    text = scene(f'{floor}<body name="b" pos="0 0 .1">{joints}{box}</body>', more, options)
+    (creep,) = opinion(text, 0.3, "k").findings
+    model = mujoco.MjModel.from_xml_string(text)
+    slip = 1e3 * settled(model, 0.3, "k").qvel[0]
+    assert creep.numbers == {"slip_mm_s": pytest.approx(slip)}
+    assert slip == pytest.approx(3.2, rel=0.01)
+
+
+def stack(light, heavy):
+    """A box on another."""
+    one = f'<geom name="light" type="box" size=".1 .1 .1" mass="{light}"/>'
+    two = f'<geom name="heavy" type="box" size=".1 .1 .1" mass="{heavy}"/>'
+    above = '<body name="c" pos="0 0 .3"><freejoint/>'
+    return scene(f"{FLOOR}{FREE}{one}</body>{above}{two}</body>")
+
+
+def test_bodies_that_a_load_presses_into_each_other_are_found():
+    answer = opinion(stack(1, 1000))
+    assert [one.name for one in answer.findings] == ["penetrates"] * 2
+    depths = [one.numbers["depth_mm"] for one in answer.findings]
+    assert depths == pytest.approx([48] * 2, rel=0.05)
+    assert opinion(stack(1, 10)).findings == ()
+
+
+@pytest.mark.parametrize("shape", ["box", "sphere", "cylinder", "capsule", "ellipsoid"])
+def test_bodies_at_one_place_are_found_at_the_start(shape):
+    """Twice the half size of 100 mm, whatever MuJoCo makes of them."""
+    geom = f'type="{shape}" size=".1 .1 .1" mass="1"'
+    bodies = "".join(
+        f'<body name="{name}" pos="0 0 .5"><freejoint/><geom name="{name}" {geom}/></body>'
+        for name in ("one", "two")
+    )
+    answer = opinion(scene(FLOOR + bodies)).findings
+    (start,) = [one for one in answer if "at the start" in one.sentence]
+    assert (start.name, start.cause[:9]) == ("penetrates", "one/two: ")
+    assert start.numbers["depth_mm"] == pytest.approx(200, rel=1e-6)
+
+
+def test_a_rod_through_a_box_that_mujoco_lists_no_contact_of_is_found():
+    """It goes out across itself and an edge: by its radius, and by the box along that normal."""
+    half, radius = np.array([0.1, 0.05, 0.2]), 0.01
+    rod = f'<geom name="rod" type="capsule" size="{radius} .3" quat=".84 -.154 -.261 .45"/>'
+    box = f'<geom name="box" type="box" size="{" ".join(map(str, half))}"/>'
+    bodies = "".join(
+        f'<body name="{name}" pos="0 0 .5"><freejoint/>{geom}</body>'
+        for name, geom in (("rod", rod), ("box", box))
+    )
+    model = mujoco.MjModel.from_xml_string(scene(bodies))
+    data = settled(model, 0.0)
+    answer = qr.second_opinion(model, data)
+    assert answer.contacts == ()
+    (finding,) = answer.findings
+    mujoco.mj_forward(model, data)
+    across = np.cross(data.geom_xmat[0].reshape(3, 3)[:, 2], np.eye(3))
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    depth = (np.abs(across) @ half).min() + radius
+    assert finding.cause.startswith(
+        "rod/box: rod and box overlap by 64.1 mm now, without a contact"
+    )
+    assert finding.numbers["depth_mm"] == pytest.approx(1e3 * depth)
+
+
+def test_bodies_that_may_overlap_are_not_found():
+    """By MuJoCo's own filters: excluded, of other groups of contacts, or one the other's parent."""
+    body = '<body name="{}" pos="0 0 .1"><freejoint/><geom type="box" size=".1 .1 .1" {}/></body>'
+    two = body.format("b", "") + body.format("c", 'contype="2" conaffinity="2"')
+    assert opinion(scene(two), 0.0).findings == ()
+    two = body.format("b", "") + body.format("c", "")
+    exclude = '<contact><exclude body1="b" body2="c"/></contact>'
+    assert opinion(scene(two, exclude), 0.0).findings == ()
+
+
+def test_names_with_colons_stay_whole():
+    floor = FLOOR.replace('"floor"', '"the: floor"')
+    box = BOX.replace('name="box"', 'name="a: box"')
+    (creep,) = opinion(scene(f"{floor}{FREE}{box}</body>", options=SLOPE.format("", ""))).findings
+    assert creep.cause.startswith("the: floor/a: box: b slips")
+
+
+@pytest.mark.parametrize("value", ["nan", "-inf", "1e400"])
+def test_a_control_that_is_no_number_is_refused(value):
+    with pytest.raises(qr.InputError, match="--control v: must be a finite number"):
+        controls([f"v={value}"])
+
+
+@pytest.mark.parametrize("field", ["qpos", "qvel", "ctrl", "xfrc_applied"])
+def test_a_state_that_is_not_finite_is_named(field):
+    motor = '<actuator><motor name="v" joint="up"/></actuator>'
+    model = mujoco.MjModel.from_xml_string(scene(f"<body>{UP}/>{BOX}</body>", motor))
+    data = mujoco.MjData(model)
+    getattr(data, field).flat[-1] = np.nan
+    for ask in (qr.second_opinion, lambda *of: qr.mujoco_step(*of, h=0.01)):
+        with pytest.raises(qr.ModelError, match=rf"data\.{field}: must contain finite numbers"):
+            ask(model, data)
