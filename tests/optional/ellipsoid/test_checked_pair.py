@@ -43,16 +43,3 @@ def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_
     expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
     gap = checked(frame, frame.start(x, lam)).gap / FORM.h
     assert_relative(float(gap), expected, ROUNDING)
-
-
-def test_what_gives_way_moves_by_the_compliance_times_the_force():
-    """In the units of the cone: s = mu (gap + J x) + c / h y, where lam = mu y."""
-    c = 1e-3
-    frame = scaled_blocks(STEP, FORM, c)
-    lam = np.array([0.02, -3e-3, 4e-3, 0.0])
-    pair = frame.start(np.array([1e-3, 2e-3, 5e-3]), lam)
-    slacks = frame.problem.slacks(*pair).entries()
-    s = [float(v * ell * frame.size) for v, ell in zip(slacks, frame.length, strict=True)]
-    motion = AXES @ np.array([1e-3, 2e-3, 5e-3]) + [PHI, 0.0, 0.0]
-    mu = np.array([1.0, MU, MU])
-    assert_relative(s[:3], mu * motion + c / H_STEP * lam[:3] / mu, ROUNDING)

@@ -13,12 +13,8 @@ from quasistatic_ref import (
     load_scenario,
     rollout,
     solve_step,
-    step_read,
-    step_written,
     trajectory_read,
-    verify,
 )
-from quasistatic_ref.optional.extensions.extended import extension_data, joined
 from tests.closeness import assert_relative, assert_within
 from tests.helpers import changed, error, pinch, random_step
 from tests.tolerances import OPTIMUM, ROUNDING
@@ -106,21 +102,6 @@ def test_the_smoothed_step_converges_to_the_hard_one_like_the_weight():
     errors = [error(step, solve_step(step, extension=smoothing(w)).delta_q, hard) for w in weights]
     rates = np.diff(np.log10(errors)) / np.diff(np.log10(weights))
     assert_within(rates, 1.0, 0.01)
-
-
-def test_rows_of_an_extension_travel_in_a_step_file(tmp_path):
-    limits = joint_limits(np.zeros(2), np.full(2, -1e-4), np.full(2, 1e-3))
-    step = pinch(grip=5.0, offset=0.2)
-    own = extension_data(step, limits)
-    assert own is not None
-    extended = step.replace(extra=joined(step.extra, own))
-    read = step_read(step_written(tmp_path / "step.json", extended))
-    assert read == extended
-    answer = solve_step(step, extension=limits)
-    again = solve_step(read, "piqp")
-    np.testing.assert_array_equal(again.delta_q, answer.delta_q)
-    lam = np.concatenate([again.lam, again.lam_extra])
-    assert verify(read, again.delta_q, again.certificate.active, lam, again.certificate)
 
 
 def test_a_cost_that_is_not_convex_is_refused_in_a_sentence():

@@ -176,6 +176,7 @@ def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     mu_omega = 0.01
     inertia = 1e-3
     free = scene(tmp_path, PUSHED.partition("[[")[0])
+    assert_relative(free.pairs[-1].beta.shape.points, [[0.01, 0.02, 0.0]], ROUNDING)
     # The twist of the base, from whose origin the centre of mass is (0.01, 0.02) off.
     turn = np.array([0.02, -0.01, 1.0])
     assert not step(free, 0.0, 0.0, 0.999 * mu_omega * m * G).delta_q.any()
