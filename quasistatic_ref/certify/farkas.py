@@ -8,14 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import arb_mat, fmpq, fmpz
+from flint import fmpq, fmpz
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.form import EXACT, ExactForm, StepForm, fraction
+from quasistatic_ref.certify.form import ExactForm, StepForm, fraction
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Indices, StepData
 
@@ -109,13 +108,13 @@ def farkas_refutation(step: StepData, exact: Sequence[str]) -> str | None:
         return "the Farkas vector has entries that are no fractions"
     if any(y_i < 0 for y_i in y):
         return "the Farkas vector has a negative entry"
-    common = fmpq(1)
-    for y_i in y:
-        common *= (y_i * common).q
-    with working_precision(EXACT):
-        row = arb_mat(1, form.m, [(y_i * common).p for y_i in y])
-        if any(not v.is_zero() for v in (row * form.A).entries()):
-            return "A'y is not zero"
-        if not (row * form.c)[0, 0] < 0:
-            return "b'y is not positive"
+    sums = [fmpq(0)] * (form.n + 1)  # A'y and -b'y
+    for i, y_i in enumerate(y):
+        if y_i:
+            row = form.exact_row(i)
+            sums = [total + y_i * fraction(v) for total, v in zip(sums, row, strict=True)]
+    if any(sums[:-1]):
+        return "A'y is not zero"
+    if not sums[-1] < 0:
+        return "b'y is not positive"
     return None

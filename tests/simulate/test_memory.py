@@ -31,7 +31,7 @@ lists would be counted, too."""
 LEFT = 50.0
 """Bytes that a step may leave between the 600th and the 1,000th, where NumPy still fills its cache
 of small arrays: 11 to 26 were seen; one number that is kept in a dictionary takes more than 60."""
-STEPS = 3 * PACKED
+STEPS = 2 * PACKED
 APIECE = 80
 """Bytes a step beyond its numbers: of names and heads of arrays, once in PACKED steps."""
 

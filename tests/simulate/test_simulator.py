@@ -45,7 +45,7 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
 
 
 def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
-    steps = 100
+    steps = 20
     table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
     q = scenario.system.q_start
     run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
