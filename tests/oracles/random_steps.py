@@ -9,8 +9,9 @@ import numpy as np
 
 from quasistatic_ref import Extra, StepData
 from quasistatic_ref.lab.scenes.at_random import divided, random_frames, spread_matrix
-from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.contacts import contacts_of, repeated
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
 
 
 def any_step(rng, n_a, n_u, n_c, mass_ratio=1.0):
@@ -93,26 +94,24 @@ def equal_groups(rng):
     of_body = any_step(rng, 0, int(rng.integers(1, 4)), int(rng.integers(0, 4)))
     contacts = of_body.contacts
     n = of_body.n_v
-    n_c = contacts.n_c
-    place = np.eye(copies)
-    phi = rng.choice([0.0, 1e-4, -1e-5], (copies, n_c)) * rng.choice([0.0, 1.0], (copies, 1))
-    mu = rng.choice([0.0, 0.3, 0.5], (2, copies * n_c))
-    frames = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
-    J = np.einsum("bk,ciy->bciky", place, contacts.J).reshape(copies * n_c, 4, copies * n)
-    touching = contacts_of(
-        phi.ravel(), np.tile(frames, (copies, 1, 1)), J, mu[0], 0.02 * mu[1],
-        np.tile(contacts.rows, copies),
+    every = np.tile(np.arange(contacts.n_c), copies)
+    J = np.concatenate([np.pad(contacts.J, ((0, 0), (0, 0), (n * b, n * (copies - b - 1))))
+                        for b in range(copies)])  # fmt: skip
+    touches = np.repeat(rng.choice([0.0, 1.0], copies), contacts.n_c)
+    mu = rng.choice([0.0, 0.3, 0.5], (2, len(every)))
+    touching = repeated(
+        contacts, every, J=J, phi=touches * rng.choice([0.0, 1e-4, -1e-5], len(every)),
+        mu_v=mu[0], mu_omega=0.02 * mu[1],
     )  # fmt: skip
-    touching = replace(touching, name=tuple(f"{rng.integers(99)}/{j}" for j in range(touching.n_c)))
+    touching = replace(touching, name=tuple(f"{rng.integers(99)}/{j}" for j in range(len(every))))
     own = rng.integers(0, 3, copies)
+    place = np.eye(copies)
     A = np.vstack([np.kron(place[b], rng.integers(-1, 2, (own[b], n))) for b in range(copies)])
     names = tuple(f"own {i}" for i in range(len(A)))
-    return StepData(
-        h=of_body.h, K_q=np.zeros((0, 0)), M_u=np.kron(place, of_body.M_u), tau_a=np.zeros(0),
-        tau_u=rng.choice([0.0, -1.0], copies * n) * rng.random(copies * n),
-        delta_q_bar_a=np.zeros(0), contacts=touching,
-        extra=Extra(names, A, rng.choice([0.0, -1e-4, 1e-5], len(A))),
-    )  # fmt: skip
+    return free_step(
+        np.kron(place, of_body.M_u),
+        rng.choice([0.0, -1.0], copies * n) * rng.random(copies * n), touching, of_body.h,
+    ).replace(extra=Extra(names, A, rng.choice([0.0, -1e-4, 1e-5], len(A))))  # fmt: skip
 
 
 def resting_step(rng):
@@ -135,11 +134,9 @@ def resting_step(rng):
     mu_v = rng.choice([0.0, 0.5, 1.0], n_c)
     mu_omega = rng.choice([0.0, 0.25], n_c)
     frames = np.tile(axes, (n_c, 1, 1))
-    return StepData(
-        h=0.5, K_q=np.zeros((0, 0)), M_u=np.diag(rng.choice([1.0, 2.0, 8.0], n)),
-        tau_a=np.zeros(0), tau_u=rng.integers(-2, 2, n).astype(np.float64),
-        delta_q_bar_a=np.zeros(0),
-        contacts=contacts_of(phi, frames, J, mu_v, mu_omega, rng.choice([4, 6], n_c)),
+    return free_step(
+        np.diag(rng.choice([1.0, 2.0, 8.0], n)), rng.integers(-2, 2, n).astype(np.float64),
+        contacts_of(phi, frames, J, mu_v, mu_omega, rng.choice([4, 6], n_c)), 0.5,
     )  # fmt: skip
 
 
