@@ -1,7 +1,7 @@
 """Records of long runs, kept so that a run can go on."""
 
 import json
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -55,13 +55,6 @@ class Log:
         if self._path is not None:
             with self._path.open("a", encoding="utf-8") as file:
                 file.write(lines(records))
-
-    def records(self, keys: Iterable[Any], record: Callable[[Any], Record]) -> Iterator[Record]:
-        """The record of each key; one that is not there is made and added."""
-        for key in keys:
-            if key not in self.by_key:
-                self.add(record(key))
-            yield self.by_key[key]
 
 
 STRANGE = "holds something else than such records; remove it, or choose another with --out"

@@ -14,18 +14,15 @@ def log_of(path, head=HEAD):
 
 def test_a_run_goes_on_after_the_last_whole_line(tmp_path):
     path = tmp_path / "log.jsonl"
-    made = []
-
-    def record(i):
-        made.append(i)
-        return {"i": i, "square": i**2}
-
-    assert [one["square"] for one in log_of(path).records(range(3), record)] == [0, 1, 4]
+    records = [{"i": i, "square": i**2} for i in range(3)]
+    log_of(path).add(*records)
     whole = path.read_text()
     path.write_text(whole[:-5])  # the last record is cut off
-    assert [one["square"] for one in log_of(path).records(range(4), record)] == [0, 1, 4, 9]
-    assert made == [0, 1, 2, 2, 3]
-    assert path.read_text().startswith(whole)
+    log = log_of(path)
+    assert log.by_key == {0: records[0], 1: records[1]}
+    log.add(records[2])
+    assert path.read_text() == whole
+    assert [*log_of(path).by_key.values()] == records
 
 
 def test_a_log_of_something_else_is_refused_and_left_as_it_is(tmp_path):

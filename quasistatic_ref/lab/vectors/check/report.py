@@ -51,70 +51,28 @@ class LayerReport:
         """How many cases have a verdict."""
         return sum(v.verdict == verdict for v in self.verdicts)
 
-    def _good(self, *, whole: bool, loose: bool) -> int:
-        """How many cases are right, their answers whole or in part."""
-        return sum(
-            v.verdict in (PASSED, ACCEPTABLE) and v.loose == loose and (not v.without) == whole
-            for v in self.verdicts
-        )
-
-    @property
-    def right(self) -> int:
-        """Whole answers, right as far as float64 can be, by a documented freedom or without."""
-        return self._good(whole=True, loose=False)
-
-    @property
-    def loose(self) -> int:
-        """Whole answers that are right to the required digits alone."""
-        return self._good(whole=True, loose=True)
-
-    @property
-    def in_part(self) -> int:
-        """Answers that leave fields out, and are right in what they contain."""
-        return self._good(whole=False, loose=False) + self._good(whole=False, loose=True)
-
-    @property
-    def supported(self) -> int:
-        """How many cases the program does not say to be beyond it."""
-        return len(self.verdicts) - self.count(UNSUPPORTED)
-
-    @property
-    def complete(self) -> bool:
-        """Whether each case that is supported is answered whole, and right to the digits asked."""
-        good = self.right + self.loose
-        return self.present and not self.problem and good == self.supported
-
-    @property
-    def whole(self) -> bool:
-        """Whether every case is answered whole and right."""
-        return self.complete and not self.loose
-
     @property
     def words(self) -> str:
-        """E.g. ``right``, ``right to fewer digits``, ``12 wrong, 3 missing``, ``not answered``."""
+        """Why it is not right, e.g. ``not answered``, ``12 wrong, 3 missing``."""
         if not self.present:
             return "not answered"
         if self.problem:
             return "its file is not as it should be"
         wrong = ((self.count(FAILED), "wrong"), (self.count(MISSING), "missing"))
-        if any(count for count, _ in wrong):
-            return ", ".join(f"{count} {word}" for count, word in wrong if count)
-        kinds = ((self.loose, "to fewer digits"), (self.in_part, "in part"))
-        return ", ".join(["right", *(word for count, word in kinds if count)])
+        return ", ".join(f"{count} {word}" for count, word in wrong if count)
 
     @property
     def passed(self) -> str:
         """E.g. ``rows 80 of 80``, with what is right in part or not supported."""
-        notes = []
-        if self.loose:
-            notes.append(f"{self.loose} to fewer digits")
-        if self.in_part:
-            notes.append(f"{self.in_part} in part")
-        if left_out := self.count(UNSUPPORTED):
-            notes.append(f"{left_out} not supported")
-        good = self.right + self.loose + self.in_part
-        more = f" ({', '.join(notes)})" if notes else ""
-        return f"{self.layer} {good} of {len(self.verdicts)}{more}"
+        good = [v for v in self.verdicts if v.verdict in (PASSED, ACCEPTABLE)]
+        notes = (
+            (sum(v.loose and not v.without for v in good), "to fewer digits"),
+            (sum(bool(v.without) for v in good), "in part"),
+            (self.count(UNSUPPORTED), "not supported"),
+        )
+        more = ", ".join(f"{count} {words}" for count, words in notes if count)
+        count = f"{self.layer} {len(good)} of {len(self.verdicts)}"
+        return f"{count} ({more})" if more else count
 
     @property
     def ok(self) -> bool:
