@@ -30,6 +30,10 @@ class Program:
 
     Attributes
     ----------
+    coordinates, rows : ndarray of int, shapes (n_v,) and (m,)
+        Of all groups, one after the other.
+    widths, heights : ndarray of int
+        How many of these each group has.
     f, A, b : ndarray
         Of all groups, one after the other; f = -g.
     parts : list of (ndarray, ndarray, ndarray)
@@ -38,23 +42,20 @@ class Program:
 
     def __init__(self, groups: Sequence[Group]) -> None:
         self.groups = [*groups]
-        widths = [len(group.coordinates) for group in groups]
-        heights = [len(group.rows) for group in groups]
         self.coordinates = np.concatenate([group.coordinates for group in groups])
         self.rows = np.concatenate([group.rows for group in groups])
-        sizes = [width * height for width, height in zip(widths, heights, strict=True)]
-        self.f = np.zeros(sum(widths))
-        self.A = np.zeros(sum(sizes))
-        self.b = np.zeros(sum(heights))
+        self.widths = np.array([len(group.coordinates) for group in groups])
+        self.heights = np.array([len(group.rows) for group in groups])
+        sizes = self.widths * self.heights
+        self.f = np.zeros(len(self.coordinates))
+        self.A = np.zeros(sizes.sum())
+        self.b = np.zeros(len(self.rows))
+        every_f = np.split(self.f, np.cumsum(self.widths)[:-1])
+        every_A = np.split(self.A, np.cumsum(sizes)[:-1])
+        every_b = np.split(self.b, np.cumsum(self.heights)[:-1])
         self.parts = [
-            (f, A.reshape(-1, width), b)
-            for width, f, A, b in zip(
-                widths,
-                np.split(self.f, np.cumsum(widths)[:-1]),
-                np.split(self.A, np.cumsum(sizes)[:-1]),
-                np.split(self.b, np.cumsum(heights)[:-1]),
-                strict=True,
-            )
+            (f, A.reshape(len(b), len(f)), b)
+            for f, A, b in zip(every_f, every_A, every_b, strict=True)
         ]
 
     def has_all_of(self, natural: StandardForm) -> bool:
@@ -190,8 +191,7 @@ class NaturalProgram:
             "Natural",
             {
                 "n": n, "m": m, "groups": len(program.groups),
-                "width": np.array([len(group.coordinates) for group in program.groups]),
-                "height": np.array([len(group.rows) for group in program.groups]),
+                "width": program.widths, "height": program.heights,
                 "coordinate": program.coordinates, "row": program.rows,
                 "g": rows["g"], "A": rows["A"], "b": rows["b"],
                 "unit": np.zeros(n), "squared": np.zeros(n), "inverse": np.zeros((n, n)),

@@ -70,11 +70,6 @@ class FloatBound:
         return least_eigenvalues(csc_matrix(self.H))
 
     @cached_property
-    def definite(self) -> bool:
-        """Whether these bounds are all above zero."""
-        return bool((self.least > 0).all())
-
-    @cached_property
     def sizes(self) -> Matrix:
         """The absolute values of H."""
         return abs(self.H)
@@ -137,7 +132,7 @@ class FloatBound:
             Its multipliers [-]; negative ones are taken as zero.
         """
         y = np.maximum(lam, 0.0)
-        if not (in_range(x, y, form.b) and sizes.usable and self.definite):
+        if not (in_range(x, y, form.b) and sizes.usable and (self.least > 0).all()):
             return math.inf
         free = self.free_length(form.g, sizes)
         if not free > 0:

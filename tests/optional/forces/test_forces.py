@@ -175,7 +175,7 @@ def test_the_compliance_changes_by_one_power_of_two_at_a_time():
     Down to a mobility of HARDLY_MOVES of the other's, c follows the second, which bears much; at
     the axis it bears nothing of the hinge, and c is the first's.
     """
-    radii = np.geomspace(1.0, 1e-12, 800)  # b falls by 7 % each time
+    radii = np.geomspace(1.0, 1e-12, 200)  # b falls by 24 % each time
     c = np.array([group_compliance(slider([X, r * X])) for r in radii])
     assert set(np.diff(np.log2(c))) == {-1.0, 0.0, 1.0}
     assert c[0] == c[-1] == group_compliance(slider([X]))
