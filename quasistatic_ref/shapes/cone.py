@@ -6,7 +6,7 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
-from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, from_axis, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
@@ -109,9 +109,6 @@ class Cone(Revolved):
 
 
 def _half_plane(points: Array) -> tuple[Array, Array]:
-    """(r, z) of points, and the unit vectors (N, 2) away from the axis; x where there is none."""
-    r = norm(points[:, :2])
-    degenerate = r == 0
-    outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
-    outward[degenerate] = (1.0, 0.0)
-    return np.stack([r, points[:, 2]], axis=1), outward
+    """(r, z) of points, and the unit vectors (N, 2) away from the axis."""
+    r, outward = from_axis(points)
+    return np.stack([r, points[:, 2]], axis=1), outward[:, :2]

@@ -6,7 +6,7 @@ import coal
 import numpy as np
 from coal import CollisionGeometry
 
-from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, from_axis, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm
 
@@ -36,10 +36,7 @@ class Cylinder(Revolved):
 
         In the half-plane (r, |z|) it is a rectangle.
         """
-        radial = points.copy()
-        radial[:, 2] = 0.0
-        r = norm(radial)
-        outward = _unit(radial, r)
+        r, outward = from_axis(points)
         excess = np.stack([r - self.radius, np.abs(points[:, 2]) - self.half_length], axis=1)
         beyond = np.maximum(excess, 0.0)
         outside = norm(beyond)
@@ -54,12 +51,11 @@ class Cylinder(Revolved):
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the side and both caps."""
-        radial = points * [1.0, 1.0, 0.0]
-        r = norm(radial)
+        r, outward = from_axis(points)
         caps = np.stack([points[:, 2], -points[:, 2]], axis=1) - self.half_length
         heights = np.concatenate([(r - self.radius)[:, None], caps], axis=1)
         normals = np.zeros((len(points), 3, 3))
-        normals[:, 0] = _unit(radial, r)
+        normals[:, 0] = outward
         normals[:, 1, 2] = 1.0
         normals[:, 2, 2] = -1.0
         return heights, normals
@@ -79,11 +75,3 @@ class Cylinder(Revolved):
         """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)
         return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
-
-
-def _unit(vectors: Array, norms: Array) -> Array:
-    """Unit vectors; the first axis where there is no direction."""
-    degenerate = norms == 0
-    unit = vectors / np.where(degenerate, 1.0, norms)[:, None]
-    unit[degenerate] = (1.0, 0.0, 0.0)
-    return unit

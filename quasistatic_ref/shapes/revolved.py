@@ -45,6 +45,22 @@ class Revolved(Shape):
         return f"{kind} of radius {self.radius:g} m, length {2 * self.half_length:g} m"
 
 
+def from_axis(points: Array) -> tuple[Array, Array]:
+    """Distances (N,) from the z axis, and unit vectors (N, 3) away from it.
+
+    Parameters
+    ----------
+    points : ndarray, shape (N, 3)
+        [m]; on the axis the vector is along x.
+    """
+    radial = points * [1.0, 1.0, 0.0]
+    r = norm(radial)
+    on_axis = r == 0
+    outward = radial / np.where(on_axis, 1.0, r)[:, None]
+    outward[on_axis] = (1.0, 0.0, 0.0)
+    return r, outward
+
+
 def rim_corners(radius: float, z: float, towards: Array) -> Array:
     """Four points of a rim, a quarter turn apart, shape (4, 3) [m].
 
