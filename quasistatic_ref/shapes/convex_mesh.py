@@ -21,9 +21,6 @@ CONVEX_EXCESS: Final = 1e-3
 """Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
 counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
 
-BLOCK = 1 << 22
-"""Points times planes handled at once: some tens of megabytes."""
-
 MOST_NEIGHBOURS = 254
 """Most edges at a corner of a convex mesh of coal, which counts them in eight bits."""
 
@@ -256,6 +253,5 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
 
 def _deepest(hull: ConvexMesh, points: Array) -> float:
     """Depth of the deepest point below the hull's surface [m]."""
-    planes = np.unique(np.column_stack([hull.normals, hull.offsets]), axis=0)
-    blocks = np.array_split(points, 1 + len(points) * len(planes) // BLOCK)
-    return max(float((planes[:, 3] - some @ planes[:, :3].T).min(axis=1).max()) for some in blocks)
+    blocks = np.array_split(points, 1 + len(points) * len(hull.triangles) // CHUNK)
+    return max(float(-hull.faces(block)[0].max(axis=1).min()) for block in blocks)

@@ -42,10 +42,10 @@ def test_a_fan_of_many_edges_is_refused_by_coal_alone():
         _ = cone.coal
 
 
-@pytest.mark.parametrize("block", [convex_mesh.BLOCK, 24])
-def test_a_fin_inside_a_mesh_counts_by_its_depth(block, monkeypatch):
+@pytest.mark.parametrize("chunk", [convex_mesh.CHUNK, 24])
+def test_a_fin_inside_a_mesh_counts_by_its_depth(chunk, monkeypatch):
     # A fin holds no volume: its tip is 0.25 below the nearest face, of a box of 3 m at most.
-    monkeypatch.setattr(convex_mesh, "BLOCK", block)
+    monkeypatch.setattr(convex_mesh, "CHUNK", chunk)
     box = convex_hull(CORNERS)
     vertices = np.vstack([box.vertices, [[6.5, -1.25, 8.0]]])
     hull = hull_of_mesh(vertices, np.vstack([box.triangles, [[0, 1, 8], [0, 8, 1]]]))
