@@ -93,31 +93,19 @@ def touching(system, names):
     return pairs
 
 
-def boxes(folder):
-    """Five, of which the first is held."""
-    return System(
-        [
-            Body.of_shape(f"b{i}", BOX, 1.0, xyz=(i, 0.0, 0.0), actuated=() if i else ("base",))
-            for i in range(5)
-        ]
-    )
-
-
 def with_a_ball(folder):
     return System([*bodies(folder).bodies, Body.of_shape("b", BOX, 1.0, base="ball")])
 
 
-def some(make, own):
-    """Some of the bodies of a system."""
-    return lambda folder: System(make(folder).bodies[own])
+def chain(folder):
+    """The first two bodies of a scene with a chain."""
+    return System(chain_scene(folder).bodies[:2])
 
 
 OWN = {"extension": lambda q: Extension(lambda s: [s.delta_q_u[3] <= 1e-5])}
 KINDS = {
     **{f"the cone {cone}": (bodies, KNOWN, {"cone": cone}) for cone in CONES},
     "no contacts": (bodies, (), {}),
-    "one body": (some(bodies, slice(1)), KNOWN, {}),
-    "five boxes": (boxes, ("cloud", "box"), {}),
     "nothing claimed": (bodies, KNOWN, {"certify": "off"}),
     "residuals": (bodies, KNOWN, {"certify": "residual"}),
     "the ellipsoid": (bodies, KNOWN, {"cone": "ellipsoid"}),
@@ -126,7 +114,7 @@ KINDS = {
     "another backend": (bodies, KNOWN, {"backend": "clarabel"}),
     "no backend": (bodies, KNOWN, {"backend": "none"}),
     "a joint that C does not know": (with_a_ball, KNOWN, {}),
-    "a mass that varies": (some(chain_scene, slice(2)), KNOWN, {}),
+    "a mass that varies": (chain, KNOWN, {}),
     "solids alone": (bodies, ("box", "hull", "cylinder"), {}),
 }
 """Bodies, shapes and settings."""
