@@ -2,9 +2,8 @@
 
 import importlib.util
 import warnings
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import accumulate
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -133,15 +132,17 @@ def loaded_mesh(path: Path, *, finite: bool = True) -> Mesh:
                 scene = trimesh.load_scene(
                     path, process=False, maintain_order=True, skip_materials=True
                 )
-                parts = list(_parts(scene.dump()))
+                mesh = _joined(scene.dump())
         except Exception as error:
             # Each format's reader raises its own kinds of errors.
             reason = " ".join(str(error).split()) or type(error).__name__
             raise ModelError(f"cannot be read as a mesh: {reason}") from None
-        metres = 1.0
+        numbers = mesh.triangles
+        if numbers.min(initial=0) < 0 or numbers.max(initial=-1) >= len(mesh.vertices):
+            raise ModelError("must be numbers of vertices", field="triangles")
         if path.suffix.lower() in WITH_UNITS and scene.units is not None:
             metres = trimesh.units.unit_conversion(scene.units, "meters")
-        mesh = _joined(parts, metres)
+            mesh = replace(mesh, vertices=metres * mesh.vertices)
         if finite and not np.isfinite(mesh.vertices).all():
             raise ModelError("must be finite numbers", field="vertices")
         return mesh
@@ -155,23 +156,19 @@ def _check_collada(path: Path) -> None:
     Collada(str(path), ignore=[DaeUnsupportedError, DaeBrokenRefError])  # such as of images
 
 
-def _parts(placed: Sequence[Any]) -> Iterator[tuple[Array, Indices]]:
-    """Vertices and triangles of each object; lines have none that count."""
+def _joined(placed: Sequence[Any]) -> Mesh:
+    """All objects as one; lines have no vertices that count."""
+    vertices = [np.zeros((0, 3))]
+    triangles = [np.zeros((0, 3), dtype=np.int64)]
+    count = 0
     for part in placed:
-        faces = getattr(part, "faces", np.zeros((0, 3)))
-        if type(part).__name__ in ("Trimesh", "PointCloud"):
-            vertices = np.asarray(part.vertices, dtype=np.float64)
-            yield vertices.reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3)
-
-
-def _joined(parts: Sequence[tuple[Array, Indices]], metres: float) -> Mesh:
-    starts = accumulate((len(vertices) for vertices, _ in parts), initial=0)
-    triangles = [faces + start for (_, faces), start in zip(parts, starts, strict=False)]
-    vertices = np.concatenate([np.zeros((0, 3)), *(vertices for vertices, _ in parts)]) * metres
-    joined = np.concatenate([np.zeros((0, 3), dtype=np.int64), *triangles])
-    if joined.size and not (joined.min() >= 0 and joined.max() < len(vertices)):
-        raise ModelError("must be numbers of vertices", field="triangles")
-    return Mesh(vertices, joined)
+        if type(part).__name__ not in ("Trimesh", "PointCloud"):
+            continue
+        faces = np.asarray(getattr(part, "faces", ()), dtype=np.int64).reshape(-1, 3)
+        triangles.append(faces + count)
+        vertices.append(np.asarray(part.vertices, dtype=np.float64).reshape(-1, 3))
+        count += len(part.vertices)
+    return Mesh(np.concatenate(vertices), np.concatenate(triangles))
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
