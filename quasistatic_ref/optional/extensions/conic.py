@@ -116,9 +116,6 @@ def _outside(s: Array) -> Array:
 
 
 def _outside_dual(z: Array) -> Array:
-    """The same of its dual, {(u, v, w) : -u exp(v / u) <= e w, u < 0}."""
+    """The same of its dual, {(u, v, w) : (u - v, -u, w) in the cone}."""
     u, v, w = z
-    if u < 0:
-        with np.errstate(over="ignore"):
-            return np.array([-u * np.exp(v / u - 1) - w])
-    return np.array([max(u, -v, -w)])
+    return _outside(np.array([u - v, -u, w]))

@@ -1,18 +1,23 @@
 """A load in the friction cone of its contact."""
 
 from itertools import combinations
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
-from matplotlib.patheffects import withStroke
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE, ROUND
-from quasistatic_ref.optional.show.figures.style import legend_above, scaled
+from quasistatic_ref.optional.show.figures.looks import (
+    CONE_EDGE,
+    CONE_FACE,
+    FORCE,
+    ROUND,
+    force_arrow,
+)
+from quasistatic_ref.optional.show.figures.style import legend_above
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array
 
@@ -62,10 +67,7 @@ def cone_with_load(
         axes.add_patch(Polygon(
             mu_v * f_n * left, facecolor=CONE_FACE, edgecolor=CONE_EDGE, alpha=FAINT,
         ))  # fmt: skip
-    style: dict[str, Any] = {"arrowstyle": "-|>", "color": FORCE, "shrinkA": 0, "shrinkB": 0}
-    style |= {"linewidth": scaled(1.6)}
-    style["path_effects"] = [withStroke(linewidth=scaled(3.2), foreground="white")]
-    axes.annotate("", (f_1, f_2), xytext=(0, 0), arrowprops=style)
+    force_arrow(axes, (0.0, 0.0), (f_1, f_2))
     reach = 1.15 * max(mu_v * f_n, abs(f_1), abs(f_2))
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
     axes.set(xlabel=r"$f_{d_1}$ [N]", ylabel=r"$f_{d_2}$ [N]")

@@ -10,14 +10,18 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
+from matplotlib.patheffects import withStroke
 
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System
 
+Place = tuple[float, float]
 ROUND: Final = 48
 """Corners of a circle, as drawn."""
 
@@ -45,6 +49,23 @@ SHADE: Final = 0.45
 """Brightness of a face that is turned away from the light; that of one towards it is 1 [-]."""
 LIGHT: Final = np.array([-0.35, 0.6, 0.72])
 """Where light comes from, in the axes of the camera: right, up, near [-]."""
+
+
+def force_arrow(axes: Axes, start: Place, end: Place) -> None:
+    """An arrow with a white edge, which is seen in grey too; its head keeps its size.
+
+    Parameters
+    ----------
+    axes : Axes
+    start, end : (float, float)
+        Its tail and its head [of the axes].
+    """
+    axes.annotate(
+        "", end, xytext=start, annotation_clip=False, zorder=8,
+        arrowprops={"arrowstyle": "-|>", "color": FORCE, "linewidth": scaled(1.6),
+                    "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(6.5),
+                    "path_effects": [withStroke(linewidth=scaled(3.2), foreground="white")]},
+    )  # fmt: skip
 
 
 def body_colours(system: System) -> dict[str, str]:

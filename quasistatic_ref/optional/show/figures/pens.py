@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon
-from matplotlib.patheffects import withStroke
 from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.optional.show.figures.camera import Camera
@@ -18,6 +17,7 @@ from quasistatic_ref.optional.show.figures.looks import (
     FORCE,
     OPACITY,
     by_depth,
+    force_arrow,
     lit,
 )
 from quasistatic_ref.optional.show.figures.moments import Moment
@@ -134,21 +134,15 @@ class Pen:
             self._fill(outline, CONE_FACE, CONE_EDGE, alpha=0.35, zorder=6)
 
     def arrow(self, start: Array, along: Array) -> None:
-        """An arrow with a white edge, which is seen in grey too; its head keeps its size.
+        """The arrow of a force.
 
         Parameters
         ----------
         start, along : ndarray, shape (3,)
             Its tail, and the way from there to its head [m].
         """
-        x, y = self.seen(start)[0]
-        u, v = self.seen(along)[0]
-        self.axes.annotate(
-            "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
-            arrowprops={"arrowstyle": "-|>", "color": FORCE, "linewidth": scaled(1.6),
-                        "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(6.5),
-                        "path_effects": [withStroke(linewidth=scaled(3.2), foreground="white")]},
-        )  # fmt: skip
+        (x, y), (u, v) = self.seen(np.stack([start, start + along]))
+        force_arrow(self.axes, (x, y), (u, v))
 
     def finish(self, box: Array, view: str | Camera) -> None:
         """Coordinates along an axis of the world only.
