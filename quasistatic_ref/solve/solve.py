@@ -20,7 +20,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.choice import solver_for
-from quasistatic_ref.solve.solver import FREE, AnswerNotClaimed, NaturalAnswer, Solver
+from quasistatic_ref.solve.solver import FREE, NaturalAnswer, Solver
 from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.data import StepData
@@ -144,7 +144,7 @@ def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str)
     if certify == "full":
         solution = _certified(both, solver, accuracy)
     else:
-        solution = uncertified(both, solver, solver.answer(both, accuracy), certify)
+        solution = uncertified(both, solver, solver.full_answer(both, accuracy), certify)
     residuals = solution.certificate.residuals.values()
     good = all(map(finite, (solution.delta_q, solution.lam, solution.lam_extra)))
     good = good and all(map(math.isfinite, residuals))
@@ -172,7 +172,8 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     step = both.si_step
     units = both.units
     curved = curved_cone(step)
-    answer, unclaimed, statistics = _answer_and_statistics(both, solver, accuracy)
+    last, statistics = _answer_and_statistics(both, solver, accuracy)
+    answer = last if last is not None and last.claimed else None
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
     si_answer = None
@@ -189,9 +190,8 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         optimum = solver.optimum(both, answer)
     delta_q = optimum.delta_q
     lam = optimum.lam
-    to_measure = answer or unclaimed
-    if to_measure is not None:
-        measured, _ = in_si(to_measure.natural_delta_q, to_measure.natural_lam, units)
+    if last is not None:
+        measured, _ = in_si(last.natural_delta_q, last.natural_lam, units)
         form = both.si_form
         length = error_length(form.H, form.g, delta_q, single_loads(step))
         digits = digits_of_error(energy_norm(form.H).of_displacement(measured - delta_q) / length)
@@ -219,9 +219,9 @@ def _not_enclosed(
 
 def _answer_and_statistics(
     both: StepInBothUnits, solver: Solver, accuracy: float
-) -> tuple[NaturalAnswer | None, NaturalAnswer | None, SolverStatistics]:
-    """A backend's answer, or one that it does not call a solution, and what it said and cost."""
-    unclaimed: NaturalAnswer | None = None
+) -> tuple[NaturalAnswer | None, SolverStatistics]:
+    """A backend's answer, perhaps one that it does not call a solution; what it said and cost."""
+    answer: NaturalAnswer | None = None
     unanswered = False
     status = "not called"
     if not both.si_form.b.size:
@@ -231,10 +231,11 @@ def _answer_and_statistics(
             answer = solver.answer(both, accuracy)
         except StepNotSolved as failure:
             status = f"failed: {failure.status}"
-            unclaimed = failure.answer if isinstance(failure, AnswerNotClaimed) else None
-            unanswered = unclaimed is None
+            unanswered = True
         else:
-            return answer, None, answer.statistics
+            if answer.claimed:
+                return answer, answer.statistics
+            status = f"failed: {answer.statistics.status}"
     statistics = SolverStatistics(
         solver.name,
         status,
@@ -244,7 +245,7 @@ def _answer_and_statistics(
         interface=solver.interface,
         unanswered=unanswered,
     )
-    return None, unclaimed, statistics
+    return answer, statistics
 
 
 def uncertified(

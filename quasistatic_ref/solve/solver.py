@@ -51,7 +51,7 @@ FREE = "not called: the step has no rows"
 
 @dataclass(eq=False)
 class NaturalAnswer:
-    """A solver's answer: it claims to have solved the step, and all numbers are finite.
+    """A solver's answer, of finite numbers.
 
     Parameters
     ----------
@@ -60,29 +60,14 @@ class NaturalAnswer:
     natural_lam : ndarray, shape (m,)
         In natural units [-], contact-major, the user's own rows last.
     statistics : SolverStatistics
+    claimed : bool
+        Whether the solver calls it a full solution.
     """
 
     natural_delta_q: Array
     natural_lam: Array
     statistics: SolverStatistics
-
-
-class AnswerNotClaimed(StepNotSolved):
-    """A backend gave an answer that it does not call a full solution.
-
-    Parameters
-    ----------
-    backend, status, step, accuracy
-        As of :class:`~quasistatic_ref.certify.failures.StepNotSolved`.
-    answer : NaturalAnswer
-        The last one.
-    """
-
-    def __init__(
-        self, backend: str, status: str, step: StepData, accuracy: float, answer: NaturalAnswer
-    ) -> None:
-        super().__init__(backend, status, step, accuracy)
-        self.answer = answer
+    claimed: bool = True
 
 
 @dataclass(eq=False)
@@ -182,9 +167,17 @@ class Solver(ABC):
         Raises
         ------
         StepNotSolved
-            If it says anything but a full solution, or the numbers are not finite; or if it may
-            not return and the rows of the step are unlike each other.
+            If it gives none, or one whose numbers are not finite; or if it may not return and the
+            rows of the step are unlike each other.
         """
+
+    def full_answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
+        """The same, if the backend calls it a full solution; StepNotSolved of anything less."""
+        answer = self.answer(both, accuracy)
+        if not answer.claimed:
+            statistics = answer.statistics
+            raise StepNotSolved(self.name, statistics.status, both.si_step, statistics.accuracy)
+        return answer
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from the rows that an answer shows to be active, or from cold.
@@ -248,15 +241,12 @@ class BackendSolver(Solver):
         return self._option_sets[accuracy]
 
     def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
-        """The answer, by each set of options in turn until one solves the step.
+        """The answer, by each set of options in turn until one solves the step; else the last one.
 
         Raises
         ------
-        AnswerNotClaimed
-            If none does, with its last answer that claims less.
         StepNotSolved
-            If none does and there is no answer; or, before any call, if the backend may not return
-            from such rows.
+            If there is none; or, before any call, if the backend may not return from such rows.
         """
         if not both.si_form.b.size:
             return self.free(both, accuracy)
@@ -269,7 +259,7 @@ class BackendSolver(Solver):
             status = f"not called: {error}"
             raise StepNotSolved(self.name, status, both.si_step, accuracy) from error
         cause: Exception | None = None
-        unclaimed: NaturalAnswer | None = None
+        answer: NaturalAnswer | None = None
         for option_set in self.option_sets(accuracy):
             tried = option_set.accuracy
             status = "an answer that is not finite"
@@ -294,13 +284,11 @@ class BackendSolver(Solver):
                     tried,
                     interface=self.interface,
                 )
-                answer = NaturalAnswer(reply.x, reply.lam, statistics)
+                answer = NaturalAnswer(reply.x, reply.lam, statistics, reply.solved)
                 if reply.solved:
                     return answer
-                status = reply.status
-                unclaimed = answer
-        if unclaimed is not None:
-            raise AnswerNotClaimed(self.name, status, both.si_step, tried, unclaimed) from cause
+        if answer is not None:
+            return answer
         raise StepNotSolved(self.name, status, both.si_step, tried) from cause
 
     def free(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:

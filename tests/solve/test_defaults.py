@@ -15,6 +15,7 @@ from tests.helpers import error
 from tests.tolerances import OPTIMUM
 
 FAILED = Reply(None, None, False, "at a loss")
+UNCLAIMED = Reply(np.zeros(6), np.zeros(6), False, "iteration limit")
 
 
 @pytest.mark.extra("fast")
@@ -44,7 +45,8 @@ def test_bodies_that_cannot_touch_count_one_by_one(monkeypatch):
 
 
 @pytest.mark.extra("fast")
-def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch):
+@pytest.mark.parametrize("failed", [FAILED, UNCLAIMED])
+def test_clarabel_takes_steps_on_which_the_default_backend_fails(failed, monkeypatch):
     scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
     simulator = scenario.simulator()
     honest = Workspaces.reply
@@ -52,7 +54,7 @@ def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch):
     backends = []
     for k in range(4):
         fails = k in (1, 2)
-        monkeypatch.setattr(Workspaces, "reply", (lambda *_: FAILED) if fails else honest)
+        monkeypatch.setattr(Workspaces, "reply", (lambda *_: failed) if fails else honest)
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         optimum = solve_step(result.step, "none").delta_q
         assert error(result.step, result.solution.delta_q, optimum) <= OPTIMUM
