@@ -6,9 +6,11 @@ nothing else is said of that step: of another, in which their contacts bear them
 """
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.doctor.compared import LookedAt, PairMotion
 from quasistatic_ref.optional.doctor.run import Run
@@ -61,46 +63,42 @@ def corners(run: Run) -> Iterator[Finding]:
     for at in run.compared.steps:
         if not at.slips_inside:
             continue
-        for i, here, there in _pairs(run, at, at.in_ellipsoid):
-            pair = run.pairs[i]
-            slow = at.without_drag
-            by_drag = slow is not None and _slips_more(at, i, here, slow[i])
-            if _slips_more(at, i, here, there) and not by_drag:
+        by_drag = [change.pair for change in _changes(at, at.without_drag) if change.stops]
+        for change in _changes(at, at.in_ellipsoid):
+            if change.stops and change.pair not in by_drag:
+                slips = {"slip_mm": 1e3 * change.here.way, "ellipsoid_mm": 1e3 * change.there.way}
                 yield Finding(
                     "corners of the cone",
                     False,
                     'set cone = "ellipsoid"',
-                    f"{pair.name} {_slip(at, i, here, there)} in the ellipsoid, in step {at.k}",
-                    {"slip_mm": 1e3 * here.way, "ellipsoid_mm": 1e3 * there.way, "step": at.k},
+                    f"{change.pair.name} {change} in the ellipsoid, in step {at.k}",
+                    {**slips, "step": at.k},
                 )
                 return
 
 
 def drag(run: Run) -> Iterator[Finding]:
-    """The pair whose force or slip changes most where bodies have a sixteenth of their drag."""
-    worst: tuple[float, Finding] | None = None
-    for at in run.compared.steps:
-        for i, here, there in _pairs(run, at, at.without_drag):
-            pair = run.pairs[i]
-            change = _relative(here.normal, there.normal, run.light)
-            slips = _slips_more(at, i, here, there)  # not less: loads move a lighter body farther
-            if not (change > COUNTS or slips):
-                continue
-            does = f"{here.normal:.3g} N, without it {there.normal:.3g} N"
-            if slips:
-                does = f"it {_slip(at, i, here, there)} without it"
-            finding = Finding(
-                "drag",
-                False,
-                "move more slowly, or take a larger h",
-                f"the drag m v / h of the step counts in {pair.name}: {does}, in step {at.k}",
-                {"normal_N": here.normal, "without_drag_N": there.normal, "step": at.k},
-            )
-            amount = 1.0 if slips else change
-            if worst is None or amount > worst[0]:
-                worst = (amount, finding)
-    if worst:
-        yield worst[1]
+    """The pair whose force or slip changes most where bodies have a sixteenth of their drag.
+
+    A pair that stops counts most. That it slips more says nothing: loads move a lighter body
+    farther.
+    """
+    changes = [x for at in run.compared.steps for x in _changes(at, at.without_drag)]
+    sizes = [1.0 if change.stops else change.of_force(run.light) for change in changes]
+    if max(sizes, default=0.0) > COUNTS:
+        change = changes[sizes.index(max(sizes))]
+        here, there = change.here.normal, change.there.normal
+        does = f"{here:.3g} N, without it {there:.3g} N"
+        if change.stops:
+            does = f"it {change} without it"
+        k = change.at.k
+        yield Finding(
+            "drag",
+            False,
+            "move more slowly, or take a larger h",
+            f"the drag m v / h of the step counts in {change.pair.name}: {does}, in step {k}",
+            {"normal_N": here, "without_drag_N": there, "step": k},
+        )
 
 
 def layer(run: Run) -> Iterator[Finding]:
@@ -108,90 +106,107 @@ def layer(run: Run) -> Iterator[Finding]:
 
     Steps in which that law reaches no fixed point are counted, and say nothing.
     """
-    worst: tuple[float, Finding] | None = None
     unsettled = sum(at.by_coulomb is None for at in run.compared.steps)
-    for at in run.compared.steps:
-        for i, here, there in _pairs(run, at, at.by_coulomb):
-            pair = run.pairs[i]
-            change = _relative(here.normal, there.normal, max(run.light, at.comes_down(pair)))
-            way = _relative_way(at, i, here, there)
-            if max(change, way) <= COUNTS:
-                continue
-            does = f"presses with {here.normal:.3g} N, where Coulomb's law allows "
-            does += f"{there.normal:.3g} N"
-            if way > change:
-                does = f"slips by {1e3 * here.way:.3g} mm, where Coulomb's law allows "
-                does += f"{1e3 * round(there.way, 9):.3g} mm"
-            finding = Finding(
-                "boundary layer",
-                False,
-                'move more slowly, take a smaller h, or set law = "coulomb"',
-                f"{pair.name} {does}, in step {at.k}: what slides rises by mu_v h v, against what "
-                "presses it",
-                {
-                    "normal_N": here.normal,
-                    "coulomb_N": there.normal,
-                    "slip_mm": 1e3 * here.way,
-                    "coulomb_mm": 1e3 * there.way,
-                    "steps_without_fixed_point": unsettled,
-                    "step": at.k,
-                },
-            )
-            if worst is None or max(change, way) > worst[0]:
-                worst = (max(change, way), finding)
-    if worst:
-        yield worst[1]
+    changes = [x for at in run.compared.steps for x in _changes(at, at.by_coulomb)]
+    sizes = [max(change.of_layer_force, change.of_way) for change in changes]
+    if max(sizes, default=0.0) > COUNTS:
+        change = changes[sizes.index(max(sizes))]
+        here, there = change.here, change.there
+        does = f"presses with {here.normal:.3g} N, where Coulomb's law allows {there.normal:.3g} N"
+        if change.of_way > change.of_layer_force:
+            does = f"slips by {1e3 * here.way:.3g} mm, where Coulomb's law allows "
+            does += f"{1e3 * round(there.way, 9):.3g} mm"
+        yield Finding(
+            "boundary layer",
+            False,
+            'move more slowly, take a smaller h, or set law = "coulomb"',
+            f"{change.pair.name} {does}, in step {change.at.k}: what slides rises by mu_v h v, "
+            "against what presses it",
+            {
+                "normal_N": here.normal,
+                "coulomb_N": there.normal,
+                "slip_mm": 1e3 * here.way,
+                "coulomb_mm": 1e3 * there.way,
+                "steps_without_fixed_point": unsettled,
+                "step": change.at.k,
+            },
+        )
 
 
-def _pairs(
-    run: Run, at: LookedAt, changed: list[PairMotion] | None
-) -> Iterator[tuple[int, PairMotion, PairMotion]]:
-    """Pairs whose bodies are in equilibrium: number, what they do in the run, and when changed.
+class Change(NamedTuple):
+    """What a pair does in a step of a run, and what it would do with one thing changed.
+
+    Parameters
+    ----------
+    at : LookedAt
+    pair : ContactPair
+    shortest : float
+        A motion of the pair that is none [m].
+    here, there : PairMotion
+        In the run, and where one thing is changed.
+    """
+
+    at: LookedAt
+    pair: ContactPair
+    shortest: float
+    here: PairMotion
+    there: PairMotion
+
+    def of_force(self, nothing: float) -> float:
+        """Difference of the normal forces over the larger [-]; 0 where it is `nothing` [N]."""
+        off = abs(self.here.normal - self.there.normal)
+        return off / max(self.here.normal, self.there.normal) if off > nothing else 0.0
+
+    @property
+    def of_layer_force(self) -> float:
+        """The same; what comes down from its layer makes no difference."""
+        return self.of_force(max(self.at.run.light, self.at.comes_down(self.pair)))
+
+    @property
+    def of_way(self) -> float:
+        """Largest difference of slips over the larger [-].
+
+        It is 0 without friction or motion, and for what comes down from its layer.
+        """
+        off = float(np.linalg.norm(self.here.slip - self.there.slip, axis=1).max(initial=0.0))
+        if self.pair.mu_v == 0 or off <= max(self.shortest, 2 * self.at.floats):
+            return 0.0
+        return off / max(self.here.way, self.there.way)
+
+    @property
+    def slips(self) -> bool:
+        """Whether the pair slips in the run alone."""
+        return self.here.way > self.shortest and self.there.way < COUNTS * self.here.way
+
+    @property
+    def stops(self) -> bool:
+        """Whether a pair with friction slips or spins in the run alone."""
+        turns = self.pair.rows == 6 and self.pair.mu_omega > 0
+        spins = self.here.spin > SHORT and self.there.spin < COUNTS * self.here.spin
+        return (turns and spins) or (self.pair.mu_v > 0 and self.slips)
+
+    def __str__(self) -> str:
+        """How far the pair slips or spins in the run, and where one thing is changed."""
+        here, there = self.here, self.there
+        if self.slips:
+            less = f"by {1e3 * there.way:.2g} mm" if there.way > self.shortest else "not"
+            return f"slips by {1e3 * here.way:.2g} mm, and {less}"
+        less = f"by {np.degrees(there.spin):.2g} degrees" if there.spin > SHORT else "not"
+        return f"turns by {np.degrees(here.spin):.2g} degrees, and {less}"
+
+
+def _changes(at: LookedAt, changed: list[PairMotion] | None) -> Iterator[Change]:
+    """The changes of pairs whose bodies are in equilibrium.
 
     Those are left out that press with less than a tenth of the largest force of the step: a pair
     that comes to touch, or ceases to, does so a step earlier or later.
     """
     if changed is None:
         return
+    run = at.run
     largest = max((pair.normal for pair in at.as_it_is), default=0.0)
-    for i, (here, there) in enumerate(zip(at.as_it_is, changed, strict=True)):
+    each = zip(run.pairs, run.shortest.tolist(), at.as_it_is, changed, strict=True)
+    for pair, shortest, here, there in each:
         bears = max(here.normal, there.normal) >= COUNTS * largest
-        if bears and not run.bodies(run.pairs[i]) & at.moved.keys():
-            yield i, here, there
-
-
-def _relative(a: float, b: float, nothing: float) -> float:
-    """Difference of two forces over the larger [-]; 0 where it is `nothing` [N]."""
-    return abs(a - b) / max(a, b) if abs(a - b) > nothing else 0.0
-
-
-def _relative_way(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> float:
-    """Largest difference of slips over the larger [-].
-
-    It is 0 without friction or motion, and for what comes down from its layer.
-    """
-    off = float(np.linalg.norm(a.slip - b.slip, axis=1).max(initial=0.0))
-    if at.run.pairs[i].mu_v == 0 or off <= max(at.run.shortest[i], 2 * at.floats):
-        return 0.0
-    return off / max(a.way, b.way)
-
-
-def _slips_more(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
-    """Whether a pair with friction slips or spins in the first of two answers alone."""
-    pair = at.run.pairs[i]
-    turns = pair.rows == 6 and pair.mu_omega > 0
-    spins = turns and a.spin > SHORT and b.spin < COUNTS * a.spin
-    return spins or (pair.mu_v > 0 and _farther(at, i, a, b))
-
-
-def _farther(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> bool:
-    return bool(a.way > at.run.shortest[i] and b.way < COUNTS * a.way)
-
-
-def _slip(at: LookedAt, i: int, a: PairMotion, b: PairMotion) -> str:
-    """How far a pair slips or spins in the first of two answers, and in the second."""
-    if _farther(at, i, a, b):
-        there = f"by {1e3 * b.way:.2g} mm" if b.way > at.run.shortest[i] else "not"
-        return f"slips by {1e3 * a.way:.2g} mm, and {there}"
-    there = f"by {np.degrees(b.spin):.2g} degrees" if b.spin > SHORT else "not"
-    return f"turns by {np.degrees(a.spin):.2g} degrees, and {there}"
+        if bears and not run.bodies(pair) & at.moved.keys():
+            yield Change(at, pair, shortest, here, there)

@@ -17,6 +17,7 @@ from quasistatic_ref.optional.doctor.checks import (
     NO_STEPS,
     OF_RUN,
     OF_SCENE,
+    Check,
     findings,
     not_looked_at,
 )
@@ -72,11 +73,13 @@ class Doctor(Observer):
 
     def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings."""
-        start = Start(recorder.simulator, recorder.start)
-        of: Start = Run(recorder, trajectory) if trajectory.steps else start
-        checks = (*OF_SCENE, *(OF_RUN if trajectory.steps else ()))
-        if not (trajectory.steps or trajectory.failed):
-            checks = (*OF_SCENE, *NO_STEPS)
+        of = Start(recorder.simulator, recorder.start)
+        checks: tuple[Check, ...] = OF_SCENE
+        if trajectory.steps:
+            of = Run(recorder, trajectory)
+            checks += OF_RUN
+        elif not trajectory.failed:
+            checks += NO_STEPS
         skipped = not_looked_at(checks, of)
         header = {
             **trajectory.header,
