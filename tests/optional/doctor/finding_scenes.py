@@ -78,8 +78,13 @@ def walls(y):
     return [(f"wall{side:+}", Box(size=(2, 0.1, 2)), (0, side * y, 0)) for side in (-1, 1)]
 
 
-STANDS = [("floor", "box", 0.5, 4)]
-BALL_STANDS = [("floor", "ball", 0.5, 1)]
+def lies(body="box", mu_v=0.5, k=4):
+    """The contacts of a body on the floor."""
+    return [("floor", body, mu_v, k)]
+
+
+STANDS = lies()
+BALL_STANDS = lies("ball", k=1)
 IN_SLOT = [*STANDS, ("wall-1", "box", 0.5, 4), ("wall+1", "box", 0.5, 4)]
 TIP = (0.02, 0.02, 0.02)
 """Of a finger [m]."""
@@ -163,13 +168,13 @@ found = findings([box()], gravity=(0, -9.81, 0))
 found = findings([box()], gravity=(0, 0, 9.81))
 
 # %% no friction coefficient: 50 per cent
-found = findings([box()], [("floor", "box", 50.0, 4)])
+found = findings([box()], lies(mu_v=50.0))
 
 # %% no angle: 90 degrees
 found = findings([box(rpy=(0, 0, 90))])
 
 # %% no count: 5000 of the corners of a box
-found = findings([box()], [("floor", "box", 0.5, 5000)])
+found = findings([box()], lies(k=5000))
 
 # %% initial penetration: the origin of a box is its middle, and it was set on the floor
 found = findings([box(xyz=(0, 0, 0.04))])
@@ -195,11 +200,11 @@ found = findings([DRAWER], [("rail", "drawer", 0.2, 4)], [RAIL], gravity=(50, 0,
 
 # %% guided friction: a door on its hinge that grazes the floor
 door = Body("door", joint("revolute", "0 0 1"), xyz=(0, 0, 0.05))
-found = findings([door], [("floor", "door", 0.3, 4)])
+found = findings([door], lies("door", mu_v=0.3))
 
 # %% guided friction: a turntable with friction under it
 table = Body("table", joint("continuous", "0 0 1"), xyz=(0, 0, 0.05))
-found = findings([table], [("floor", "table", 0.3, 1)], mu_omega=0.02)
+found = findings([table], lies("table", mu_v=0.3, k=1), mu_omega=0.02)
 
 # %% guided friction: a slot as wide as its block
 found = findings([box()], IN_SLOT, walls(0.1), push={"box": (50, 0, 0)})
@@ -241,16 +246,16 @@ found = findings(
 )
 
 # %% too few points: one contact under a box
-found = findings([box()], [("floor", "box", 0.5, 1)])
+found = findings([box()], lies(k=1))
 
 # %% too few points: three contacts under a box, whose centre is over an edge of them
-found = findings([box()], [("floor", "box", 0.5, 3)])
+found = findings([box()], lies(k=3))
 
 # %% too few points: five of the hundred points below a cloud
-found = findings([box()], [("floor", "box", 0.5, 5)], cloud={"box": FACE})
+found = findings([box()], lies(k=5), cloud={"box": FACE})
 
 # %% too few points: a cylinder on its end
-found = findings([TIN], [("floor", "tin", 0.5, 2)])
+found = findings([TIN], lies("tin", k=2))
 
 # %% density: a box of 10 cm with a mass in grams
 found = findings([box(mass=1000.0)])
@@ -269,7 +274,7 @@ can = Body(
     base="floating",
     xyz=(0, 0, 0.05),
 )
-found = findings([can], [("floor", "can", 0.5, 4)], cloud={"can": grid})
+found = findings([can], lies("can"), cloud={"can": grid})
 
 # %% stray points: one of a hundred is 0.3 m off
 found = findings([box()], cloud={"box": [*FACE, (0.3, 0, 0.1)]})
@@ -299,7 +304,7 @@ found = findings(
 # %% unit of a shape: a cloud in millimetres
 found = findings(
     [box()],
-    [("floor", "box", 0.5, 5)],
+    lies(k=5),
     cloud={"box": [(x, y, -0.05) for x in (-50, 50) for y in (-50, 50)]},
 )
 
@@ -347,20 +352,18 @@ drawer = Body("drawer", joint("prismatic", "1 0 0"), positions={"joint": 0.98})
 found = findings([drawer], [], push={"drawer/part": (400, 0, 0)}, steps=3)
 
 # %% sunk contact: a box of a hundred points, of which one is kept, tips farther than a step foresees
-found = findings(
-    [box()], [("floor", "box", 0.5, 1)], cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3
-)
+found = findings([box()], lies(k=1), cloud={"box": FACE}, push={"box": (0, 0, -20)}, steps=3)
 
 # %% sunk contact: a rod on one point of its side
 rod = Body.of_shape("rod", Cylinder(0.01, 0.1), 0.2, xyz=(0, 0, 0.01), rpy=(0, np.pi / 2, 0))
-found = findings([rod], [("floor", "rod", 0.5, 1)], push={"rod": (0, 0.05, 0)}, steps=20)
+found = findings([rod], lies("rod", k=1), push={"rod": (0, 0.05, 0)}, steps=20)
 
 # %% not in equilibrium: a push of 500 N on 0.1 kg
 found = findings([box(mass=0.1)], push={"box": (500, 0, 0)}, steps=2)
 
 # %% leap: the first target is half a metre away
 finger = motor("finger", xyz=(0, 0, 0.05))
-found = findings([finger], [("floor", "finger", 0.0, 4)], target=[0.5])
+found = findings([finger], lies("finger", mu_v=0.0), target=[0.5])
 
 # %% free fall: a box dropped from 1 m falls by h^2 g a step, for ever as slowly
 found = findings([box(xyz=(0, 0, 1.05))])
@@ -415,7 +418,7 @@ found = findings(
 )
 
 # %% not in equilibrium: a box on ice
-found = findings([box()], [("floor", "box", 0.0, 4)], push={"box": (3, 0, 0)}, steps=10)
+found = findings([box()], lies(mu_v=0.0), push={"box": (3, 0, 0)}, steps=10)
 
 # %% failing backend: twelve digits of OSQP, which gives nine
 found = findings([box()], push={"box": (3, 0, 0)}, backend="osqp", accuracy=1e-24)

@@ -41,14 +41,14 @@ found = findings([ball()], BALL_STANDS, mu_omega=0.005)
 
 # %% nothing: a log
 rod = Body.of_shape("rod", Cylinder(0.02, 0.1), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
-found = findings([rod], [("floor", "rod", 0.5, 4)])
+found = findings([rod], lies("rod"))
 
 # %% nothing: a capsule
 pill = Body.of_shape("pill", Capsule(0.02, 0.05), 0.2, xyz=(0, 0, 0.02), rpy=(0, np.pi / 2, 0))
-found = findings([pill], [("floor", "pill", 0.5, 2)])
+found = findings([pill], lies("pill", k=2))
 
 # %% nothing: a tin on its end
-found = findings([TIN], [("floor", "tin", 0.5, 4)])
+found = findings([TIN], lies("tin"))
 
 # %% nothing: a box of foam and one of lead
 found = findings(
@@ -102,7 +102,7 @@ found = findings([box()], IN_SLOT, walls(0.105))
 found = findings([box(base="planar")], [], push={"box": (1, 0, 0)})
 
 # %% nothing: a planar base on a smooth floor
-found = findings([box(base="planar")], [("floor", "box", 0.0, 4)], push={"box": (1, 0, 0)})
+found = findings([box(base="planar")], lies(mu_v=0.0), push={"box": (1, 0, 0)})
 
 # %% nothing: a drawer on its joint alone
 found = findings([DRAWER], [])
@@ -132,7 +132,7 @@ found = findings(
 )
 
 # %% nothing: a box of a hundred points, all of which are kept
-found = findings([box()], [("floor", "box", 0.5, 100)], cloud={"box": FACE})
+found = findings([box()], lies(k=100), cloud={"box": FACE})
 
 # %% nothing: a robot's finger in the air
 found = findings([motor("finger")], [], target=[0.01])
@@ -141,11 +141,11 @@ found = findings([motor("finger")], [], target=[0.01])
 found = findings([box(xyz=(0, 0, 1))], [], gravity=(0, 0, 0))
 
 # %% nothing: a box that a step moves by a fifth of its size
-found = findings([box(mass=0.1)], [("floor", "box", 0.0, 4)], push={"box": (20, 0, 0)}, steps=1)
+found = findings([box(mass=0.1)], lies(mu_v=0.0), push={"box": (20, 0, 0)}, steps=1)
 
 # %% nothing: a wheel that turns by 0.24 rad in a step
 wheel = Body("wheel", joint("revolute", "0 0 1"), actuated="all", xyz=(0, 0, 0.2))
-found = findings([wheel], [("floor", "wheel", 0.5, 4)], target=[0.24], K_q=1e6, steps=1)
+found = findings([wheel], lies("wheel"), target=[0.24], K_q=1e6, steps=1)
 
 # %% nothing: a target at the limit of its URDF
 found = findings([motor("finger")], [], target=[1.0])

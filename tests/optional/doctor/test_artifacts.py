@@ -11,9 +11,7 @@ from quasistatic_ref.cli.time_step import SLOW
 from quasistatic_ref.model.joints.floating import Floating
 from quasistatic_ref.model.joints.planar import Planar
 from quasistatic_ref.optional.doctor.artifacts import (
-    boundary_layer,
     drag_share,
-    gap_after,
     quasi_dynamic_number,
 )
 from tests.closeness import assert_relative
@@ -106,20 +104,6 @@ def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
     for other in (replace(base, actuated=True), flat):
         body.joints = (other,)
         assert np.isnan(share_of_drag(body, solution, G))
-
-
-def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
-    m = 0.3
-    mu = 0.02
-    step = sphere_on_floor(m=m, mu_omega=mu, wrench=(0, 0, -m * G, 0, 0, 3 * mu * m * G))
-    solution = solve_step(step)
-    expected = mu * solution.delta_q[5]
-    assert expected > 1e-5
-    contacts = solution.step.contacts
-    motion = contacts.motion(solution.delta_q)
-    gap = gap_after(contacts.phi[None], contacts.n[None], motion[None])
-    found = boundary_layer(gap, solution.wrench[None])
-    assert_relative(found, [expected], ROUNDING)
 
 
 def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, cli):

@@ -16,10 +16,8 @@ MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
     ("name", "wrench", "normal"),
     [
         ("pyramid", (1.0, 1.0, 9.0, 0.02), 5.0),  # (1 + 1) / 0.5 + 0.02 / 0.02
-        ("pyramid", (-1.0, 0.0, 9.0, -0.04), 4.0),
         ("facets-4", (1.0, 1.0, 9.0, 0.02), 5.0),
         ("product", (1.0, 1.0, 9.0, 0.02), 4.0),  # the larger of both
-        ("product", (0.1, 0.0, 9.0, 0.04), 2.0),
         ("ellipsoid", (1.0, 1.0, 9.0, 0.02), 3.0),  # sqrt(2^2 + 2^2 + 1)
         ("facets-8", (1.0, 0.0, 9.0, 0.0), 2.0),  # a corner of the octagon
         ("frictionless", (0.0, 0.0, 9.0, 0.0), 0.0),
