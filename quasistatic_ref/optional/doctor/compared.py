@@ -18,13 +18,16 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.equilibrium import statics
 from quasistatic_ref.optional.doctor.start import SHORT, least, slices
+from quasistatic_ref.parts import if_there
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.friction import slip_norms
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.contact_forces import ContactForces
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.optional.doctor.run import Run
+    from quasistatic_ref.step.contacts import Contacts
 
 SLOWER = 16.0
 """By what M_u is divided, and with it the drag [-]."""
@@ -85,7 +88,7 @@ class Missing(NamedTuple):
 
 
 class LookedAt:
-    """A documented step of a run.
+    """A step of a run, and what it would be with one thing changed.
 
     Parameters
     ----------
@@ -97,8 +100,42 @@ class LookedAt:
     def __init__(self, run: Run, k: int) -> None:
         self.run = run
         self.k = k
-        self.step = run.step_data(k)
-        self.forces = run.forces(k)
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """Its contacts."""
+        kinematics = self.run.system.kinematics(self.run["q"][self.k])
+        return self.run.simulator.geometry.contacts(self.run.points_of(self.k), kinematics)
+
+    @cached_property
+    def step(self) -> StepData:
+        """Its problem, up to rounding."""
+        run, k = self.run, self.k
+        load = run.noted("tau")[k]
+        return run.simulator.step_under(run["q"][k], run["q_bar_a"][k], load, self.contacts)
+
+    @cached_property
+    def compliant(self) -> ContactForces | None:
+        """The forces of single contacts in a polyhedral cone, where they are rational.
+
+        None if the run is not `searched`, or there is no optional/forces.
+        """
+        if self.run.searched and cone(self.run.simulator.cone).polyhedral:
+            with if_there():
+                from quasistatic_ref.optional.forces.forces import contact_forces
+
+                near = self.run["delta_q"][self.k], self.run["wrench"][self.k]
+                return contact_forces(self.step, near=near)
+        return None
+
+    @property
+    def forces(self) -> Array:
+        """Forces of single contacts, shape (n_c, 4) [N, N m].
+
+        Where they cannot be formed, what the multipliers of the step combine to.
+        """
+        compliant = self.compliant
+        return np.asarray(self.run["wrench"][self.k]) if compliant is None else compliant.wrench
 
     @cached_property
     def as_it_is(self) -> list[PairMotion]:
@@ -287,7 +324,7 @@ class Compared:
 
     def __init__(self, run: Run) -> None:
         self.run = run
-        self.steps = [LookedAt(run, k) for k in documented_steps(run)] if run.searched else []
+        self.steps = [run.at(k) for k in documented_steps(run)] if run.searched else []
 
     @cached_property
     def held_in_ellipsoid(self) -> dict[str, int]:

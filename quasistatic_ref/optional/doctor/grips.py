@@ -35,7 +35,7 @@ def lost(run: Run) -> Iterator[Finding]:
         slipped = way > SLIPPED * least(pair)
         k = int(np.where(on, slips[worst], 0.0).argmax() if slipped else on.argmax())
         contacts = task.contacts(pairs)
-        pressed = float(run.forces(k)[contacts, 2].sum())
+        pressed = float(run.at(k).forces[contacts, 2].sum())
         bears = pair.mu_v * pressed
         torsion = pair.mu_omega * pressed if pair.rows == 6 else 0.0
         body = name.partition("/")[0]

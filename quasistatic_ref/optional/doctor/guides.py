@@ -222,16 +222,16 @@ def locked(run: Run) -> Iterator[Finding]:
     if not rubbing.any():
         return
     k = int(rubbing.argmax())
-    contacts = run.contacts(k)
+    contacts = run.at(k).contacts
     every = list(guides(run, contacts))
     if not every:
         return
-    wrench = run.forces(k)
+    wrench = run.at(k).forces
     presses = pressing(wrench[:, 2])
     every = [guide for guide in every if presses[list(guide.contacts)].any()]
     if not every:
         return
-    step = run.step_data(k)
+    step = run.at(k).step
     smooth = run.solved(step.replace(cone="frictionless"))
     if smooth is None:
         return

@@ -6,15 +6,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.contact_forces import ContactForces
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.account import pair_accounts, sides
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.compared import Compared
+from quasistatic_ref.optional.doctor.compared import Compared, LookedAt
 from quasistatic_ref.optional.doctor.start import SHORT, Start, least
-from quasistatic_ref.parts import if_there
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import POINTS, Recorder
@@ -23,7 +21,6 @@ from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 
 ACCURATE = ("clarabel", "daqp")
@@ -48,9 +45,7 @@ class Run(Start):
         self.arrays = trajectory.arrays
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
-        self._forces: dict[int, ContactForces] = {}
-        self._contacts: dict[int, Contacts] = {}
-        self._steps: dict[int, StepData] = {}
+        self._steps: dict[int, LookedAt] = {}
         self._solvers: dict[str, Solver] = {}
 
     @cached_property
@@ -105,21 +100,11 @@ class Run(Start):
         convex = self.simulator.law == CONVEX
         return self.small and convex and self.simulator.extension is None
 
-    def contacts(self, k: int) -> Contacts:
-        """The contacts of step k."""
-        if k not in self._contacts:
-            kinematics = self.system.kinematics(self["q"][k])
-            self._contacts[k] = self.simulator.geometry.contacts(self.points_of(k), kinematics)
-        return self._contacts[k]
-
-    def step_data(self, k: int) -> StepData:
-        """The problem of step k, up to rounding."""
-        if k in self._steps:
-            return self._steps[k]
-        under = self.noted("tau")[k], self.contacts(k)
-        step = self.simulator.step_under(self["q"][k], self["q_bar_a"][k], *under)
-        self._steps[k] = step
-        return step
+    def at(self, k: int) -> LookedAt:
+        """Step k, which is kept."""
+        if k not in self._steps:
+            self._steps[k] = LookedAt(self, k)
+        return self._steps[k]
 
     def solved(self, step: StepData) -> StepSolution | None:
         """A step, unproved; None where it is not solved."""
@@ -140,29 +125,6 @@ class Run(Start):
         if step.cone not in self._solvers or not self._solvers[step.cone].fits(step):
             self._solvers[step.cone] = solver_for(step, fast=fast)
         return self._solvers[step.cone]
-
-    def forces(self, k: int) -> Array:
-        """Forces of single contacts in step k, shape (n_c, 4) [N, N m].
-
-        Where they cannot be formed, what the multipliers of the step combine to.
-        """
-        compliant = self.compliant(k)
-        return np.asarray(self["wrench"][k]) if compliant is None else compliant.wrench
-
-    def compliant(self, k: int) -> ContactForces | None:
-        """The forces of step k in a polyhedral cone, where they are rational.
-
-        None if it is not `searched`, or there is no optional/forces.
-        """
-        if not (self.searched and cone(self.simulator.cone).polyhedral):
-            return None
-        with if_there():
-            from quasistatic_ref.optional.forces.forces import contact_forces
-
-            if k not in self._forces:
-                near = self["delta_q"][k], self["wrench"][k]
-                self._forces[k] = contact_forces(self.step_data(k), near=near)
-        return self._forces.get(k)
 
 
 def largest(values: Array) -> float | None:

@@ -66,7 +66,7 @@ def _solves(run: Run, name: str, k: int, digits: float) -> bool:
     if name == failed or not run.searched:
         return name != failed
     with suppress(QuasistaticError):
-        solved = solve_step(run.step_data(k), name, accuracy=run.simulator.accuracy).statistics
+        solved = solve_step(run.at(k).step, name, accuracy=run.simulator.accuracy).statistics
         return solved.digits is not None and solved.digits >= digits
     return False
 
@@ -98,7 +98,7 @@ def unborne(run: Run) -> Iterator[Finding]:
     k = int(pressing.argmax())
     if pressing[k] <= SURE * run.g * run.system.masses.sum():  # nothing bears anything
         return
-    compliant = run.compliant(k)
+    compliant = run.at(k).compliant
     if compliant is None:
         return
     if compliant.imbalance > BORNE:

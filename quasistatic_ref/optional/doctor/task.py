@@ -261,7 +261,7 @@ def _astray(task: Task, pairs: list[int], others: list[int]) -> tuple[Joint, flo
         return None
     at = task.contacts([i])
     contact = at[run["phi"][0, at].argmin()]
-    contacts = run.contacts(0)
+    contacts = run.at(0).contacts
     ways = run.system.actuated_difference(run.q_start, run["q_bar_a"][-1])
     J_n = np.asarray(frame_jacobian(contacts, contacts.J)[0])
     opens = J_n[contact, : run.system.n_a] * ways
@@ -295,9 +295,9 @@ def short(run: Run) -> Iterator[Finding]:
     if not far:
         return
     spring = run.simulator.K_q @ lag
-    contacts = run.contacts(k)
+    contacts = run.at(k).contacts
     J_n = frame_jacobian(contacts, contacts.J)[0][:, : run.system.n_a]
-    pushes = run.forces(k)[:, 2:3] * J_n  # what each contact exerts on each joint
+    pushes = run.at(k).forces[:, 2:3] * J_n  # what each contact exerts on each joint
     for joint in far:
         v = joint.v.start
         error = abs(float(lag[v]))
