@@ -88,13 +88,7 @@ def rotation_angle(R: Array) -> Array:
     ----------
     R : ndarray, shape (..., 3, 3)
     """
-    axial = np.stack(
-        [
-            R[..., 2, 1] - R[..., 1, 2],
-            R[..., 0, 2] - R[..., 2, 0],
-            R[..., 1, 0] - R[..., 0, 1],
-        ],
-        axis=-1,
-    )
-    trace = np.trace(R, axis1=-2, axis2=-1)
-    return np.asarray(np.arctan2(np.linalg.norm(axial, axis=-1), trace - 1))
+    from scipy.spatial.transform import Rotation  # takes as long as a short run
+
+    angles = Rotation.from_matrix(R.reshape(-1, 3, 3)).magnitude()
+    return np.asarray(angles).reshape(R.shape[:-2])

@@ -42,7 +42,6 @@ EXCEPTIONS = {
         "model/mechanism.py:Mechanism.mass",
         "simulate/motions.py:LinkMotion.relative_to",
         "simulate/motions.py:LinkMotion.rotation_since",
-        "simulate/motions.py:rotation_angle",
         "simulate/wrenches.py:ContactsOverSteps.force",
         "simulate/wrenches.py:pair_forces",
         "simulate/wrenches.py:wrench_on",

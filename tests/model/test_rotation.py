@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.rotation import quaternion, rotation
-from quasistatic_ref.simulate.motions import LinkMotion, rotation_angle
+from quasistatic_ref.simulate.motions import LinkMotion
 from tests.closeness import assert_relative, assert_within
 from tests.tolerances import ROUNDING
 
@@ -17,15 +17,6 @@ def test_roll_pitch_yaw_turn_about_the_fixed_axes_in_that_order(rpy):
     q = quaternion(rpy)
     assert_relative(np.linalg.norm(q), 1.0, ROUNDING)
     assert_within(Rotation.from_quat(q).as_matrix(), R, ROUNDING)
-
-
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-3, 0.5, 2.0, np.pi - 1e-3, np.pi - 1e-9, np.pi])
-def test_the_angle_of_a_rotation_about_any_axis_is_the_angle_turned(angle):
-    axes = np.random.default_rng(1).normal(size=(10, 3))
-    axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
-    R = Rotation.from_rotvec(angle * axes).as_matrix().reshape(2, 5, 3, 3)
-    assert_within(rotation_angle(R), np.full((2, 5), angle), ROUNDING)
-    assert_within(rotation_angle(R[0]), np.full(5, angle), ROUNDING)
 
 
 def test_what_turns_with_a_link_does_not_turn_relative_to_it():
