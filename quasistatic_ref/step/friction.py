@@ -132,9 +132,13 @@ def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
 def slip_norms(contacts: Contacts, delta_q: Array, name: str = PYRAMID) -> Array:
     """The norm s of each contact's slip, shape (n_c,) [m]: the least gap that its cone asks for."""
     _, *slips = (J @ delta_q for J in frame_jacobian(contacts, contacts.J))
-    scaled = contacts.mu * np.column_stack(slips)
+    return slip_norm(contacts.mu * np.column_stack(slips), name)
+
+
+def slip_norm(scaled: Array, name: str) -> Array:
+    """The norm of slips (d1, d2, spin) that are multiplied by mu, (..., 3) [m], shape (...)."""
     kind = cone(name)
     if not kind.polyhedral:
-        return np.asarray(np.linalg.norm(scaled, axis=1))
+        return np.asarray(np.linalg.norm(scaled, axis=-1))
     # The largest of the rows without the gap: of the pyramid, |mu_v slip_1|, ..., |mu_omega spin|.
-    return np.asarray((scaled @ kind.matrix[:, 1:].T).max(axis=1, initial=0.0))
+    return np.asarray((scaled @ kind.matrix[:, 1:].T).max(axis=-1, initial=0.0))

@@ -18,6 +18,7 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.joints import BASES, JOINTS
 from quasistatic_ref.model.joints.joint import Joint
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.doctor.artifacts import pressing
 from quasistatic_ref.optional.doctor.telling import (
     drive_numbers,
     motion_numbers,
@@ -37,7 +38,8 @@ from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.tolerances import BEARS, NEAR, SLIDES, SPINS, TOUCHES
+from quasistatic_ref.step.friction import slip_norm
+from quasistatic_ref.tolerances import NEAR, SLIDES, SPINS, TOUCHES
 
 
 def scene_notes(recorder: Recorder) -> dict[str, Any]:
@@ -202,12 +204,18 @@ def pair_accounts(
     """
     slots = np.array(run.pair_names)
     h = float(run.header["h"])
-    touch = _touches(run, motion)
+    touch = _bears(run)
     slip = None
     turn = None
     if motion is not None:
-        turn = np.where(run["rows"] == 6, np.abs(motion[:, :, 3]), 0.0)
-        slip = np.hypot(*(np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")))
+        slips = _slips(run, motion)
+        slip = np.hypot(slips[:, :, 0], slips[:, :, 1])
+        turn = np.abs(slips[:, :, 2])
+        gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
+        slack = gap - slip_norm(_mu(run) * slips, run.header["cone"])
+        touch &= slack <= NEAR
+        if cone(run.header["cone"]).polyhedral:
+            touch |= slack <= TOUCHES
     accounts = []
     for name, alpha, beta in named:
         of_pair = slots == name
@@ -245,8 +253,7 @@ def _mean(values: Array, on: Mask) -> Array:
 def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
     """Sums over the contacts of a pair, of wrenches (steps, n, 4) [N, N m]."""
     normal = wrench[:, :, 2].sum(axis=1)
-    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)[of_pair]
-    needs = gauge(run.header["cone"], wrench, run["mu_v"][of_pair], mu_omega).sum(axis=1)
+    needs = gauge(run.header["cone"], wrench, _mu(run)[of_pair]).sum(axis=1)
     return Loads(
         normal=normal,
         friction=np.hypot(wrench[:, :, 0], wrench[:, :, 1]).sum(axis=1),
@@ -255,7 +262,7 @@ def _loads(run: Trajectory, wrench: Array, of_pair: Mask) -> Loads:
     )
 
 
-def gauge(name: str, wrench: Array, mu_v: Array, mu_omega: Array) -> Array:
+def gauge(name: str, wrench: Array, mu: Array) -> Array:
     """The normal force that contacts need for their friction and torsion, shape (..., n_c) [N].
 
     It is the gauge of the cone's base: in the pyramid (|f_1| + |f_2|) / mu_v + |tau| / mu_omega, in
@@ -268,10 +275,9 @@ def gauge(name: str, wrench: Array, mu_v: Array, mu_omega: Array) -> Array:
         Of the cone.
     wrench : ndarray, shape (..., n_c, 4)
         (f_d1, f_d2, f_n, tau_n) [N, N m].
-    mu_v, mu_omega : ndarray, shape (n_c,)
-        [-] and [m].
+    mu : ndarray, shape (n_c, 3)
+        (mu_v, mu_v, mu_omega) [-, -, m].
     """
-    mu = np.stack([mu_v, mu_v, mu_omega], axis=-1)
     parts = wrench[..., [0, 1, 3]]
     needs = np.divide(parts, mu, out=np.zeros_like(parts), where=mu > 0)
     if not cone(name).polyhedral:
@@ -314,27 +320,27 @@ def _forces(run: Trajectory, wanted: bool, missing: list[str]) -> Array | None:
     return None
 
 
-def _touches(run: Trajectory, motion: Array | None) -> Mask:
-    """Which contacts have a row without slack, shape (steps, n_c).
+def _bears(run: Trajectory) -> Mask:
+    """Which contacts have a positive multiplier, shape (steps, n_c).
 
-    A multiplier is positive where it is a share of the largest; of an answer without a proof they
-    are noise in a step in which nothing presses, and count next to a small slack only.
+    It is positive where it is a share of the largest; of an answer without a proof multipliers are
+    noise in a step in which nothing presses, and count next to a small slack only.
     """
-    friction = cone(run.header["cone"])
-    counts = friction.counts(run["rows"])
+    counts = cone(run.header["cone"]).counts(run["rows"])
     of_rows = np.maximum(run["lam"][:, : counts.sum()], 0.0)
-    most = np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1)
-    touches = np.asarray(most > BEARS * most.max(axis=1, initial=0.0, keepdims=True))
-    if motion is None:
-        return touches
-    gap = run["phi"] + np.vecdot(motion[:, :, :3], run["n"])
-    across = [run["mu_v"] * np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2")]
-    spin = np.where(run["rows"] == 6, run["mu_omega"], 0.0) * motion[:, :, 3]
-    if not friction.polyhedral:
-        slack = gap - np.linalg.norm([*across, spin], axis=0)
-        return np.asarray(touches & (slack <= NEAR))
-    slack = np.min(friction.function(gap, across[0], across[1], spin), axis=0)
-    return np.asarray(touches & (slack <= NEAR) | (slack <= TOUCHES))
+    return pressing(np.maximum.reduceat(of_rows, np.cumsum(counts) - counts, axis=1))
+
+
+def _slips(run: Trajectory, motion: Array) -> Array:
+    """Slips along d1 and d2 [m], and turns of what has torsion [rad], (steps, n_c, 3)."""
+    d1, d2 = (np.vecdot(motion[:, :, :3], run[axis]) for axis in ("d1", "d2"))
+    return np.stack([d1, d2, np.where(run["rows"] == 6, motion[:, :, 3], 0.0)], axis=2)
+
+
+def _mu(run: Trajectory) -> Array:
+    """(mu_v, mu_v, mu_omega) of contacts, which is 0 where it is not used, (n_c, 3) [-, -, m]."""
+    mu_omega = np.where(run["rows"] == 6, run["mu_omega"], 0.0)
+    return np.stack([run["mu_v"], run["mu_v"], mu_omega], axis=1)
 
 
 def _motion(joint: Joint, q: Array, hands: Sequence[Joint]) -> Motion:

@@ -87,7 +87,7 @@ class Missing(NamedTuple):
         return f"{self.amount:.2g} N"
 
 
-class LookedAt:
+class RunStep:
     """A step of a run, and what it would be with one thing changed.
 
     Parameters

@@ -41,20 +41,17 @@ def density(start: Start) -> Iterator[Finding]:
             continue
         mass = float(start.system.masses[link])
         alone = sum(_volume(placed.shape) for placed in shapes)
-        whole = max(hull.volume, alone)
-        for volume, wrong in (
-            (alone, mass / alone < DENSITIES[0]),
-            (whole, mass / whole > DENSITIES[1]),
-        ):
-            if wrong:
-                yield Finding(
-                    "density",
-                    True,
-                    f"check mass and size of {name}",
-                    f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
-                    f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
-                    {"density_kg_per_m3": mass / volume},
-                )
+        light = mass < DENSITIES[0] * alone
+        volume = alone if light else max(hull.volume, alone)
+        if light or mass > DENSITIES[1] * volume:
+            yield Finding(
+                "density",
+                True,
+                f"check mass and size of {name}",
+                f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
+                f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
+                {"density_kg_per_m3": mass / volume},
+            )
 
 
 def hull_of(shapes: Sequence[PlacedShape]) -> ConvexMesh | None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.quoting import listed
-from quasistatic_ref.optional.doctor.compared import LookedAt, PairMotion
+from quasistatic_ref.optional.doctor.compared import PairMotion, RunStep
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import SHORT
 from quasistatic_ref.optional.doctor.unsupported import falls
@@ -138,7 +138,7 @@ class Change(NamedTuple):
 
     Parameters
     ----------
-    at : LookedAt
+    at : RunStep
     pair : ContactPair
     shortest : float
         A motion of the pair that is none [m].
@@ -146,7 +146,7 @@ class Change(NamedTuple):
         In the run, and where one thing is changed.
     """
 
-    at: LookedAt
+    at: RunStep
     pair: ContactPair
     shortest: float
     here: PairMotion
@@ -195,7 +195,7 @@ class Change(NamedTuple):
         return f"turns by {np.degrees(here.spin):.2g} degrees, and {less}"
 
 
-def _changes(at: LookedAt, changed: list[PairMotion] | None) -> Iterator[Change]:
+def _changes(at: RunStep, changed: list[PairMotion] | None) -> Iterator[Change]:
     """The changes of pairs whose bodies are in equilibrium.
 
     Those are left out that press with less than a tenth of the largest force of the step: a pair

@@ -11,7 +11,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.optional.doctor.account import pair_accounts, sides
 from quasistatic_ref.optional.doctor.artifacts import LIGHT
-from quasistatic_ref.optional.doctor.compared import Compared, LookedAt
+from quasistatic_ref.optional.doctor.compared import Compared, RunStep
 from quasistatic_ref.optional.doctor.start import SHORT, Start, least
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
@@ -45,7 +45,7 @@ class Run(Start):
         self.arrays = trajectory.arrays
         self.steps = trajectory.steps
         self.complete = trajectory.failed is None
-        self._steps: dict[int, LookedAt] = {}
+        self._steps: dict[int, RunStep] = {}
         self._solvers: dict[str, Solver] = {}
 
     @cached_property
@@ -100,10 +100,10 @@ class Run(Start):
         convex = self.simulator.law == CONVEX
         return self.small and convex and self.simulator.extension is None
 
-    def at(self, k: int) -> LookedAt:
+    def at(self, k: int) -> RunStep:
         """Step k, which is kept."""
         if k not in self._steps:
-            self._steps[k] = LookedAt(self, k)
+            self._steps[k] = RunStep(self, k)
         return self._steps[k]
 
     def solved(self, step: StepData) -> StepSolution | None:

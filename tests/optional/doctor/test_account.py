@@ -13,7 +13,7 @@ from tests.closeness import assert_relative
 from tests.optional.doctor.words import TIP, driven, scene, slides
 from tests.tolerances import ROUNDING
 
-RUNS = {"block_push": 150, "bunny_grasp": 110, "door": 120, "two_finger_pinch": 40}
+RUNS = {"bunny_grasp": 110, "door": 120}
 
 
 @pytest.fixture(scope="module", params=RUNS)

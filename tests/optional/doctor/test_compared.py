@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import Sphere
-from quasistatic_ref.optional.doctor.compared import LookedAt
+from quasistatic_ref.optional.doctor.compared import RunStep
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import (
     TIP,
@@ -54,8 +54,8 @@ def test_a_step_in_which_coulombs_law_settles_nothing_is_counted(monkeypatch):
     (finding,) = found(wiper(0.01))
     assert finding.numbers["steps_without_fixed_point"] == 0
     step = finding.numbers["step"]
-    coulomb = LookedAt._coulomb
-    monkeypatch.setattr(LookedAt, "_coulomb", lambda at: None if at.k == step else coulomb(at))
+    coulomb = RunStep._coulomb
+    monkeypatch.setattr(RunStep, "_coulomb", lambda at: None if at.k == step else coulomb(at))
     (finding,) = found(wiper(0.01))
     assert finding.numbers["steps_without_fixed_point"] == 1
     assert finding.numbers["step"] != step

@@ -9,7 +9,7 @@ from quasistatic_ref.step.cones import cone
 from tests.model.urdf.urdf_texts import link, robot
 from tests.optional.doctor.words import block, driven, fingers, free, scene, solid
 
-MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
+MU = np.array([[0.5, 0.5, 0.02]])
 
 
 @pytest.mark.parametrize(
@@ -24,9 +24,9 @@ MU_V, MU_OMEGA = np.array([0.5]), np.array([0.02])
     ],
 )
 def test_the_normal_force_that_a_cone_needs_is_its_gauge(name, wrench, normal):
-    own = gauge(name, np.array([wrench]), MU_V, MU_OMEGA)
+    own = gauge(name, np.array([wrench]), MU)
     assert own == pytest.approx([normal], rel=1e-12)
-    none = gauge(name, np.array([(0.0, 0.0, 9.0, 0.02)]), MU_V, np.zeros(1))
+    none = gauge(name, np.array([(0.0, 0.0, 9.0, 0.02)]), MU * [1, 1, 0])
     assert none.tolist() == [0.0]  # a coefficient of 0 is left out
 
 
@@ -36,7 +36,7 @@ def test_forces_of_one_row_need_their_multiplier(name, rng):
     rows = cone(name).matrix
     for row in rows:
         force = 3.0 * np.array([row[1] * 0.5, row[2] * 0.5, 1.0, row[3] * 0.02])
-        assert gauge(name, force[None], MU_V, MU_OMEGA) == pytest.approx([3.0], rel=1e-12)
+        assert gauge(name, force[None], MU) == pytest.approx([3.0], rel=1e-12)
 
 
 def test_a_ball_that_spins_is_at_its_limit_and_its_spinning_is_in_the_table():
