@@ -136,7 +136,15 @@ def slip_norms(contacts: Contacts, delta_q: Array, name: str = PYRAMID) -> Array
 
 
 def slip_norm(scaled: Array, name: str) -> Array:
-    """The norm of slips (d1, d2, spin) that are multiplied by mu, (..., 3) [m], shape (...)."""
+    """The norm of slips in a cone, shape (...) [m].
+
+    Parameters
+    ----------
+    scaled : ndarray, shape (..., 3)
+        Slips along d1 and d2, and spin, times mu of contacts [m].
+    name : str
+        The cone.
+    """
     kind = cone(name)
     if not kind.polyhedral:
         return np.asarray(np.linalg.norm(scaled, axis=-1))

@@ -159,7 +159,7 @@ class Change(NamedTuple):
 
     @property
     def of_layer_force(self) -> float:
-        """The same; what comes down from its layer makes no difference."""
+        """The same [-]; what comes down from its layer makes no difference."""
         return self.of_force(max(self.at.run.light, self.at.comes_down(self.pair)))
 
     @property
