@@ -240,8 +240,8 @@ def scenario_of(options: argparse.Namespace) -> Scenario:
         from quasistatic_ref.optional.guests.settled import settled
     with about_file(path):
         model = compiled_model(path, options.roots)
-        start = settled(model, 0.0, options.keyframe)
-        data = None if options.keyframe is None else start
+        keyframe = options.keyframe
+        data = None if keyframe is None else settled(model, 0.0, keyframe)
         source = options.targets
         table = source is None or source.endswith(".csv")
         targets = source if table else source.split(",")

@@ -188,7 +188,7 @@ def _of_keyframes(
 ) -> Callable[[float], Array]:
     """The controls of keyframes in turn, with the same time [s] between each two."""
     model = system.model
-    keys = [numbered(model, "KEY", name) for name in targets]
+    keys = [numbered(model, "keyframe", name) for name in targets]
     for name, key in zip(targets, keys, strict=True):
         poses = (model.key_mpos[[key, keys[0]]], model.key_mquat[[key, keys[0]]])
         if any((pose != first).any() for pose, first in poses):

@@ -17,9 +17,8 @@ from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.optional.guests.drive import Drive, Driven, drive_of
 from quasistatic_ref.optional.guests.mujoco import default_cone, first_equality
 from quasistatic_ref.optional.guests.places import overlapped_children
-from quasistatic_ref.optional.guests.settled import numbered
+from quasistatic_ref.optional.guests.settled import settled
 from quasistatic_ref.optional.guests.system import MujocoSystem, Placed
-from quasistatic_ref.parts import needed_package
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.scenario.scenario_table import LIMITS, SOLVER, TOP, value
@@ -59,20 +58,17 @@ class MujocoScenario(Scenario):
 
     Parameters
     ----------
-    of_mujoco : MujocoSystem
-        Its system.
     drive : Drive
         What drives it; `targets` are where it starts.
     """
 
-    of_mujoco: MujocoSystem
     drive: Drive
 
     def simulator(self, extension: ExtensionOfQ | None = None) -> Simulator:
         """A simulator of this scene; an `extension` of one's own is not taken: InputError."""
         if extension is not None:
             raise InputError("is not taken by a MuJoCo scene", field="extension")
-        system = self.of_mujoco
+        system = self.drive.system
         rows = system.extension if system.rows.names or len(system.rises) else None
         return MujocoSimulator(**self.settings(), extension=rows)
 
@@ -97,9 +93,9 @@ class MujocoScenario(Scenario):
         try:
             return super().run(progress, observers)
         except RunFailed as failure:
-            if failure.trajectory.steps or not self.of_mujoco.notes:
+            if failure.trajectory.steps or not self.drive.system.notes:
                 raise
-            reason = "; ".join([failure.reason, *self.of_mujoco.notes])
+            reason = "; ".join([failure.reason, *self.drive.system.notes])
             raise RunFailed(reason, failure.trajectory, failure.step) from failure
 
 
@@ -153,7 +149,6 @@ def mujoco_scenario(
     >>> scene.run(progress=False).q[:, 2].round(6)  # it falls by g h^2 a step [m]
     array([1.      , 0.999019, 0.998038, 0.997057])
     """
-    mujoco = needed_package("mujoco", "engines", "mujoco_scenario")
     tables = dict(START)
     apply_settings(tables, settings, fields)
     top = TableReader(tables, error=ScenarioError)
@@ -170,10 +165,8 @@ def mujoco_scenario(
     solver = value(top, TOP, "solver")
     limits = value(top, TOP, "limits")
     if data is None:
-        data = mujoco.MjData(model)
         keys = () if callable(targets) or isinstance(targets, str | Path) else targets
-        if keys:
-            mujoco.mj_resetDataKeyframe(model, data, numbered(model, "KEY", keys[0]))
+        data = settled(model, 0.0, keys[0] if keys else None)
     system = MujocoSystem(model, data, h, {**stiffness}, margin)
     if "cone" in tables:
         cone = value(top, TOP, "cone")
@@ -198,7 +191,6 @@ def mujoco_scenario(
         steps=steps,
         gravity=gravity,
         system=cast("System", system),  # a step, a recorder and findings ask for no other names
-        of_mujoco=system,
         pairs=system.places.pairs,
         K_q=system.K_q,
         gravity_acts=np.ones(system.n_a, dtype=bool),
@@ -215,9 +207,9 @@ def mujoco_scenario(
 
 def words(scene: MujocoScenario) -> str:
     """What may touch, within which gap, and how much is left out, and notes, in lines."""
-    places = scene.of_mujoco.places
-    notes = "".join(f"{note}\n" for note in scene.of_mujoco.notes)
-    left_out = len(scene.of_mujoco.ignored)
+    places = scene.drive.system.places
+    notes = "".join(f"{note}\n" for note in scene.drive.system.notes)
+    left_out = len(scene.drive.system.ignored)
     count = int(places.counts.sum())
     return (
         f"{notes}{len(places.pairs)} pairs of geoms with {count} places for contacts, within a "

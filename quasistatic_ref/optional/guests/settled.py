@@ -52,14 +52,14 @@ def settled(
     ModelError
         If the state is not finite, or the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "settled")
+    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
     data = mujoco.MjData(model)
     if not 0 <= seconds < np.inf:
         raise InputError("must be zero or more seconds", field="settle", value=seconds)
     if keyframe is not None:
-        mujoco.mj_resetDataKeyframe(model, data, numbered(model, "KEY", keyframe))
+        mujoco.mj_resetDataKeyframe(model, data, numbered(model, "keyframe", keyframe))
     for name, value in (control or {}).items():
-        data.ctrl[numbered(model, "ACTUATOR", name)] = value
+        data.ctrl[numbered(model, "actuator", name)] = value
     check_finite(data)
     run(model, data, seconds)
     return data
@@ -75,7 +75,7 @@ def velocities(model: MjModel, data: MjData, seconds: float) -> tuple[Array, Arr
     ModelError
         If the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "velocities")
+    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
     now = copy.copy(data)
     means = np.zeros((2, model.nv))
     for mean in means:
@@ -94,7 +94,7 @@ def run(model: MjModel, data: MjData, seconds: float) -> None:
     ModelError
         If the simulation is unstable.
     """
-    mujoco = needed_package("mujoco", "engines", "run")
+    mujoco = needed_package("mujoco", "engines", "a MuJoCo scene")
     before = _resets(mujoco, data)
     for _ in range(round(seconds / model.opt.timestep)):
         mujoco.mj_step(model, data)
@@ -110,12 +110,11 @@ def _resets(mujoco: ModuleType, data: MjData) -> int:
 
 def numbered(model: MjModel, kind: str, name: str | int) -> int:
     """The number of a keyframe or actuator, by its name or number; InputError if there is none."""
-    element = {"KEY": model.key, "ACTUATOR": model.actuator}[kind]
-    count = {"KEY": model.nkey, "ACTUATOR": model.nu}[kind]
+    keys = kind == "keyframe"
+    element, count = (model.key, model.nkey) if keys else (model.actuator, model.nu)
     names = [element(i).name or str(i) for i in range(count)]
     if str(name) in names:
         return names.index(str(name))
     if str(name).isdecimal() and int(name) < count:
         return int(name)
-    what = {"KEY": "keyframe", "ACTUATOR": "actuator"}[kind]
-    raise InputError(f"is not in the model{suggestion(str(name), names)}", field=what, value=name)
+    raise InputError(f"is not in the model{suggestion(str(name), names)}", field=kind, value=name)

@@ -114,13 +114,13 @@ class Listening:
 def test_a_step_asks_a_system_for_the_names_of_the_protocol_and_no_others(lifted):
     scene, run = lifted
     simulator = scene.simulator()
-    listening = Listening(scene.of_mujoco)
+    listening = Listening(scene.drive.system)
     vars(simulator)["system"] = listening
     simulator.step(run.q[0], run.q_bar_a[0])
     assert listening.names == {name for name in vars(StepSystem) if not name.startswith("_")}
     assert len(listening.names) == 10
-    assert isinstance(scene.of_mujoco, StepSystem)
-    assert not isinstance(scene.of_mujoco, System)
+    assert isinstance(scene.drive.system, StepSystem)
+    assert not isinstance(scene.drive.system, System)
 
 
 def test_a_copy_of_a_scene_in_another_process_takes_the_same_step(lifted):
@@ -138,7 +138,7 @@ def test_derivatives_of_a_scene_that_mujoco_moves_are_refused(lifted):
 def test_gaps_change_as_their_jacobians_say(lifted):
     """phi(q (+) e) - phi(q - e) = 2 n'J e up to e^3, by central differences."""
     scene, run = lifted
-    system = scene.of_mujoco
+    system = scene.drive.system
     simulator = scene.simulator()
     q = system.q_start
 

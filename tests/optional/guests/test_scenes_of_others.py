@@ -53,7 +53,7 @@ def test_a_mesh_has_the_hull_of_all_its_vertices_as_mujoco_has_it(tmp_path, obj)
     model = mujoco.MjModel.from_xml_path(str(file))
     (hull,) = [
         placed.shape
-        for placed in qr.mujoco_scenario(model).of_mujoco.places.shapes.values()
+        for placed in qr.mujoco_scenario(model).drive.system.places.shapes.values()
         if placed.link
     ]
     graph = model.mesh_graph[model.mesh_graphadr[0] :]
@@ -129,7 +129,7 @@ def many(count, memory="50M"):
 
 
 def test_places_are_counted_before_they_are_made_and_the_refusal_says_what_to_exclude():
-    assert scene(*many(20), steps=1).of_mujoco.places.counts.sum() == 20 * 20 * 8
+    assert scene(*many(20), steps=1).drive.system.places.counts.sum() == 20 * 20 * 8
     with pytest.raises(ModelError) as refused:
         scene(*many(60))
     sentence = str(refused.value)
