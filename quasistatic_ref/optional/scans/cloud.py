@@ -1,7 +1,8 @@
 """Points of a scan: strays left out, noise smoothed, thinned."""
 
 import numpy as np
-import trimesh
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, cKDTree
 
 from quasistatic_ref.step.arrays import Array, Indices, Mask
@@ -37,8 +38,8 @@ def stray(points: Array) -> Mask:
     for count in (LINKS // 2, LINKS):  # half of them join most surfaces, in less time
         away, near = tree.query(points, k=min(count, n))
         of, place = np.nonzero(away < LINKED * np.median(away[:, 1]))
-        links = np.stack([of, near[of, place]], axis=1)
-        group = trimesh.graph.connected_component_labels(links, n)
+        links = coo_array((np.ones(len(of)), (of, near[of, place])), shape=(n, n))
+        _, group = connected_components(links, directed=False)
         few = np.bincount(group)[group] < SURFACE
         if not few.any():
             break
