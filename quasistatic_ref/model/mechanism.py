@@ -169,15 +169,14 @@ class Mechanism(ABC):
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""
-        for joint in self.joints:
-            if joint.name == name:
-                return joint
-        known = [joint.name for joint in self.joints]
-        raise ModelError(f"is not a joint{suggestion(name, known)}", field="joint", value=name)
+        known = {joint.name: joint for joint in self.joints}
+        if name not in known:
+            raise ModelError(f"is not a joint{suggestion(name, known)}", field="joint", value=name)
+        return known[name]
 
     def link(self, name: str) -> int:
         """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
-        if isinstance(name, str) and name in self._roots:
+        if name in self._roots:
             return self._roots[name]
         if name not in self.links:
             known = (*self.links, *self._roots)
