@@ -4,8 +4,6 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
@@ -13,7 +11,6 @@ from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.files import step_text
 
 
@@ -131,18 +128,8 @@ class Scenes:
         for what in items:
             if what not in ANSWERS:
                 raise request.error_about("ask", f"is unknown{suggestion(what, ANSWERS)}", what)
-        q = _numbers(request, "q", system.n_q)
-        target = _numbers(request, "target", system.n_q_a, REQUIRED if system.n_q_a else [])
-        force = _numbers(request, "force", system.n_v, [0.0] * system.n_v)
+        q = request.array("q", (system.n_q,))
+        target = request.array("target", (system.n_q_a,), REQUIRED if system.n_q_a else [])
+        force = request.array("force", (system.n_v,), [0.0] * system.n_v)
         result = one.simulator.step(q, target, force)
         return {what: ANSWERS[what](result) for what in items}
-
-
-def _numbers(request: TableReader, field: str, size: int, default: Any = REQUIRED) -> Array:
-    """Numbers of a request, shape (size,); what is no plain list of them is refused in words."""
-    value = request.peek(field)
-    plain = isinstance(value, list) and len(value) == size and {*map(type, value)} <= {float}
-    if plain and np.isfinite(numbers := np.array(value, dtype=np.float64)).all():
-        request.take(field)
-        return numbers
-    return request.array(field, (size,), default)
