@@ -68,14 +68,11 @@ def boundary_layer(picture: Picture) -> Figure:
         r"$\mu_\omega\,m\,g$", (1e3 * picture["limit"], 0.6), xycoords=("data", "axes fraction"),
         xytext=(-4, 0), textcoords="offset points", ha="right",
     )  # fmt: skip
-    left.set(xlabel="applied torque [mN m]", ylabel="lift-off [mm]")
-    left.set_title(caption(picture["h"]), loc="right")
+    label_axes(left, "applied torque [mN m]", "lift-off [mm]", caption(picture["h"]))
     sizes = 1e3 * picture["sizes"]
     right.loglog(sizes, 1e6 * picture["at_rate"], marker="o", label="fixed rate: slope 1")
     right.loglog(sizes, 1e6 * picture["at_torque"], marker="s", label="fixed torque: slope 2")
-    right.set(xlabel="time step h [ms]", ylabel=r"boundary layer [$\mu$m]")
-    right.set_title("friction pyramid", loc="right")
-    right.legend()
+    label_axes(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
     return figure
 
 
@@ -121,10 +118,8 @@ def sliding_threshold(picture: Picture) -> Figure:
     axes.plot(degrees, exact, label="(R7)", **THIN)
     for mu, measured, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
         axes.plot(degrees, measured, **_hollow_marks(mark), label=rf"$\mu_v$ = {mu:g}")
-    axes.set_xlabel("direction of the force from $d_1$ [deg]")
-    axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
-    axes.set_title(caption(picture["h"]), loc="right")
-    axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 0.62))
+    least = r"least force / ($\mu_v m g$) [-]"
+    label_axes(axes, "direction of the force from $d_1$ [deg]", least, caption(picture["h"]))
     return figure
 
 
@@ -140,10 +135,9 @@ def pushed_block(picture: Picture) -> Figure:
         force = picture["force"][at] / friction[at]
         axes.plot(pi[at], force, **_hollow_marks(mark), label=f"h = {1e3 * h:g} ms")
     axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
-    axes.set(xscale="log", yscale="log", ylabel=r"push / ($\mu_v m g$) [-]")
-    axes.set_xlabel(r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]")
-    axes.set_title("friction pyramid", loc="right")
-    axes.legend()
+    axes.set(xscale="log", yscale="log")
+    speed = r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]"
+    label_axes(axes, speed, r"push / ($\mu_v m g$) [-]", "friction pyramid")
     return figure
 
 
@@ -170,9 +164,8 @@ def patch_torsion(picture: Picture) -> Figure:
         axes.axhline(picture["limits"][name], **DOTTED)
     axes.set_xscale("log", base=2)
     axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])
-    axes.set(xlabel="rings of point contacts [-]", ylabel=r"$\mu_\omega$ / ($\mu$ a) [-]")
-    axes.set_title("h = 10 ms, friction pyramid; dotted: continuum", loc="right")
-    axes.legend()
+    title = "h = 10 ms, friction pyramid; dotted: continuum"
+    label_axes(axes, "rings of point contacts [-]", r"$\mu_\omega$ / ($\mu$ a) [-]", title)
     return figure
 
 
@@ -185,9 +178,8 @@ def flat_patch(picture: Picture) -> Figure:
     axes.bar(at - 0.2, uniform, 0.4, color="white", edgecolor="black", label="uniform load")
     axes.bar(at + 0.2, picture["shares"], 0.4, color="0.5", edgecolor="black", label="this model")
     axes.set_xticks(at, [f"{1e3 * r:.0f}" for r in picture["r"]])
-    axes.set(xlabel="radius of the ring of points [mm]", ylabel="share of the load [-]")
-    axes.set_title(caption(picture["h"]), loc="right")
-    axes.legend(loc="upper left")
+    radius = "radius of the ring of points [mm]"
+    label_axes(axes, radius, "share of the load [-]", caption(picture["h"]))
     return figure
 
 
@@ -203,9 +195,8 @@ def peg_wedging(picture: Picture) -> Figure:
         axes.plot(picture["mu"][at], ratio, **_hollow_marks(mark), label=label)
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
-    axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
-    axes.set_title(f"{caption(picture['h'])}; pushes of 1 mN to 1 MN", loc="right")
-    axes.legend(loc="upper left")
+    title = f"{caption(picture['h'])}; pushes of 1 mN to 1 MN"
+    label_axes(axes, r"$\mu$ [-]", "depth / width, l / d [-]", title)
     return figure
 
 

@@ -1,11 +1,10 @@
 """Newton's method in the ellipsoid: the interior point's answer, from any start, and sharper."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from quasistatic_ref import Certificate, solve_step, verify
+from quasistatic_ref.lab.scenes.contacts import NUMBERS
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
@@ -57,11 +56,8 @@ def test_contacts_stick_by_dependent_rows_while_another_slides():
     step = planar_push()
     c = step.contacts
     index = np.array([0, 1, 1, 1])
-    many = replace(
-        c, name=("support", "a", "b", "c"), phi=c.phi[index], n=c.n[index], d1=c.d1[index],
-        d2=c.d2[index], J=c.J[index], mu_v=c.mu_v[index], mu_omega=c.mu_omega[index],
-        rows=c.rows[index],
-    )  # fmt: skip
+    numbers = {name: getattr(c, name)[index] for name in NUMBERS}
+    many = changed(c, name=("support", "a", "b", "c"), **numbers)
     one, _ = enclosure_from_clarabel(step)
     step = step.replace(contacts=many)
     found, _ = enclosure_from_clarabel(step)
