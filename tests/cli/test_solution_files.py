@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, InputError, solve_step
+from quasistatic_ref import Certificate, Extra, InputError, solve_step
+from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.cli.solution_files import (
     infeasible_text,
     rounded_wrenches,
@@ -116,3 +117,14 @@ def test_a_wrench_beyond_float64_is_infinite_with_its_sign():
     contacts = point_on_floor(mu_v=0.25).contacts
     wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 1e308]), 0.01)
     assert wrench[0].tolist() == [0.0, -np.inf, np.inf, 0.0]
+
+
+@pytest.mark.parametrize(("bound", "written"), [(1e-9, 0.0), (None, -1e-9)])
+def test_multipliers_below_zero_are_written_as_the_bound_takes_them(bound, written):
+    lam = np.ones(10)
+    lam[1] = -1e-9
+    claims = Certificate("residual", dict.fromkeys(("stationarity", "primal", "dual",
+                         "complementarity"), 0.0), error_bound=bound)  # fmt: skip
+    statistics = SolverStatistics("none", "optimal", None, None, 1e-12)
+    solution = step_solution(PLAIN, np.zeros(5), lam, claims, statistics)
+    assert json.loads(solution_text(solution))["lam"][0][1] == written
