@@ -151,7 +151,7 @@ def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str)
     if certify != "off" or solution.lam_extra.size:
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     if not good:
-        raise out_of_range(both.si_step)
+        raise out_of_range()
     return solution
 
 

@@ -366,10 +366,10 @@ class StepInBothUnits:
             self.hessian = hessian or hessian_in_both_units(self.si_form.H)
             self.units = units or units_of(self.si_form, self.hessian)
         except np.linalg.LinAlgError:
-            raise out_of_range(si_step) from None
+            raise out_of_range() from None
         _, length, size = self.units
         if not (self.hessian.usable and 0 < length < math.inf and 0 < size < math.inf):
-            raise out_of_range(si_step)
+            raise out_of_range()
 
     @cached_property
     def natural_step(self) -> StepData:
@@ -377,7 +377,7 @@ class StepInBothUnits:
         try:
             return natural_step(self.si_step, self.units)
         except StepDataError:
-            raise out_of_range(self.si_step) from None
+            raise out_of_range() from None
 
     @cached_property
     def natural_form(self) -> StandardForm:
@@ -397,10 +397,8 @@ class StepInBothUnits:
         return optimality_residuals(self.natural_form, delta_q, lam, judge)
 
 
-def out_of_range(step: StepData) -> StepDataError:
+def out_of_range() -> StepDataError:
     """The error about a step whose numbers are finite, but not what is made of them."""
-    checked = step.contacts.raised(np.zeros(step.contacts.n_c))
-    step.replace(contacts=checked)  # says so, if they are not
     return StepDataError(
         "its numbers are too large, too small or too different: products of them exceed the "
         "range of float64; look for a wrong unit"
