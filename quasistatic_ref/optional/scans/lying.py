@@ -1,5 +1,7 @@
 """How many points a body needs to lie on, in each way in which it can lie."""
 
+from bisect import bisect_left
+
 import numpy as np
 from scipy.spatial import ConvexHull
 
@@ -37,13 +39,11 @@ def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int, Array]:
         if not _around(flat[below == below.max()]):
             continue
         flat = flat[np.argsort(-below, kind="stable")]
-        least, most = 3, len(points)
-        while least < most:
-            middle = (least + most) // 2
-            least, most = (least, middle) if _around(flat[:middle]) else (middle + 1, most)
-        needed.append(most)
+        lowest = [flat[:k] for k in range(3, len(points))]
+        count = 3 + bisect_left(lowest, True, key=_around)
+        needed.append(count)
         # The tangent of the angle at which it tips; of equal ones, rather as it was scanned.
-        edges = ConvexHull(flat[:most]).equations[:, 2]
+        edges = ConvexHull(flat[:count]).equations[:, 2]
         tips = float(-edges.max() / (below.max() - centre @ normal))
         stable.append((round(tips, 6), -normal[2], *(normal + 0.0).tolist()))
     return max([FEWEST, *needed]), len(needed), np.array(max(stable)[2:])
