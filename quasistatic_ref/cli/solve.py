@@ -2,15 +2,17 @@
 
 import argparse
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 from quasistatic_ref.certify.failures import StepInfeasible
 from quasistatic_ref.certify.form import StepForm
+from quasistatic_ref.certify.minimiser import fraction_solution
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.certificate_words import in_words
-from quasistatic_ref.cli.decimals import decimal_strings
+from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
@@ -84,7 +86,9 @@ def decimals(solution: StepSolution, digits: int) -> list[tuple[str, ...]]:
     working = flat_rows(step, solution.certificate.active)
     names = [f"delta_q_a[{i}]" for i in range(step.n_a)]
     names += [f"delta_q_u[{i}]" for i in range(step.n_u)]
-    return list(zip(names, decimal_strings(StepForm(step), working, digits), strict=True))
+    exact = fraction_solution(StepForm(step), working).point
+    values = [decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in exact]
+    return list(zip(names, values, strict=True))
 
 
 def _write(output: Path | None, text: str) -> None:

@@ -337,26 +337,15 @@ def hessian(h: float, K_q: Array, M_u: Array) -> Array:
     StepDataError if an entry leaves the range of float64.
     """
     n_a = len(K_q)
-    n_v = len(K_q) + len(M_u)
+    n_v = n_a + len(M_u)
     H = np.zeros((n_v, n_v))
-    of_actuated, of_unactuated = hessian_blocks(h, K_q, M_u)
-    H[:n_a, :n_a] = of_actuated
-    H[n_a:, n_a:] = of_unactuated
-    return read_only(H)
-
-
-def hessian_blocks(h: float, K_q: Array, M_u: Array) -> tuple[Array, Array]:
-    """The blocks h K_q and M_u / h of H, of the shapes of K_q and M_u.
-
-    StepDataError if an entry leaves the range of float64.
-    """
     with np.errstate(over="ignore"):
-        blocks = h * K_q, M_u / h
-    if not all(np.isfinite(block).all() for block in blocks):
-        raise StepDataError(
-            "takes h K_q or M_u / h out of the range of float64", field="h", value=h
-        )
-    return blocks
+        H[:n_a, :n_a] = h * K_q
+        H[n_a:, n_a:] = M_u / h
+    if not np.isfinite(H).all():
+        problem = "takes h K_q or M_u / h out of the range of float64"
+        raise StepDataError(problem, field="h", value=h)
+    return read_only(H)
 
 
 def seconds(h: object) -> float:
