@@ -96,9 +96,7 @@ class Moment:
 
 def still(scene: HasScene) -> Moment:
     """The start of a scene: its bodies where they are, without contacts."""
-    kinematics = scene.system.kinematics(scene.system.q_start)
-    colours = link_colours(scene.system)
-    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, (), colours)
+    return _moment(scene, scene.system.q_start, 0.0, ())
 
 
 def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
@@ -126,15 +124,14 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     if not -run.steps <= k < run.steps:
         raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)
     k = k % run.steps
-    kinematics = scene.system.kinematics(run["q"][k])
-    return Moment(
-        t=float(run["t"][k]) - run.header["h"],
-        shapes=drawn_shapes(scene),
-        R=kinematics.R,
-        t_links=kinematics.t,
-        contacts=_contacts(run, k),
-        colours=link_colours(scene.system),
-    )
+    return _moment(scene, run["q"][k], float(run["t"][k]) - run.header["h"], _contacts(run, k))
+
+
+def _moment(scene: HasScene, q: Array, t: float, contacts: tuple[DrawnContact, ...]) -> Moment:
+    """A scene at q, shape (n_q,), with contacts."""
+    kinematics = scene.system.kinematics(q)
+    colours = link_colours(scene.system)
+    return Moment(t, drawn_shapes(scene), kinematics.R, kinematics.t, contacts, colours)
 
 
 def frames(scene: HasScene, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
