@@ -63,9 +63,12 @@ def test_a_limit_that_no_joint_moves_bears_nothing(seed):
         "</spatial></tendon>"
     )
     scene = PENDULUM.replace('mass="0"/>', 'mass="0" contype="0"/>').format('axis="0 1 0"')
-    step, coordinates = mujoco_step(*turned(seed, scene, more), H)
+    model, data = turned(seed, scene, more)
+    step, coordinates = mujoco_step(model, data, H)
     assert solve_step(step).delta_q[0] == pytest.approx(FALL, rel=1e-9)
     assert any("limit of tendon[cord]: left out" in note for note in coordinates.left_out)
+    run = qr.mujoco_scenario(model, data, h=H, steps=1).run(progress=False)
+    assert run.q[1, 0] == pytest.approx(FALL, rel=1e-9)
 
 
 LINK = """<body name="{0}" pos="{1} 0 0"><joint name="{0}" axis="0 1 0"/><inertial pos=".12 0 -.16"
