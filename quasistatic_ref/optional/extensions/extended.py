@@ -28,7 +28,7 @@ from quasistatic_ref.optional.extensions.terms import checked_terms
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
-from quasistatic_ref.solve.compiled import CANON
+from quasistatic_ref.solve.compiled import problem_data
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
@@ -267,16 +267,13 @@ def _solved(
     step: StepData, problem: CvxpyProblem, name: str, accuracy: float, options: dict[str, object]
 ) -> tuple[Certificate, SolverStatistics]:
     """Solve the conic program and judge the raw answer; its values are left in the problem."""
-    solver = name.upper()
     try:
-        data, chain, inverse = problem.problem.get_problem_data(
-            solver, canon_backend=CANON, solver_opts=options
-        )
-        raw = chain.solve_via_data(problem.problem, data, False, False, options)
+        data = problem_data(problem.problem, name, options)
+        raw = data.chain.solve_via_data(problem.problem, data.numbers, False, False, options)
         with warnings.catch_warnings():
             # "Solution may be inaccurate" is dealt with below, by the status.
             warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
-            problem.problem.unpack_results(raw, chain, inverse)
+            problem.problem.unpack_results(raw, data.chain, data.inverse)
     except cp.error.DCPError as error:
         raise InputError(f"is not convex by CVXPY's rules: {error}", field="extension") from error
     except Exception as error:  # whatever another package raises
@@ -285,7 +282,7 @@ def _solved(
     if status != cp.OPTIMAL:
         raise StepNotSolved(name, status, step, accuracy)
     x, z = (raw["x"], raw["y"]) if isinstance(raw, dict) else (raw.x, raw.z)
-    program = conic_program(data)
+    program = conic_program(data.numbers)
     check_arithmetic()
     residuals = conic_residuals(program, np.array(x), np.array(z))
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
