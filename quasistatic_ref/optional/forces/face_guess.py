@@ -27,8 +27,10 @@ ROUNDING: Final = 2.0**-44
 """By how much a condition of a face may be missed, relative to the lengths z."""
 STIFF: Final = 2.0**10
 """Stiffness of a user's row over that of a contact."""
+SOFTER: Final = (1.0, *2.0 ** np.arange(30, -1, -6))
+"""Compliances over that of the step [-]: mostly the first is all that is needed."""
 STEPS: Final = 12
-"""Steps of Newton's method, at most: mostly one to four."""
+"""Steps of Newton's method with a compliance, at most: mostly one to four."""
 SHORTEST: Final = 2.0**-20
 """Share of the way to the next zero, at least."""
 FLAT: Final = 0.1
@@ -89,7 +91,7 @@ class _Energy:
         self.k = step.h / compliance
 
     def least(self, wrench: Array) -> Pieces:
-        """Those where Newton's method ends: nearly always those at the minimum.
+        """Those at the minimum.
 
         Parameters
         ----------
@@ -103,13 +105,23 @@ class _Energy:
         """
         p = wrench[:, [2, 0, 1, 3]] / np.where(self.mu > 0, self.mu, np.inf)
         at = self.pieces(-p, Pieces(((),) * len(p), (False,) * len(self.step.extra.b)))
+        stiffness = self.k
+        for softer in SOFTER:
+            self.k = stiffness / softer
+            at, settled = self.settled(at)
+            if settled and softer == 1:
+                break
+        return at
+
+    def settled(self, at: Pieces) -> tuple[Pieces, bool]:
+        """Where Newton's method ends from some pieces, and whether it is the minimum."""
         x = self.zero(at)
         at = self.pieces_at(x, at)
         for _ in range(STEPS):
             way = self.zero(at) - x
             after = self.pieces_at(x + way, at)
             if after == at:
-                return at
+                return at, True
             steepest = FLAT * abs(way @ self.gradient(x, at))
             share = 1.0
             while share > SHORTEST and way @ self.gradient(x + share * way, after) > steepest:
@@ -117,7 +129,7 @@ class _Energy:
                 after = self.pieces_at(x + share * way, after)
             x = x + share * way
             at = after
-        return at
+        return at, False
 
     def gradient(self, x: Array, at: Pieces) -> Array:
         """The linear function that the gradient is on some pieces, at x, shape (n_v,)."""
