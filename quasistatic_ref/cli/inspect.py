@@ -18,7 +18,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import SAYS, UNIQUE_NORMAL
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.parts import if_there
+from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.scenario.scenario_table import URDF
 from quasistatic_ref.simulate.finding import finding_table
@@ -122,8 +122,9 @@ def steps_by(scenario: Scenario) -> str:
     """What takes the steps of a scenario, in words."""
     if not scenario.fast:
         return "the plain path, which is the definition; --fast takes the same steps sooner"
-    from quasistatic_ref.optional.fast.closest import solid_size
-    from quasistatic_ref.optional.fast.library import missing
+    with needing("fast"):
+        from quasistatic_ref.optional.fast.closest import solid_size
+        from quasistatic_ref.optional.fast.library import missing
 
     if (reason := missing()) is not None:
         return f"the plain path: {reason}"

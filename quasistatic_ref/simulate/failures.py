@@ -70,7 +70,9 @@ class NoFixedPoint(StepNotSolved):
 
 
 class RunFailed(QuasistaticError):
-    """A simulation ended early; the steps before the failure are kept.
+    """A simulation ended early; it carries the steps before the failure.
+
+    The command line writes these to files (``failed_run`` of ``cli/options.py``).
 
     Parameters
     ----------

@@ -165,7 +165,9 @@ def _far_from_largest(solution: StepSolution) -> bool:
 
 
 def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:
-    """The proved optimum; if the backend fails, the exact method starts cold: the same answer.
+    """The proved optimum. The backend's answer, right or wrong, is only where its search starts.
+
+    If the backend fails, the exact method (certify/exact.py) starts cold: the same answer.
 
     In a curved cone, where no enclosure of the optimum is found, the backend's answer, judged.
     """

@@ -5,6 +5,7 @@ r"""How all data of a step change with what the step is a function of.
 """
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 
@@ -85,15 +86,24 @@ def data_rates(
     for name, J in by_friction.items():
         motion[:, :, places[name]] = (J @ x)[:, :, None] * of_pair[:, None]
         terms[places[name]] = (np.abs(J) @ np.abs(x)).max(initial=0.0)
-
-    def pull(y: Array) -> Array:
-        exerted = np.zeros(load.shape)
-        exerted[:, places["dq_dq"]] = rows.pull(y)
-        for name, J in by_friction.items():
-            exerted[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
-        return exerted
-
+    pull = partial(_exerted, rows, by_friction, of_pair, places, load.shape)
     return DataRates(load, motion, terms, pull), places
+
+
+def _exerted(
+    rows: RowRates,
+    by_friction: Mapping[str, Array],
+    of_pair: Array,
+    places: Places,
+    shape: tuple[int, ...],
+    y: Array,
+) -> Array:
+    """Derivatives by all parameters of what multipliers y (n_c, 4) exert, shape (n_v, P)."""
+    exerted = np.zeros(shape)
+    exerted[:, places["dq_dq"]] = rows.pull(y)
+    for name, J in by_friction.items():
+        exerted[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
+    return exerted
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
