@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.lab.digits import correct_digits
+from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, MARKS
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled

@@ -23,6 +23,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.pivots import exact_factor
+from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import UNMOVED
 
 MOST = 16.0
@@ -157,3 +158,18 @@ def error_length(H: Array, g: Array, optimum: Array, loads: Iterable[Array] = ()
     lengths = [*(norm.of_impulse(p) for p in (g, *loads)), norm.of_displacement(optimum)]
     length = max(*lengths, UNMOVED * math.sqrt(H.diagonal().min()))
     return length if length < math.inf else math.nan
+
+
+def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> float:
+    """Correct digits of a displacement [-], 0 to 16.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    delta_q, exact_delta_q : ndarray, shape (n_v,)
+        The answer, and the optimum [m, rad].
+    """
+    off = energy_norm(step.H).of_displacement(delta_q - exact_delta_q)
+    length = error_length(step.H, linear_term(step), exact_delta_q, single_loads(step))
+    return digits_of_error(off / length)

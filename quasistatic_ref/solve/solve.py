@@ -14,7 +14,7 @@ from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.curved_cone import Enclosed, curved_cone
 from quasistatic_ref.certify.exact import ExactOptimum, check_length
 from quasistatic_ref.certify.failures import StepNotSolved
-from quasistatic_ref.certify.norm import digits_of_error, energy_norm, error_length, single_loads
+from quasistatic_ref.certify.norm import correct_digits
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.parts import needing
@@ -194,9 +194,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     lam = optimum.lam
     if last is not None:
         measured, _ = in_si(last.natural_delta_q, last.natural_lam, units)
-        form = both.si_form
-        length = error_length(form.H, form.g, delta_q, single_loads(step))
-        digits = digits_of_error(energy_norm(form.H).of_displacement(measured - delta_q) / length)
+        digits = correct_digits(step, measured, delta_q)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     if isinstance(optimum, ExactOptimum):

@@ -9,12 +9,12 @@ import quasistatic_ref as qr
 from quasistatic_ref import Extra, StepData
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.norm import (
+    correct_digits,
     digits_of_error,
     energy_norm,
     error_length,
     single_loads,
 )
-from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from tests.certify.test_farkas import EAST, point_between_walls

@@ -48,7 +48,6 @@ LAB = (
     "lab/cached_runs",
     "lab/thresholds",
     "lab/json_schema",
-    "lab/digits",
     "lab/folders",
     "lab/log",
     "lab/lock",
