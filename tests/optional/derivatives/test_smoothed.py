@@ -5,13 +5,14 @@ import pytest
 
 from quasistatic_ref import InputError, Sphere, StepNotSolved, smoothed
 from quasistatic_ref.lab.scenes.nudge import RADIUS, body_at_rest
+from quasistatic_ref.optional.derivatives.step import barrier as newton
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.closeness import assert_relative
 from tests.helpers import point_on_floor
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import rate, unit
-from tests.tolerances import CLOSED_FORM, DIFFERENCE_OF_STEPS
+from tests.tolerances import ACTIVE_SET, CLOSED_FORM, DIFFERENCE_OF_STEPS
 
 NONE = np.zeros(0)
 
@@ -42,15 +43,38 @@ def test_r36_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa, 
     assert np.abs(found.dq_dtau @ e - rate(pressed, 1e-4)).max() <= 10 * DIFFERENCE_OF_STEPS * size
 
 
-@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e-12, 1e12])
-def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
-    """Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z."""
+def pressed_point(scale):
+    """A point that is pressed onto a floor without friction, kappa, and how high it hovers.
+
+    Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z.
+    """
     kappa = 1e-4 * scale
     step = point_on_floor(0.3 * scale, 0.0, force=(0.0, 0.0, -2.0 * scale), h=0.01)
     z = max(np.roots([0.3 * scale / 0.01, 0.01 * 2.0 * scale, -4 * kappa]))
+    return step, kappa, z
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e-12, 1e12])
+def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
+    step, kappa, z = pressed_point(scale)
     barrier = barrier_step(step, kappa)
     assert_relative(barrier.x, [0.0, 0.0, z], CLOSED_FORM)
     assert_relative(barrier.lam, kappa / barrier.slack, CLOSED_FORM)
+
+
+def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(monkeypatch):
+    step, kappa, z = pressed_point(1e-12)
+    answers = 0
+    for steps in range(30):
+        monkeypatch.setattr(newton, "STEPS", steps)
+        try:
+            barrier = barrier_step(step, kappa)
+        except StepNotSolved:
+            assert not answers
+            continue
+        assert_relative(barrier.x, [0.0, 0.0, z], ACTIVE_SET)
+        answers += 1
+    assert 0 < answers < 29
 
 
 def test_what_cannot_be_smoothed_is_refused():

@@ -65,6 +65,19 @@ def test_an_edge_on_a_face_may_turn_about_itself_and_about_nothing_else(features
         assert_within(as_one.n[0, :, 0], np.cross(way, N), ROUNDING)
 
 
+def test_each_of_several_pairs_slides_along_its_own_line():
+    """Edges along x and y on a face each: each edge turns about itself."""
+    x, y, _ = np.eye(3)
+    features = [Feature(free=x[None]), Feature(free=y[None]), FACE, FACE]
+    velocity = np.zeros((2, 2, 3, 1))
+    omega = np.zeros((2, 2, 3, 1))
+    omega[0, :, :, 0] = x, y
+    n = np.array([N, N])
+    rates = closest_point_rates(np.full(2, PHI), n, features, velocity, omega, np.ones(2))
+    assert rates.unique.all()
+    assert_within(rates.n, 0.0, ROUNDING)  # the faces do not turn
+
+
 SHAPES = (
     Sphere(0.05), Capsule(0.03, 0.05), Box((0.03, 0.05, 0.04)), Cylinder(0.04, 0.06),
     Cone(0.04, 0.06), Ellipsoid((0.03, 0.05, 0.04)), convex_hull(np.eye(4, 3) * 0.1 - 0.02),
