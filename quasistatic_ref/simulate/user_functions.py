@@ -143,7 +143,11 @@ def with_all_arguments(function: Callable[..., Value], name: str) -> OfTimeQAndL
         If it takes other arguments.
     """
     needed = needed_arguments(function, name)
-    return lambda *t_q_last: function(*t_q_last[:needed])
+    if needed == 3:
+        return function
+    if needed == 2:
+        return lambda t, q, last: function(t, q)
+    return lambda t, q, last: function(t)
 
 
 def needed_arguments(function: Callable[..., Value], name: str) -> int:
