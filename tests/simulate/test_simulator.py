@@ -57,10 +57,13 @@ def test_the_parts_of_a_run_add_up_to_its_wall_time(fast):
     scenario = load_scenario("sphere_spin", steps=20, fast=fast)
     simulator = scenario.simulator()
     scenario.run(progress=False)  # which imports what a run needs
-    begin = time.perf_counter()
-    run = rollout(simulator, scenario.system.q_start, scenario.targets, 20, progress=False)
-    wall = time.perf_counter() - begin
-    assert 0.95 * wall <= sum(float(part.sum()) for part in run.seconds.values()) <= wall
+    shares = []
+    for _ in range(3):  # another process may take its turn between two parts, but not each time
+        begin = time.perf_counter()
+        run = rollout(simulator, scenario.system.q_start, scenario.targets, 20, progress=False)
+        wall = time.perf_counter() - begin
+        shares.append(sum(float(part.sum()) for part in run.seconds.values()) / wall)
+    assert 0.95 <= max(shares) <= 1
 
 
 def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
