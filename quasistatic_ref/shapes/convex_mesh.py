@@ -80,8 +80,8 @@ class ConvexMesh(Shape):
 
         Inside, the largest of the signed distances to the planes of its faces, which is exact;
         outside, the distance to the nearest triangle. The normal is that of a face, unless an edge
-        or a corner is the closest feature. Each point is computed by itself: its bits do not depend
-        on which other points are given.
+        or a corner is the closest feature. Each point is computed by itself, so that its bits do
+        not depend on the other points.
         """
         phi = np.empty(len(points))
         normal = np.empty((len(points), 3))

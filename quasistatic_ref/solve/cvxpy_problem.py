@@ -13,7 +13,7 @@ from quasistatic_ref.step.extension import none
 from quasistatic_ref.step.problem import StepProblem
 
 Additions = Callable[["CvxpyProblem"], Sequence[cp.Constraint | cp.Expression]]
-"""Constraints and scalar costs of a user's own."""
+"""A user's constraints and scalar costs."""
 
 
 class CvxpyProblem(StepProblem):

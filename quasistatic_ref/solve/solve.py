@@ -220,7 +220,7 @@ def _not_enclosed(
 def _answer_and_statistics(
     both: StepInBothUnits, solver: Solver, accuracy: float
 ) -> tuple[NaturalAnswer | None, SolverStatistics]:
-    """A backend's answer, perhaps one that it does not call a solution; what it said and cost."""
+    """A backend's answer, its status and time; it may not call its answer a solution."""
     answer: NaturalAnswer | None = None
     unanswered = False
     status = "not called"

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def none(symbols: object) -> tuple[()]:
-    """No constraints or costs of a user's own."""
+    """No constraints or costs of a user."""
     return ()
 
 

@@ -73,7 +73,7 @@ def _groups(
     Parameters
     ----------
     couplings : bytes
-        Which coordinates move a contact, or a row of the user's own, or have an entry in a row of
+        Which coordinates move a contact, or a user's row, or have an entry in a row of
         H: a mask of that shape.
     shape : (int, int)
     near_contacts : bytes
@@ -119,7 +119,7 @@ def labels(couplings: Mask) -> tuple[Indices, Indices]:
 
 
 def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
-    """The groups of a step, each with its own step.
+    """The groups of a step, each as a step.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ def standard_form(step: StepData) -> StandardForm:
 
 
 def inequalities(step: StepData) -> tuple[Array, Array]:
-    """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's own rows."""
+    """A, shape (m, n_v), and b, shape (m,), of Eq. :eq:`eq-8` and of the user's rows."""
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
     b = -row_constants(step.contacts, step.cone)[step.mask]  # Eq. (8)
     if step.extra.names:

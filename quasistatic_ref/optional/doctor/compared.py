@@ -110,7 +110,8 @@ class RunStep:
     @cached_property
     def step(self) -> StepData:
         """Its problem, up to rounding."""
-        run, k = self.run, self.k
+        run = self.run
+        k = self.k
         load = run.noted("tau")[k]
         return run.simulator.step_under(run["q"][k], run["q_bar_a"][k], load, self.contacts)
 

@@ -87,7 +87,8 @@ def drag(run: Run) -> Iterator[Finding]:
     sizes = [1.0 if change.stops else change.of_force(run.light) for change in changes]
     if max(sizes, default=0.0) > COUNTS:
         change = changes[sizes.index(max(sizes))]
-        here, there = change.here.normal, change.there.normal
+        here = change.here.normal
+        there = change.there.normal
         does = f"{here:.3g} N, without it {there:.3g} N"
         if change.stops:
             does = f"it {change} without it"
@@ -111,7 +112,8 @@ def layer(run: Run) -> Iterator[Finding]:
     sizes = [max(change.of_layer_force, change.of_way) for change in changes]
     if max(sizes, default=0.0) > COUNTS:
         change = changes[sizes.index(max(sizes))]
-        here, there = change.here, change.there
+        here = change.here
+        there = change.there
         does = f"presses with {here.normal:.3g} N, where Coulomb's law allows {there.normal:.3g} N"
         if change.of_way > change.of_layer_force:
             does = f"slips by {1e3 * here.way:.3g} mm, where Coulomb's law allows "
@@ -187,7 +189,8 @@ class Change(NamedTuple):
 
     def __str__(self) -> str:
         """How far the pair slips or spins in the run, and where one thing is changed."""
-        here, there = self.here, self.there
+        here = self.here
+        there = self.there
         if self.slips:
             less = f"by {1e3 * there.way:.2g} mm" if there.way > self.shortest else "not"
             return f"slips by {1e3 * here.way:.2g} mm, and {less}"

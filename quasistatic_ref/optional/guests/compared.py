@@ -156,7 +156,7 @@ class Touch(NamedTuple):
     slides : tuple of StateContact
         Where the surfaces may slide on each other.
     wrench : ndarray, shape (4,)
-        The engine's own (f_d1, f_d2, f_n, tau_n), in the frame of the first of these [N, N m].
+        The engine's (f_d1, f_d2, f_n, tau_n), in the frame of the first of these [N, N m].
     """
 
     name: str
@@ -355,8 +355,8 @@ class Compared:
             [m/s, rad/s].
         """
         f_n = wrenches[:, 2]
-        mu_v, mu_omega = touch.nearest.mu_v, touch.nearest.mu_omega
-        mus = np.array([mu_v, mu_v, mu_omega])
+        nearest = touch.nearest
+        mus = np.array([nearest.mu_v, nearest.mu_v, nearest.mu_omega])
         of_limits = np.abs(wrenches[:, [0, 1, 3]]) / np.where(mus > 0, mus, np.inf)
         pyramid = self.answer.cone == PYRAMID
         used = of_limits.sum(axis=1) if pyramid else np.linalg.norm(of_limits, axis=1)

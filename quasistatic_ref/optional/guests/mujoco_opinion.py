@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.contact.distance import in_world
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.guests import touches
 from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import Words
+from quasistatic_ref.optional.guests.findings import Named, Words
 from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
-from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
+from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
 from quasistatic_ref.optional.guests.settled import run, velocities
 from quasistatic_ref.optional.guests.state_step import Coordinates
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import CREEP
+from quasistatic_ref.tolerances import CREEP, DEEP, PIERCES
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
@@ -106,11 +111,11 @@ def second_opinion(
 
     weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
     words = _words(model)
-    overlaps = [*unlisted(state, words)]
+    overlaps = [*_unlisted(state, words)]
     if start is not None:
         first = mujoco_state(model, start)
         first.run()
-        overlaps += misplaced(first, words)
+        overlaps += _misplaced(first, words)
     h = float(model.opt.timestep)
     return opinion_of(of_engine, step_of, h, tolerance, words, weight, overlaps)
 
@@ -152,3 +157,60 @@ def _mover(state: MujocoState, b: int) -> Mover:
     far = np.linalg.norm(state.data.geom_xpos[geoms] - centre, axis=1)
     size = float((far + model.geom_rbound[geoms]).max(initial=0.0))
     return Mover(state.called("body", b), mass, size, bool(free), linear, angular)
+
+
+class _Overlap(NamedTuple):
+    """Two geoms in each other.
+
+    Parameters
+    ----------
+    geoms : tuple of int
+        By their numbers.
+    depth : float
+        [m].
+    """
+
+    geoms: tuple[int, int]
+    depth: float
+
+
+def _unlisted(state: MujocoState, words: Words) -> Iterator[Named]:
+    """Findings on geoms that are deep in each other, and that MuJoCo lists no contact of."""
+    listed = {tuple(sorted(touch.geom.tolist())) for touch in state.data.contact}
+    for overlap in _overlaps(state):
+        if overlap.geoms not in listed and overlap.depth > DEEP:
+            yield _penetrates(state, overlap, "now, without a contact of MuJoCo's", words)
+
+
+def _misplaced(state: MujocoState, words: Words) -> Iterator[Named]:
+    """Findings on geoms that start so deep in each other that they cannot be meant to be there."""
+    radii = state.model.geom_rbound
+    for overlap in _overlaps(state):
+        least = min(radii[g] for g in overlap.geoms if radii[g] > 0)
+        if overlap.depth > PIERCES * least:
+            yield _penetrates(state, overlap, "at the start", words)
+
+
+def _penetrates(state: MujocoState, overlap: _Overlap, when: str, words: Words) -> Named:
+    """The finding about two geoms, whatever MuJoCo makes of them."""
+    a, b = overlap.geoms
+    body, other = touches.mover_name(state, a), touches.mover_name(state, b)
+    if body == "world":
+        body, other = other, body
+    depth = 1e3 * overlap.depth
+    geoms = f"{state.called('geom', a)}/{state.called('geom', b)}"
+    cause = f"{geoms}: {body} and {other} overlap by {depth:.3g} mm {when}"
+    return body, Finding("penetrates", True, words.apart, cause, {"depth_mm": depth})
+
+
+def _overlaps(state: MujocoState) -> Iterator[_Overlap]:
+    """All pairs of geoms that MuJoCo's filters let touch, and that are in each other."""
+    R = state.data.xmat.reshape(-1, 3, 3)
+    for touch in candidates(state):
+        a, b = sorted(touch.geom.tolist())
+        if {geom_kind(state, a), geom_kind(state, b)} <= {*KINDS_OF_GEOMS}:
+            sides = (placed(state, a), placed(state, b))
+            pair = ContactPair(f"{a}/{b}", *sides, 0.0, 0.0, rows=4, k=1)
+            phi = solid_pair(pair.name, *in_world(pair, R, state.data.xpos)).phi
+            if phi < 0:
+                yield _Overlap((a, b), -phi)

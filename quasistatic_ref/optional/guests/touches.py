@@ -126,7 +126,7 @@ def rolling_words(state: MujocoState, every: Sequence[StateContact]) -> Iterator
 
 
 def forces(state: MujocoState, data: MjData) -> Array:
-    """MuJoCo's own (f_d1, f_d2, f_n, tau_n) of its contacts in a state, (n_c, 4) [N, N m].
+    """MuJoCo's (f_d1, f_d2, f_n, tau_n) of its contacts in a state, (n_c, 4) [N, N m].
 
     They include what balances adhesion, which MuJoCo takes off them.
     """
