@@ -1,6 +1,7 @@
 """How many points a body needs to lie on, in each way in which it can lie."""
 
 from bisect import bisect_left
+from functools import partial
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -39,14 +40,19 @@ def points_to_lie_on(points: Array, centre: Array) -> tuple[int, int, Array]:
         if not _around(flat[below == below.max()]):
             continue
         flat = flat[np.argsort(-below, kind="stable")]
-        lowest = [flat[:k] for k in range(3, len(points))]
-        count = 3 + bisect_left(lowest, True, key=_around)
+        counts = range(3, len(points))
+        count = 3 + bisect_left(counts, True, key=partial(_lowest_are_around, flat))
         needed.append(count)
         # The tangent of the angle at which it tips; of equal ones, rather as it was scanned.
         edges = ConvexHull(flat[:count]).equations[:, 2]
         tips = float(-edges.max() / (below.max() - centre @ normal))
         stable.append((round(tips, 6), -normal[2], *(normal + 0.0).tolist()))
     return max([FEWEST, *needed]), len(needed), np.array(max(stable)[2:])
+
+
+def _lowest_are_around(flat: Array, count: int) -> bool:
+    """Whether the first `count` of points in the plane, shape (N, 2), are around the origin."""
+    return _around(flat[:count])
 
 
 def _around(flat: Array) -> bool:
