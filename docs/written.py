@@ -63,7 +63,7 @@ def of_pushes():
 def of_ratios():
     """Identified mu_omega / mu_v: the least and the largest, and relative to a uniform pressure."""
     pairs = result("reality_identified").values()
-    ratios = [pair["cones"]["ellipsoid"]["ratio"] for pair in pairs]
+    ratios = [pair["ratio"] for pair in pairs]
     relative = [ratio / pair["uniform"] for ratio, pair in zip(ratios, pairs, strict=True)]
     return {
         "ratio-least-mm": f"{1e3 * min(ratios):.1f}",

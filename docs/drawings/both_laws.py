@@ -13,7 +13,7 @@ import numpy as np
 from docs.drawings.which_cone_is_real import measurements
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
-from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings

@@ -10,14 +10,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.lab.figures.labels import label_axes, legend_below
-from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified_ratio
-from quasistatic_ref.lab.reality.loads import loads_read
-from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
+from quasistatic_ref.lab.reality.measurements import (
+    Pair,
+    Pushes,
+    loads_read,
+    pairs_read,
+    pushes_read,
+)
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
-from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
@@ -30,11 +33,9 @@ EVERY, SHOWN, ADVANCE = 26, 6, 2e-3
 
 def measurements(name: str = PAIR) -> tuple[Pair, float, Pushes]:
     """A pair, its mu_omega / mu_v [m] from loads, and some of its pushes."""
-    folder = reality_folder()
-    (pair,) = pairs_read(folder, [name])
-    found = identified_ratio(loads_read(folder, [pair])[name], pair.outline.gyration)
-    assert found is not None
-    return pair, found.ratio, pushes_read(folder, [pair])[name].every(EVERY)
+    (pair,) = pairs_read([name])
+    ratio = identified_ratio(loads_read([pair])[name], pair.outline.gyration)
+    return pair, ratio, pushes_read([pair])[name].every(EVERY)
 
 
 def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:

@@ -11,7 +11,6 @@ def progress_bar(
     *,
     unit: str,
     total: int | None = None,
-    done: int = 0,
     words: str | None = None,
     shown: bool = True,
 ) -> tqdm:
@@ -24,8 +23,6 @@ def progress_bar(
     unit : str
         Of which there are `total`.
     total : int, optional
-    done : int
-        How many were done before.
     words : str, optional
         What is done.
     shown : bool
@@ -33,6 +30,6 @@ def progress_bar(
     """
     # tqdm by itself prints nothing on a terminal that does not know its size.
     size = shutil.get_terminal_size()
-    return tqdm(items, desc=words, total=total, initial=done, unit=unit, leave=False,
+    return tqdm(items, desc=words, total=total, unit=unit, leave=False,
                 ncols=size.columns, nrows=size.lines,
                 disable=None if shown else True)  # fmt: skip

@@ -1,50 +1,47 @@
-"""mu_omega / mu_v of all pairs in each cone: ``python -m validation.make.reality_identified``.
+"""mu_omega / mu_v of all pairs in the ellipsoid: ``python -m validation.make.reality_identified``.
 
-Loads are read, and no pushes.
+Loads are read, and no pushes. Each ratio has its 95 % interval, by a bootstrap over the loads.
 """
 
 import numpy as np
+from scipy.stats import bootstrap
 
-from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.identify import identified_ratio
-from quasistatic_ref.lab.reality.loads import Loads, loads_read
-from quasistatic_ref.lab.reality.pairs import pairs_read
-from quasistatic_ref.lab.reality.report import identified_record
+from quasistatic_ref.lab.reality.identify import cosines, identified_ratio
+from quasistatic_ref.lab.reality.measurements import Loads, loads_read, pairs_read
+from quasistatic_ref.step.data import Array
 from validation.tools.scripts import RESULTS, record_written, script_options
 
 OUT = RESULTS / "reality_identified.json"
-CONES = ("ellipsoid", "pyramid", "product", "facets-8", "facets-16")
 
 
-def best_axes(loads: Loads, rho: float) -> float:
-    """The least lost share of the pyramid over angles of its axes in the object's frame [-]."""
-    angles = np.radians([0.0, 15.0, 30.0, 45.0, 60.0, 75.0])
-    found = [identified_ratio(loads.turned(float(angle)), rho, "pyramid") for angle in angles]
-    return min(own.misfit for own in found if own is not None)
+def interval(loads: Loads, ratio: float, rho: float) -> tuple[float, float]:
+    """The ends of the interval of a ratio [m], on a grid of steps of a third of a per cent."""
+    grid = ratio * np.geomspace(0.5, 2.0, 401)
+    table = np.array([cosines(loads, c, rho) for c in grid])
+
+    def best(rows: Array) -> float:
+        return float(grid[table[:, rows].sum(axis=1).argmax()])
+
+    drawn = bootstrap((np.arange(len(loads.wrench)),), best, n_resamples=1000, vectorized=False,
+                      method="percentile", rng=0)  # fmt: skip
+    return float(drawn.confidence_interval.low), float(drawn.confidence_interval.high)
 
 
 def main() -> None:
     """Identify, and write the summary."""
     options = script_options(__doc__, out=OUT)
-    folder = reality_folder()
-    pairs = pairs_read(folder)
-    loads = loads_read(folder, pairs)
-    record = {
-        pair.name: {
-            "published": pair.published,
-            "uniform": pair.outline.mean_distance,
-            "gyration": pair.outline.gyration,
-            "mu_finger": pair.mu_finger,
-            "pyramid, best axes": best_axes(loads[pair.name], pair.outline.gyration),
-            "cones": {
-                cone: identified_record(
-                    identified_ratio(loads[pair.name], pair.outline.gyration, cone)
-                )
-                for cone in CONES
-            },
-        }
-        for pair in pairs
-    }
+    pairs = pairs_read()
+    record = {}
+    for pair in pairs:
+        loads = loads_read([pair])[pair.name]
+        rho = pair.outline.gyration
+        ratio = identified_ratio(loads, rho)
+        low, high = interval(loads, ratio, rho)
+        record[pair.name] = {
+            "published": pair.published, "uniform": pair.outline.mean_distance, "gyration": rho,
+            "mu_finger": pair.mu_finger, "count": len(loads.wrench), "ratio": ratio,
+            "low": low, "high": high,
+        }  # fmt: skip
     record_written(options.out, record)
 
 

@@ -1,15 +1,13 @@
 """How far predictions are from measurements, with bootstrap intervals."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from scipy.stats import bootstrap
 
-from quasistatic_ref.lab.reality.pushes import Pushes
+from quasistatic_ref.lab.reality.measurements import Pushes
 from quasistatic_ref.step.data import Array
-
-DRAWS = 2000
-"""Of a bootstrap."""
 
 
 def pose_errors(poses: Array, measured: Array) -> Array:
@@ -25,86 +23,50 @@ def pose_errors(poses: Array, measured: Array) -> Array:
     return np.column_stack([np.linalg.norm(gap[:, :2], axis=1), np.abs(turn)])
 
 
-@dataclass(frozen=True, eq=False)
-class Estimate:
-    """A mean with its 95 % interval.
+def estimate(groups: Sequence[Array]) -> dict[str, list[float]]:
+    """The mean over groups of their means, and its 95 % interval: ``mean``, ``low``, ``high``.
 
-    Parameters
-    ----------
-    mean, low, high : ndarray, shape (columns,)
-        [each column's unit].
-    """
-
-    mean: Array
-    low: Array
-    high: Array
-
-
-def bootstrap_estimate(groups: Sequence[Array]) -> Estimate:
-    """The mean over groups of their means; drawn with replacement inside of each group.
+    It is drawn with replacement inside of each group.
 
     Parameters
     ----------
     groups : sequence of ndarray, each of shape (n, columns)
         One for each pair [each column's unit].
     """
-    rng = np.random.default_rng(0)
-    drawn = np.zeros((DRAWS, groups[0].shape[1]))
-    for group in groups:
-        n = len(group)
-        counts = rng.multinomial(n, np.full(n, 1 / n), size=DRAWS)
-        drawn += counts @ group / n
-    low, high = np.quantile(drawn / len(groups), [0.025, 0.975], axis=0)
-    return Estimate(np.mean([group.mean(0) for group in groups], axis=0), low, high)
+
+    def mean(*drawn: Array, axis: int) -> Array:
+        means: Array = np.mean([group.mean(axis) for group in drawn], axis=0)
+        return means
+
+    low, high = bootstrap(groups, mean, n_resamples=2000, batch=100, method="percentile",
+                          rng=0).confidence_interval  # fmt: skip
+    return {"mean": mean(*groups, axis=0).tolist(), "low": low.tolist(), "high": high.tolist()}
 
 
-@dataclass(frozen=True, eq=False)
-class Errors:
-    """Of the pushes of one pair, in mm and degrees.
+def summary(poses: Mapping[str, Array], pushes: Mapping[str, Pushes]) -> dict[str, dict[str, Any]]:
+    """One entry for each pair and one, ``all``, for the mean over pairs: plain data.
+
+    Each has ``pushes``, ``error``, ``moved``, ``published`` and ``more`` (error less that of the
+    published simulator, push by push): each of the last four has ``mean``, ``low`` and ``high``,
+    in mm and degrees.
 
     Parameters
     ----------
-    model, moved : ndarray, shape (n, 2)
-        Of the prediction; how far the object moved [mm, deg].
-    published : ndarray, shape (n, 2), or None
-        Of a published simulator [mm, deg].
+    poses : mapping of str to ndarray, shape (n, 3)
+        Predictions by the name of the pair: x, y [m], angle [rad].
+    pushes : mapping of str to Pushes
     """
-
-    model: Array
-    moved: Array
-    published: Array | None
-
-
-def errors_of(poses: Array, pushes: Pushes) -> Errors:
-    """The errors of predicted poses, shape (n, 3) [m, rad], of the pushes of a pair."""
-    units = np.array([1e3, np.degrees(1.0)])
-    other = None
-    if pushes.published is not None:
-        other = units * pose_errors(pushes.published, pushes.after)
-    return Errors(
-        units * pose_errors(poses, pushes.after),
-        units * pose_errors(pushes.before, pushes.after),
-        other,
-    )
-
-
-def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
-    """One entry for each pair and one, ``all``, for the mean over pairs: plain data.
-
-    Each has ``pushes`` and, where they are known, ``error``, ``moved``, ``published`` and ``more``
-    (error less that of the published simulator, push by push): each three pairs (mm, degrees) of
-    mean, low and high.
-    """
-    groups = {name: [group] for name, group in errors.items()} | {"all": list(errors.values())}
-    table = {}
-    for name, group in groups.items():
-        entry: dict[str, object] = {"pushes": sum(len(e.model) for e in group)}
-        parts = {"error": [e.model for e in group], "moved": [e.moved for e in group]}
-        others = [e.published for e in group if e.published is not None]
-        if len(others) == len(group):
-            parts["published"] = others
-            parts["more"] = [e.model - o for e, o in zip(group, others, strict=True)]
-        for key, values in parts.items():
-            entry[key] = {of: x.tolist() for of, x in vars(bootstrap_estimate(values)).items()}
-        table[name] = entry
+    parts: dict[str, dict[str, Array]] = {}
+    for name, measured in pushes.items():
+        ends = {"error": poses[name], "moved": measured.before, "published": measured.published}
+        parts[name] = {
+            key: pose_errors(end, measured.after) * [1e3, np.degrees(1.0)]
+            for key, end in ends.items()
+        }
+        parts[name]["more"] = parts[name]["error"] - parts[name]["published"]
+    table: dict[str, dict[str, Any]] = {}
+    for entry, names in {**{name: [name] for name in parts}, "all": list(parts)}.items():
+        table[entry] = {"pushes": sum(len(poses[name]) for name in names)}
+        for key in parts[names[0]]:
+            table[entry][key] = estimate([parts[name][key] for name in names])
     return table

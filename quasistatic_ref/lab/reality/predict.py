@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.reality.outline import rotation
-from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.push import FINGER, Pushed
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.solve.choice import solver_for
@@ -126,7 +126,7 @@ def finger_waypoints(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
 
     def gap(finger: Array) -> tuple[float, Array]:
         distance, _, normal = of.outline.closest(R.T @ (finger - pose[:2]))
-        return distance - of.radius, R @ normal
+        return distance - FINGER, R @ normal
 
     overlap, normal = gap(path[0])
     points = list(path)

@@ -11,13 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.outline import Outline, rotation
-from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.slider import turned
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
+
+FINGER = 0.00475
+"""Radius of the finger [m]."""
 
 SLOWEST = 0.05
 """Largest quasi-dynamic number [-]: the model's own drag is then 5 % of friction at most."""
@@ -31,10 +33,8 @@ class Pushed:
     ----------
     outline : Outline
         In the body's frame; its centre is that of mass.
-    radius : float
-        Of the finger [m].
     mu_finger : float
-        Its friction [-].
+        Friction of the finger [-].
     ratio : float
         mu_omega / mu_v of the support [m], which is one contact below the centre of mass.
     by : Settings
@@ -42,7 +42,6 @@ class Pushed:
     """
 
     outline: Outline
-    radius: float
     mu_finger: float
     ratio: float
     by: Settings
@@ -70,7 +69,7 @@ class Pushed:
         J[1, :2, :2] = -np.eye(2)
         J[1, :2, 2:4] = np.eye(2)
         J[1, :2, 5] = turned(arm)
-        phi = [body[2], distance - self.radius]
+        phi = [body[2], distance - FINGER]
 
         at_finger = np.array([[-n[1], n[0], 0.0], [0.0, 0.0, 1.0], [n[0], n[1], 0.0]])
         at_finger[0] *= np.sign(np.linalg.det(at_finger))
@@ -93,10 +92,9 @@ def pushed_scene(by: Settings, pair: Pair, ratio: float) -> Pushed:
     Raises
     ------
     InputError
-        If there is no such cone, or the quasi-dynamic number is too large.
+        If the quasi-dynamic number is too large.
     """
-    cone(by.cone)
     if not by.quasi_dynamic_number <= SLOWEST:
         problem = f"makes the quasi-dynamic number more than {SLOWEST:g}; take a longer step"
         raise InputError(problem, field="h", value=by.h)
-    return Pushed(pair.outline, pair.radius, pair.mu_finger, ratio, by)
+    return Pushed(pair.outline, pair.mu_finger, ratio, by)

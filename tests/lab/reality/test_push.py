@@ -6,21 +6,20 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import InputError, solve_step
+from quasistatic_ref.lab.reality.measurements import Pair
 from quasistatic_ref.lab.reality.outline import Outline
-from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import finger_waypoints, prediction
-from quasistatic_ref.lab.reality.push import pushed_scene
+from quasistatic_ref.lab.reality.push import FINGER, pushed_scene
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
 from tests.tolerances import QUASI_STATIC
 
 RATIO = 0.03
-RADIUS = 0.005
 SQUARE = Outline(0.04 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
-PAIR = Pair("glass/square", SQUARE, 0.5, RADIUS, None)
+PAIR = Pair("glass/square", SQUARE, 0.5, 0.03)
 START = np.array([0.2, 0.1, 0.0])
 UP = np.array([0.0, 1.0])
-BELOW = START[:2] + np.array([0.015, -0.04 - RADIUS])
+BELOW = START[:2] + np.array([0.015, -0.04 - FINGER])
 """The finger touches the lower side, 15 mm off the middle."""
 PATH = np.array([BELOW, BELOW + 0.02 * UP])
 

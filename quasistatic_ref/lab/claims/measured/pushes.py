@@ -5,14 +5,11 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
-from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified_ratio
-from quasistatic_ref.lab.reality.loads import loads_read
-from quasistatic_ref.lab.reality.pairs import pairs_read
+from quasistatic_ref.lab.reality.measurements import loads_read, pairs_read, pushes_read
 from quasistatic_ref.lab.reality.predict import prediction
 from quasistatic_ref.lab.reality.push import pushed_scene
-from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.step.data import Array
 
@@ -39,19 +36,16 @@ def errors(cone: str) -> tuple[Array, Array, int]:
         Of place and angle [mm, deg].
     unproved : int
     """
-    folder = reality_folder()
-    pairs = pairs_read(folder)
-    loads = loads_read(folder, pairs)
-    pushes = pushes_read(folder, pairs)
+    pairs = pairs_read()
+    loads = loads_read(pairs)
+    pushes = pushes_read(pairs)
     ours = []
     other = []
     unproved = 0
     for pair in pairs:
-        identified = identified_ratio(loads[pair.name], pair.outline.gyration)
+        ratio = identified_ratio(loads[pair.name], pair.outline.gyration)
         some = pushes[pair.name].every(EVERY)
-        assert identified is not None
-        assert some.published is not None
-        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, identified.ratio)
+        scene = pushed_scene(Settings(cone=cone, advance=ADVANCE), pair, ratio)
         ways = zip(some.before, some.path, strict=True)
         ends = [prediction(scene, before, path) for before, path in ways]
         unproved += sum(n for e in ends for kind, n in e.kinds.items() if kind not in PROOFS)
