@@ -1,0 +1,174 @@
+"""The page's classic mistakes: the plain program with each of them is found, by field.
+
+The plain program itself passes: ``test_plain_program``.
+"""
+
+import re
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.program import derivative as derivatives
+from quasistatic_ref.lab.program import step as steps
+from quasistatic_ref.lab.program.layers import LAYERS, TO_SIX_DIGITS, plain
+from quasistatic_ref.lab.program.mechanism import slices
+from quasistatic_ref.lab.program.rotation import AXES, unit
+from quasistatic_ref.lab.vectors.challenge.fresh import CHALLENGED
+from quasistatic_ref.lab.vectors.challenge.run import challenge
+from quasistatic_ref.lab.vectors.check.case import verdict_to_digits
+from quasistatic_ref.lab.vectors.converters import places, tangent_map
+from tests.lab.vectors.committed_cases import ROOT, by_size, expected_of
+
+PAGE = ROOT / "docs" / "guides" / "check_your_implementation.md"
+ROW = re.compile(r"^\| (`.+?) \| (.+?) \| .+ \|$", re.MULTILINE)
+NAME = re.compile(r"`(\w+)`")
+H_STEP = 0.01
+"""The time step of a port that divides by it where no case says one [s]."""
+PROGRAM = LAYERS | TO_SIX_DIGITS
+
+
+def answer(layer, case, **changes):
+    return plain(PROGRAM[layer]({**case, **changes}))
+
+
+def scaled(output, field, factor):
+    """An answer whose numbers of one field, if it has it, are so many times as large."""
+    if field not in output:
+        return output
+    return {**output, field: (factor * np.array(output[field])).tolist()}
+
+
+def normals_reversed(case):
+    return scaled(answer("distance", case), "n", -1)
+
+
+def unsigned_phi(case):
+    output = answer("distance", case)
+    return scaled(output, "phi", np.sign(output["phi"]))
+
+
+def world_frame(case):
+    turned = tangent_map(case["mechanism"], case["q"], "world")
+    return {"J": [(np.array(J) @ turned).tolist() for J in answer("jacobian", case)["J"]]}
+
+
+def unactuated_first(case):
+    _, n_a, _ = slices(case["mechanism"])
+    return {"J": [np.roll(J, -n_a, axis=1).tolist() for J in answer("jacobian", case)["J"]]}
+
+
+def contact_term_reversed(case):
+    return scaled(answer("rows", case), "A", -1)
+
+
+def mu_omega_without_unit(case):
+    contacts = [{**c, "mu_omega": c["mu_omega"] * c["mu_v"]} for c in case["contacts"]]
+    return answer("rows", case, contacts=contacts)
+
+
+def force_for_impulse(case):
+    return scaled(answer("qp", case), "lam", 1 / H_STEP)
+
+
+def impulse_for_force(case):
+    return answer("wrench", case, h=1.0)
+
+
+def velocity(case):
+    return scaled(answer("qp", case), "delta_q", 1 / H_STEP)
+
+
+def straight_line(case):
+    turns = np.array(case["delta_q"])
+    for body, _, v in places(case["mechanism"]):
+        turns[v][: {"floating": 3, "planar": 2}.get(body["joint"], 0)] = 0.0
+    moved = answer("integrate", case, delta_q=case["delta_q"] - turns)["q"]
+    return answer("integrate", case, q=moved, delta_q=turns)
+
+
+def other_tangents(case):
+    def tangents(n):
+        i = int(np.argsort(np.abs(n))[1])
+        d1 = unit(AXES[i] - n[i] * n)
+        return d1, np.cross(n, d1)
+
+    with patch.object(steps, "tangents", tangents):
+        return answer("step", case)
+
+
+def weight_on_all(case):
+    weights = [
+        {
+            "body": body["name"],
+            "force": (body["mass"] * np.array(case["gravity"])).tolist(),
+            "torque": [0.0] * 3,
+        }
+        for body in case["mechanism"]["bodies"]
+        if "mass" in body
+    ]
+    loads = [*case.get("wrenches", []), *weights]
+    return answer("step", case, gravity=[0.0] * 3, wrenches=loads)
+
+
+def constant_n(case):
+    first = []
+
+    def contacts_of(case, at):
+        contacts = steps.contacts_of(case, at)
+        first[:] = first or [{key: c[key] for key in ("n", "d1", "d2")} for c in contacts]
+        return [{**c, **frame} for c, frame in zip(contacts, first, strict=True)]
+
+    with patch.object(derivatives, "contacts_of", contacts_of):
+        return answer("derivative", case)
+
+
+MISTAKES = {
+    "normals reversed, unsigned phi": [
+        ("distance", "n", normals_reversed),
+        ("distance", "phi", unsigned_phi),
+    ],
+    "body and world frames swapped": [("jacobian", "J", world_frame)],
+    "un-actuated coordinates first": [("jacobian", "J", unactuated_first)],
+    "sign of the contact term": [("rows", "A", contact_term_reversed)],
+    "mu_omega without a unit": [("rows", "A", mu_omega_without_unit)],
+    "lam taken for a force": [
+        ("qp", "lam", force_for_impulse),
+        ("wrench", "wrench", impulse_for_force),
+    ],
+    "a velocity in the place of delta_q": [("qp", "delta_q", velocity)],
+    "a straight line": [("integrate", "q", straight_line)],
+    "tangents by another rule": [("step", "contacts.d1", other_tangents)],
+    "gravity on actuated joints": [("step", "g", weight_on_all)],
+    "n kept constant": [("derivative", "dq_dq", constant_n)],
+}
+"""Each as its layer, the field that is wrong, and the plain program with it."""
+PROGRAMS = [one for each in MISTAKES.values() for one in each]
+
+
+def wrong_field(layer, case, output):
+    """The first field of an answer to a committed case that is not right to six digits."""
+    return verdict_to_digits(layer, case.input, expected_of(layer)[case.id], output, 6).field
+
+
+def test_they_are_those_of_the_page():
+    _, _, section = PAGE.read_text("utf-8").partition("## Classic mistakes")
+    table, _, _ = section.partition("\n## ")
+    layers_of = {mistake: set(NAME.findall(layers)) for layers, mistake in ROW.findall(table)}
+    assert layers_of == {name: {layer for layer, *_ in each} for name, each in MISTAKES.items()}
+
+
+@pytest.mark.parametrize(("layer", "field", "program"), PROGRAMS)
+def test_a_committed_case_finds_it_and_passes_without_it(layer, field, program):
+    found = next(
+        case for case in by_size(layer) if wrong_field(layer, case, program(case.input)) == field
+    )
+    assert not wrong_field(layer, found, answer(layer, found.input))
+
+
+@pytest.mark.parametrize(
+    ("layer", "field", "program"), [one for one in PROGRAMS if one[0] in CHALLENGED]
+)
+def test_a_challenge_finds_it(layer, field, program):
+    found = challenge(lambda _, case: program(case), layers=[layer], cases=150)
+    assert field in {finding.field for finding in found.findings}
