@@ -27,8 +27,9 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Declare the marker of tests that need an extra."""
+    """Declare the markers of tests that need an extra, and of those that only ``.ci/run`` takes."""
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
+    config.addinivalue_line("markers", "long: one of many of its kind; pytest -m long takes them")
 
 
 def pytest_collection_modifyitems(items):

@@ -1,6 +1,7 @@
 """Tests that need an extra say so where they stand: ``@pytest.mark.extra("robots")``.
 
-Where the extra is not installed they are skipped, and pytest's summary names it.
+Where the extra is not installed they are skipped, and pytest's summary names it. Tests of which
+there are many of one kind are marked as long: ``.ci/run`` takes them, README's line does not.
 """
 
 import re
@@ -47,6 +48,14 @@ def marked_parameters(names, needs):
     return [
         pytest.param(name, marks=pytest.mark.extra(needs[name])) if name in needs else name
         for name in names
+    ]
+
+
+def marked_as_long(scripts, short):
+    """Scripts as parameters of a test; README's line takes those that are named as short."""
+    return [
+        pytest.param(script, id=script.stem, marks=() if script.stem in short else pytest.mark.long)
+        for script in scripts
     ]
 
 

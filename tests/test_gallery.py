@@ -11,9 +11,13 @@ import matplotlib.pyplot as plt
 import pytest
 from matplotlib.testing.compare import compare_images
 
+from tests.extras import marked_as_long
+
 GALLERY = Path(__file__).parents[1] / "docs" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("*.py"))
 IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref"}
+SHORT = {"a_closed_loop", "gradient_of_a_step", "spun_sphere"}
+"""Scripts that README's line runs; the others are long."""
 DPI = 60
 TOLERANCE = 6
 """Root mean square over all pixels, of 255; an empty figure is off by some 30."""
@@ -30,7 +34,7 @@ def drawn(script, path):
     return path
 
 
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+@pytest.mark.parametrize("script", marked_as_long(SCRIPTS, SHORT))
 def test_a_script_runs_and_draws_what_is_committed(script, tmp_path):
     image = drawn(script, tmp_path / f"{script.stem}.png")
     assert compare_images(str(GALLERY / image.name), str(image), TOLERANCE) is None

@@ -14,10 +14,14 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 
+from tests.extras import marked_as_long
+
 FOLDER = Path(__file__).parents[1] / "docs" / "notebooks"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 LARGEST = 300_000  # bytes
 WITHOUT_ROBOTS = "one_contact"
+SHORT = {"quickstart"}
+"""The notebook that README's line runs."""
 
 
 def cells(script):
@@ -31,10 +35,12 @@ def cells(script):
             yield "code", source
 
 
-@pytest.mark.parametrize("name", [s.stem for s in SCRIPTS if s.stem != WITHOUT_ROBOTS])
-def test_a_script_runs(name, monkeypatch):
+@pytest.mark.parametrize(
+    "script", marked_as_long([s for s in SCRIPTS if s.stem != WITHOUT_ROBOTS], SHORT)
+)
+def test_a_script_runs(script, monkeypatch):
     monkeypatch.setattr(plt, "show", lambda: plt.close("all"))
-    runpy.run_path(str(FOLDER / f"{name}.py"))
+    runpy.run_path(str(script))
     plt.close("all")
 
 

@@ -21,7 +21,17 @@ NEAR_MISSES = {
 WEAK_GRIP = next(one for one in mistakes() if one["what"] == "no friction in the grip")
 
 
-@pytest.mark.parametrize("mistake", mistakes(), ids=lambda mistake: mistake["what"])
+def one_for_each_finding():
+    """All mistakes; those that are not the first of their findings are long."""
+    seen = set()
+    for mistake in mistakes():
+        findings = frozenset(mistake["finding"])
+        marks = pytest.mark.long if findings in seen else ()
+        yield pytest.param(mistake, id=mistake["what"], marks=marks)
+        seen.add(findings)
+
+
+@pytest.mark.parametrize("mistake", list(one_for_each_finding()))
 def test_a_mistake_is_named_in_the_first_finding(mistake, tmp_path):
     findings = findings_after(tmp_path, mistake["scene"], mistake["edits"])
     assert findings[0].name in mistake["finding"]
