@@ -1,4 +1,7 @@
-"""A whole step by the package itself: its System, pairs, simulator and solver, in float64."""
+"""A whole step by the package itself: its System, pairs, simulator and exact method.
+
+No backend guesses: the answer is the same, and CVXPY would compile each case.
+"""
 
 from typing import NamedTuple
 
@@ -67,6 +70,7 @@ def posed_case(case_input: Json) -> PosedCase:
         K_q=K_q,
         gravity=case_input["gravity"],
         cone=case_input["cone"],
+        backend="none",
     )
     q = mine.model_q(case_input["q"])
     n_q_a = len(case_input["q_bar_a"])

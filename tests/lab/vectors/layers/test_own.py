@@ -12,7 +12,7 @@ from tests.closeness import assert_within
 from tests.lab.vectors.committed_cases import cases, report_on
 
 
-@pytest.mark.parametrize("name", ["distance", *LAYERS[1:4], "wrench", "integrate"])
+@pytest.mark.parametrize("name", [name for name in LAYERS[:8] if name != "qp"])
 def test_the_package_meets_every_case(name):
     report = report_on(name, {case.id: layer(name).own(case.input) for case in cases(name)})
     assert report.ok, report.trouble
