@@ -15,7 +15,7 @@ import sys
 import textwrap
 from pathlib import Path
 
-from quasistatic_ref.lab.clouds import rows as clouds
+from quasistatic_ref.lab.figures.clouds import is_held, rows
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -75,14 +75,15 @@ def of_ratios():
 
 def of_clouds():
     """Clouds without holes, of 992 points, in the scene as it is."""
-    whole = [row for row in clouds.rows_with(count=992, change="none") if row["sampling"] != "scan"]
-    turns = clouds.rotations([row for row in whole if not clouds.with_torsion(row)])
-    held = [clouds.is_held(row) for row in whole if clouds.with_torsion(row)]
+    scene = {"count": 992, "change": "none"}
+    whole = [row for row in rows() if scene.items() <= row.items() and row["sampling"] != "scan"]
+    turns = [row["rotation"] for row in whole if row["mu_omega"] == 0]
+    held = [is_held(row) for row in whole if row["mu_omega"] > 0]
     return {
         "clouds": f"{len(turns)}",
         "clouds-held": f"{sum(held)}",
-        "cloud-least-deg": f"{turns.min():.1f}",
-        "cloud-largest-deg": f"{turns.max():.1f}",
+        "cloud-least-deg": f"{min(turns):.1f}",
+        "cloud-largest-deg": f"{max(turns):.1f}",
     }
 
 

@@ -46,4 +46,4 @@ def peer_file() -> Path:
 
 def clouds_file() -> Path:
     """The rows of the study of clouds that come with the package."""
-    return data_folder("validation/results", "lab/clouds/data") / "clouds.jsonl"
+    return data_folder("validation/results", "lab/figures/data") / "clouds.jsonl"

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.lab.clouds.rows import rotations_by_case
+from quasistatic_ref.lab.figures.clouds import rotations_by_case
 from quasistatic_ref.lab.grasp import (
     CLOSED,
     INSTANTS,
