@@ -82,6 +82,7 @@ def test_no_name_is_that_of_a_module_which_python_would_put_in_its_place():
     assert not modules & set(NAMES)
 
 
+@pytest.mark.long
 def test_every_name_is_reliable_in_every_order_of_imports():
     done = run("-W", "error", "-c", BEFORE_OR_AFTER)
     assert (done.returncode, done.stdout.strip()) == (0, "good"), done.stderr

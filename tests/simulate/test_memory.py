@@ -6,6 +6,7 @@ import sys
 import tracemalloc
 
 import numpy as np
+import pytest
 
 from quasistatic_ref import Recorder, load_scenario
 from quasistatic_ref.simulate.recorder import PACKED
@@ -36,6 +37,7 @@ APIECE = 80
 """Bytes a step beyond its numbers: of names and heads of arrays, once in PACKED steps."""
 
 
+@pytest.mark.long
 def test_certified_steps_leave_nothing_behind():
     command = [sys.executable, "-c", GROWTH]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -43,6 +45,7 @@ def test_certified_steps_leave_nothing_behind():
     assert (after - before) / (1000 - 600) < LEFT
 
 
+@pytest.mark.long
 def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     scenario = load_scenario("sphere_spin", record="full", fast=True)
     simulator = scenario.simulator()
