@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 
 from quasistatic_ref.lab.cached_runs import scenario_run
-from quasistatic_ref.lab.figures.validation import PICTURES
+from quasistatic_ref.lab.figures.labels import caption, label_axes
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.spun_sphere import (
     LIMIT,
@@ -24,7 +24,7 @@ from quasistatic_ref.lab.scenes.spun_sphere import (
     layer_at_torque,
 )
 from quasistatic_ref.lab.thresholds import slope
-from quasistatic_ref.optional.show.figures import Figure
+from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
@@ -96,6 +96,18 @@ def figure(
         Of the fixed torque over mu_omega m g [-].
     """
     run, torque = run_and_torques(mu_omega, h)
-    picture = {"torque": torque, "lift": run["q"][1:, 2] - RADIUS, "h": h, "sizes": np.array(sizes),
-               "limit": mu_omega * M * GRAVITY}  # fmt: skip
-    return PICTURES["boundary_layer"](picture | layers(tuple(sizes), share))
+    page, (left, right) = panels(6.3, 2.8, columns=2)
+    left.plot(1e3 * torque, 1e3 * (run["q"][1:, 2] - RADIUS))
+    limit = 1e3 * mu_omega * M * GRAVITY
+    left.axvline(limit, color="black", linewidth=1, linestyle=":")
+    left.annotate(
+        r"$\mu_\omega\,m\,g$", (limit, 0.6), xycoords=("data", "axes fraction"),
+        xytext=(-4, 0), textcoords="offset points", ha="right",
+    )  # fmt: skip
+    label_axes(left, "applied torque [mN m]", "lift-off [mm]", caption(h))
+    found = layers(tuple(sizes), share)
+    times = 1e3 * np.array(sizes)
+    right.loglog(times, 1e6 * found["at_rate"], marker="o", label="fixed rate: slope 1")
+    right.loglog(times, 1e6 * found["at_torque"], marker="s", label="fixed torque: slope 2")
+    label_axes(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
+    return page

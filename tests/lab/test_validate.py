@@ -93,15 +93,15 @@ def test_closed_forms_and_derivations_cite_each_other():
 
 
 def test_the_command_prints_a_table_and_writes_the_page(tmp_path, cli):
-    printed = cli("validate", "approach", "flat_patch", "--out", tmp_path)
+    printed = cli("validate", "approach", "grasp", "--out", tmp_path)
     assert re.search(r"^approach +holds +162 ", printed.out, re.MULTILINE)
     assert "2 holds" in printed.out
-    assert "[2/2] flat_patch ... holds" in printed.err
+    assert "[2/2] grasp ... holds" in printed.err
     page = (tmp_path / "claims.md").read_text()
     assert "2 of 2 claims hold" in page
-    assert "(figures/flat_patch.png)" in page
+    assert "(figures/grasp.png)" in page
     assert "approach.png" not in page
-    assert (tmp_path / "figures" / "flat_patch.png").stat().st_size > 0
+    assert (tmp_path / "figures" / "grasp.png").stat().st_size > 0
 
 
 def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, cli, monkeypatch):

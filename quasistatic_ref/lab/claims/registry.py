@@ -34,8 +34,6 @@ MODULES = {
     ),
     "Independent engines": (
         "engines.mujoco_rows",
-        "engines.mujoco_friction",
-        "engines.by_hand",
         "engines.drake",
         "engines.peer",
     ),

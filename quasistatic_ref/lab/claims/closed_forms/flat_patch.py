@@ -61,7 +61,6 @@ def evidence() -> Evidence:
     forms = []
     scales = []
     inner = []
-    shares = []
     for share in (1.01, 1.5, 4.0):
         answer = exact(loaded_patch(share * limit))
         mass = INERTIA + M * (MU * RADIUS) ** 2
@@ -69,16 +68,13 @@ def evidence() -> Evidence:
         forms.append(H**2 * (share - 1) * limit / mass)
         scales.append(H**2 * share * limit / mass)
         load = answer.wrench[:, 2].reshape(RINGS, POINTS).sum(1)
-        shares.append(load / load.sum())
         inner.append(load[:-1].sum() / load.sum())
-    picture = {"r": RADIUS * np.sqrt((np.arange(RINGS) + 1) / RINGS), "shares": shares[1], "h": H}
     words = "its torque over that of a uniform load [-]"
     return Evidence.of(
         comparison("torque that turns it, over mu m g a [-]", held, 1.0, CLOSED_FORM),
         comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
         comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
         comparison(words, held * limit / uniform, RADIUS / r.mean(), CLOSED_FORM),
-        **picture,
     )
 
 

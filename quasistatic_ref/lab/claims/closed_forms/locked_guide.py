@@ -66,24 +66,12 @@ def evidence() -> Evidence:
         torque = share * INERTIA * max(c, 1e-5) / (MU_OMEGA * H**2)
         turns.append(guide_turn(torque, c))
         limits.append(min(H**2 * torque / INERTIA, c / MU_OMEGA))
-    drawn = np.linspace(0.0, 3.0, 13)
-    unit = M * 1e-3 / (MU_V * H**2)
-    along = [guide_step(force, 0.0, 1e-3) for force in drawn * unit]
-    around = [guide_step(1e6, angle, 1e-3) for angle in np.linspace(0, 2 * np.pi, 25)]
-    picture = {
-        "h": H,
-        "forces": drawn,
-        "slips": np.array([x.delta_q[0] for x in along]) * MU_V / 1e-3,
-        "friction": MU_V * np.array([x.wrench[:, 2].sum() for x in along]) / unit,
-        "reached": np.array([x.delta_q[[0, 2]] for x in around]) * MU_V / 1e-3,
-    }
     scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
     return Evidence.of(
         comparison("slip along d1 and d2 [m]", slips, expected, CLOSED_FORM, scale),
         comparison("mu_v times the load of the walls, over the force [-]", pressed, balance,
                    CLOSED_FORM, 1.0),
         comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),
-        **picture,
     )  # fmt: skip
 
 

@@ -81,9 +81,7 @@ def evidence() -> Evidence:
             comparison(f"{name}: mu_omega [m]", measured, sums, 2 * PRECISION, sums),
             comparison(f"{name}: mu_omega / (mu a), 32 rings [-]", ratio[-1:], limit, CONTINUUM),
         ]
-    picture = {"rings": RINGS, "found": {k: v[0] / unit for k, v in both.items()},
-               "limits": {k: v[1] for k, v in PRESSURES.items()}}  # fmt: skip
-    return Evidence.of(*comparisons, **picture)
+    return Evidence.of(*comparisons)
 
 
 CLAIM = Claim(

@@ -51,12 +51,10 @@ def evidence() -> Evidence:
         descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
     size = np.abs(formula).max(1, keepdims=True)
-    picture = {"mu": mus, "width": widths, "found": measured, "h": H}
     return Evidence.of(
         comparison("depth below which it wedges [m]", measured, expected, CLOSED_FORM, expected),
         comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),
         comparison("motion of one that slides in [m, rad]", solved, formula, CLOSED_FORM, size),
-        **picture,
     )
 
 

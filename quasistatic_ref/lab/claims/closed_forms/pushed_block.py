@@ -59,7 +59,6 @@ def evidence() -> Evidence:
     friction = mu * M * GRAVITY
     drag = M * v / h
     force = STIFFNESS * measured[:, 0]
-    picture = {"v": v, "mu": mu, "h": h, "force": force, "m": M}
     gap = measured[:, 1:3]
     ride = np.repeat((mu * v * h)[:, None], 2, axis=1)
     load = measured[:, 3]
@@ -68,7 +67,6 @@ def evidence() -> Evidence:
         sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
         comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),
         comparison("load of the base [N]", load, weight, 10 * CLOSED_FORM, weight),
-        **picture,
     )
 
 

@@ -43,14 +43,12 @@ def pushed_point(share: float, angle: float, mu: float) -> StepData:
 def threshold_evidence() -> Evidence:
     """The least force that moves the point, by direction."""
     angles = np.radians(np.linspace(0.0, 90.0, 13))
-    mus = (0.2, 1.0)
-    sweep = grid(angles, mus)
+    sweep = grid(angles, (0.2, 1.0))
     at = sweep[:, 0]
     expected = 1 / (np.cos(at) + np.sin(at))
     measured = thresholds(pushed_point, sweep, expected)
-    picture = {"angles": angles, "found": measured.reshape(-1, len(mus)).T, "mus": mus, "h": H}
     what = "least force that moves it, over mu_v m g [-]"
-    return Evidence.of(comparison(what, measured, expected, CLOSED_FORM), **picture)
+    return Evidence.of(comparison(what, measured, expected, CLOSED_FORM))
 
 
 def slip_evidence() -> Evidence:

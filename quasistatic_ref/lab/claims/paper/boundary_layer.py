@@ -8,7 +8,6 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.scenes.spun_sphere import LIMIT, RADIUS, layer_at_rate, layer_at_torque
 from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.step.data import Array
 
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
@@ -35,10 +34,6 @@ def evidence() -> Evidence:
     spin = run["delta_q"][:, 5] / scenario.h
     at_torque = np.array([layer_at_torque(h, 2 * LIMIT) for h in STEP_SIZES])
     at_rate = np.array([layer_at_rate(h) for h in STEP_SIZES])
-    picture: dict[str, Array | float] = {
-        "torque": torque, "spin": spin, "lift": lift, "limit": LIMIT,
-        "h": float(scenario.h), "sizes": STEP_SIZES, "at_torque": at_torque, "at_rate": at_rate,
-    }  # fmt: skip
     return Evidence.of(
         comparison("motion up to mu_omega m g [m, rad]", run["delta_q"][stuck], 0.0, 0.0),
         within("least spin beyond it [rad/s]", spin[turning].min(), 1e-3, np.inf),
@@ -47,7 +42,6 @@ def evidence() -> Evidence:
         comparison(
             "exponent of h at a fixed torque [-]", slope(STEP_SIZES, at_torque), 2.0, FITTED
         ),
-        **picture,
     )
 
 

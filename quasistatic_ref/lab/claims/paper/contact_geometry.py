@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.scenes.free_pair import geometry, outline, pair_system
+from quasistatic_ref.lab.scenes.free_pair import geometry, pair_system
 from quasistatic_ref.lab.scenes.systems import cloud_on, on_link
 from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
@@ -66,7 +66,6 @@ def evidence() -> Evidence:
         comparison("|beta - alpha| - |phi| [m]", excess, 0.0, IDENTITY_TOLERANCE),
         comparison("{d1, d2, n}, defect of a dextral triad [-]", frame, 0.0, IDENTITY_TOLERANCE),
         comparison("d phi / d q against n'J [-]", measured, expected, DIFFERENCE_TOLERANCE),
-        outline=outline(),
     )
 
 
