@@ -77,10 +77,10 @@ autodoc_typehints = "none"
 autodoc_default_options = {"members": True, "show-inheritance": True}
 # Engines that are optional and differ in what they run on; only `validate` talks to them. And a
 # solver under the GPL, of which a page shows no more than its adapter's name.
-autodoc_mock_imports = ["mujoco", "pydrake", *([] if find_spec("quadprog") else ["quadprog"])]
+autodoc_mock_imports = ["mujoco", *([] if find_spec("quadprog") else ["quadprog"])]
 # There is no network at build time, hence no inventory to look third-party names up in.
 nitpick_ignore_regex = [
-    (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),
+    (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco)\..*"),
     # Bases of classes in the standard library, for the same reason.
     (r"py:.*", r"(abc|argparse|collections|concurrent|contextlib|enum|fractions|json)\..*"),
     (r"py:.*", r"(pathlib|subprocess|types|typing)\..*"),

@@ -42,8 +42,6 @@ _HOMES = {
     "step.extension": "Extension",
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
-    "optional.guests.drake": "drake_step",
-    "optional.guests.drake_opinion": "drake_opinion",
     "optional.guests.mujoco": "mujoco_step",
     "optional.guests.mujoco_opinion": "second_opinion",
     "optional.guests.scene": "mujoco_scenario",

@@ -219,11 +219,6 @@ a spring's usual lag."""
 STALLED: Final = 0.25
 """The same distance over the shape that presses [-], of what is to push and not to press."""
 
-LIES_FLAT: Final = 1e-3
-"""Gap of a corner over the size of the smaller of two shapes, up to which it counts as closed where
-they are closed elsewhere [-]. Drake has one contact of two shapes, on which a box that stands rocks
-by some 1e-4 of its size."""
-
 CREEP: Final = 1e-4
 """Speed up to which a contact of another simulator holds [m/s]: 6 mm in a minute. Friction that is
 regularised yields to any force, so that some speed has to count as none."""

@@ -18,7 +18,6 @@ NAMES = [name for name in qr.__all__ if name != "__version__"]
 JAX = "smoothed_jax", "step_jax"
 """What takes steps in JAX, their examples too."""
 VIEW = {"view_written": "view"}
-DRAKE = dict.fromkeys(["drake_opinion", "drake_step"], "drake")
 ASKED = (
     "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
     "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "
@@ -59,7 +58,7 @@ def test_the_names_are_those_that_dir_shows():
     assert len(set(NAMES)) == len(NAMES)
 
 
-@pytest.mark.parametrize("name", marked_parameters(NAMES, dict.fromkeys(JAX, "jax") | DRAKE | VIEW))
+@pytest.mark.parametrize("name", marked_parameters(NAMES, dict.fromkeys(JAX, "jax") | VIEW))
 def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = getattr(qr, name).__doc__

@@ -34,7 +34,6 @@ MODULES = {
     ),
     "Independent engines": (
         "engines.mujoco_rows",
-        "engines.drake",
         "engines.peer",
     ),
     "Measurements": ("measured.pushes",),

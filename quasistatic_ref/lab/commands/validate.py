@@ -16,7 +16,6 @@ from quasistatic_ref.lab.commands import reality
 IN = {
     "daqp": "daqp",
     "mujoco": "'quasistatic-ref[engines]'",
-    "drake": "'quasistatic-ref[drake]'",
 }
 """What an engine of a claim comes in."""
 HELP = "all claims by default; 'reality' by itself: measured pushes, predicted"

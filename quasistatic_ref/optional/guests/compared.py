@@ -1,9 +1,9 @@
-"""Contacts and bodies of a state: what an engine says of them next to the exact answer."""
+"""Contacts and bodies of a state: what MuJoCo says of them next to the exact answer."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -17,7 +17,7 @@ from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.tolerances import CREEP, FORCES_AGREE, STEADY
 
 WINDOW = 0.1
-"""Time over which an engine's motion is measured [s]: many of its time steps, and few of a fall."""
+"""Time over which MuJoCo's motion is measured [s]: many of its time steps, and few of a fall."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Contact:
     Parameters
     ----------
     name : str
-        As of the step; of MuJoCo its number and the geoms.
+        MuJoCo's number and the geoms, as of the step.
     bodies : tuple of str
         The two; ``"world"`` for what cannot move.
     depth : float
@@ -63,7 +63,7 @@ class Contact:
     pair : str
         What touches, as of all contacts of the two.
     theirs : Bearing
-        The engine's.
+        MuJoCo's.
     exact : Bearing or None
         None where joints or equalities bear any force.
     """
@@ -107,9 +107,9 @@ class Body:
     size : float
         Its farthest point from its centre of mass [m].
     rests : bool
-        Whether it is slower than CREEP in the state itself, in the engine.
+        Whether it is slower than CREEP in the state itself, in MuJoCo.
     steady : bool
-        Whether the engine's motion of it stays as it is: its mean over a WINDOW, or its velocity,
+        Whether MuJoCo's motion of it stays as it is: its mean over a WINDOW, or its velocity,
         since contacts come and go.
     free : bool
         Whether nothing but its contacts holds it.
@@ -121,7 +121,7 @@ class Body:
     torque : float
         Moment that is not balanced, about the axis about which it turns [N m].
     balanced : bool
-        Whether all forces of the engine's add up to none on it.
+        Whether all of MuJoCo's forces add up to none on it.
     theirs, exact : Motion
         In the exact answer, of one step from rest.
     """
@@ -141,34 +141,6 @@ class Body:
     def fastest(self, motion: Motion) -> float:
         """A bound on the speed of its points in one of its motions [m/s]."""
         return motion.speed + self.size * motion.turn
-
-
-class Touch(NamedTuple):
-    """A contact of an engine's: one point, or all points of two geometries.
-
-    Parameters
-    ----------
-    name : str
-    nearest : StateContact
-        That, or the nearest of these points.
-    of_step : tuple of str
-        The step's contacts that it stands for, by their names.
-    slides : tuple of StateContact
-        Where the surfaces may slide on each other.
-    wrench : ndarray, shape (4,)
-        The engine's (f_d1, f_d2, f_n, tau_n), in the frame of the first of these [N, N m].
-    """
-
-    name: str
-    nearest: StateContact
-    of_step: tuple[str, ...]
-    slides: tuple[StateContact, ...]
-    wrench: Array
-
-    @property
-    def bodies(self) -> tuple[str, str]:
-        """Alpha's and beta's; ``"world"`` for what cannot move."""
-        return self.nearest.bodies
 
 
 class Mover(NamedTuple):
@@ -201,12 +173,14 @@ class Mover(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class EngineState:
-    """What an engine says of a state.
+class MujocoAnswer:
+    """What MuJoCo says of a state.
 
     Parameters
     ----------
-    touches : tuple of Touch
+    contacts : tuple of StateContact, length n_c
+    wrenches : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) of each, in its frame [N, N m].
     movers : tuple of Mover
     M : ndarray, shape (nv, nv)
         Mass matrix [kg, kg m, kg m^2].
@@ -218,7 +192,8 @@ class EngineState:
         Its velocity over a WINDOW, and over the one after it [m/s, rad/s].
     """
 
-    touches: tuple[Touch, ...]
+    contacts: tuple[StateContact, ...]
+    wrenches: Array
     movers: tuple[Mover, ...]
     M: Array
     gravity: Array
@@ -234,7 +209,7 @@ class Compared:
 
     Parameters
     ----------
-    state : EngineState
+    theirs : MujocoAnswer
     answer : StepSolution
         The exact answer whose forces count.
     acceleration : ndarray, shape (nv,)
@@ -243,7 +218,7 @@ class Compared:
         The velocity of the exact step [m/s, rad/s].
     """
 
-    state: EngineState
+    theirs: MujocoAnswer
     answer: StepSolution
     acceleration: Array
     exact: Array
@@ -258,114 +233,106 @@ class Compared:
 
     @cached_property
     def present(self) -> Array:
-        """The engine's velocity, (nv,): of the state where that is steady, else the mean."""
-        state = self.state
-        names = {name for touch in state.touches for name in touch.bodies}
-        movers = [mover for mover in state.movers if mover.name in names]
+        """MuJoCo's velocity, (nv,): of the state where that is steady, else the mean."""
+        theirs = self.theirs
+        names = {name for contact in theirs.contacts for name in contact.bodies}
+        movers = [mover for mover in theirs.movers if mover.name in names]
         steady = all(
-            WINDOW * mover.fastest(state.acceleration)
-            <= max(CREEP, STEADY * mover.fastest(state.v))
+            WINDOW * mover.fastest(theirs.acceleration)
+            <= max(CREEP, STEADY * mover.fastest(theirs.v))
             for mover in movers
         )
-        return state.v if steady else state.mean
+        return theirs.v if steady else theirs.mean
 
     def contacts(self) -> Iterator[Contact]:
-        """All contacts that the engine has."""
+        """All contacts that MuJoCo has."""
         number = {name: j for j, name in enumerate(self.answer.step.contacts.name)}
-        for touch in self.state.touches:
-            mine = [number[name] for name in touch.of_step if name in number]
-            nearest = touch.nearest
+        for contact, wrench in zip(self.theirs.contacts, self.theirs.wrenches, strict=True):
+            j = number.get(contact.name)
             yield Contact(
-                touch.name, touch.bodies, max(0.0, -nearest.phi), nearest.mu_v, nearest.mu_omega,
-                nearest.pair,
-                theirs=self._bearing(touch, touch.wrench[None], self.present),
-                exact=self._together(touch, mine) if mine else None,
+                contact.name, contact.bodies, max(0.0, -contact.phi), contact.mu_v,
+                contact.mu_omega, contact.pair,
+                theirs=self._bearing(contact, wrench, self.present),
+                exact=None if j is None else self._bearing(contact, self.forces[j], self.exact),
             )  # fmt: skip
 
     def bodies(self) -> Iterator[Body]:
         """All bodies that touch and can move."""
-        of_step = {name: touch.bodies for touch in self.state.touches for name in touch.of_step}
-        moved = {name for touch in self.state.touches for name in touch.bodies}
+        touching = {contact.name: contact.bodies for contact in self.theirs.contacts}
+        names = {name for bodies in touching.values() for name in bodies}
         contacts = self.answer.step.contacts
         rubs = np.einsum("jt,tjc->jc", self.forces[:, :2], np.array([contacts.d1, contacts.d2]))
-        for mover in self.state.movers:
-            if mover.name not in moved:
+        for mover in self.theirs.movers:
+            if mover.name not in names:
                 continue
             friction = np.zeros(3)
             bears = 0.0
             for j, name in enumerate(contacts.name):
-                if name in of_step and mover.name in of_step[name]:
-                    friction += rubs[j] if of_step[name][1] == mover.name else -rubs[j]
+                alpha, beta = touching[name]
+                if mover.name in (alpha, beta):
+                    friction += rubs[j] if mover.name == beta else -rubs[j]
                     bears += float(contacts.mu_v[j] * self.forces[j, 2])
             yield self._body(mover, friction, bears)
 
     def _body(self, mover: Mover, friction: Array, bears: float) -> Body:
-        state, linear, angular = self.state, mover.linear, mover.angular
+        theirs = self.theirs
+        linear = mover.linear
+        angular = mover.angular
         # A free body's: mass times acceleration is the sum of loads, normal forces and friction.
         needed = mover.mass * linear @ self.acceleration - friction if mover.free else friction
         a = np.where((linear != 0).any(axis=0) | (angular != 0).any(axis=0), self.acceleration, 0)
         turn = float(np.linalg.norm(angular @ self.acceleration))
-
-        fastest = mover.fastest(state.mean)
-        changes = [state.later - state.mean, WINDOW * state.acceleration]
+        fastest = mover.fastest(theirs.mean)
+        changes = [theirs.later - theirs.mean, WINDOW * theirs.acceleration]
         return Body(
             name=mover.name,
             size=mover.size,
-            rests=mover.fastest(state.v) <= CREEP,
+            rests=mover.fastest(theirs.v) <= CREEP,
             steady=min(map(mover.fastest, changes)) <= max(CREEP, STEADY * fastest),
             free=mover.free,
             needed=float(np.linalg.norm(needed)),
             bears=bears,
             # Of a rotation about a line, a'Ma is the moment of inertia times the rate squared.
-            torque=float(a @ state.M @ a / turn) if mover.free and turn else 0.0,
+            torque=float(a @ theirs.M @ a / turn) if mover.free and turn else 0.0,
             balanced=self._balanced(mover),
-            theirs=self._motion(linear @ state.mean, angular @ state.mean),
+            theirs=self._motion(linear @ theirs.mean, angular @ theirs.mean),
             exact=self._motion(linear @ self.exact, angular @ self.exact),
         )
 
     def _balanced(self, mover: Mover) -> bool:
         """Whether what accelerates a body is no more than FORCES_AGREE of the forces on it."""
-        state = self.state
-        forces = [t.wrench[2] for t in state.touches if mover.name in t.bodies]
-        weight = mover.mass * float(np.linalg.norm(state.gravity))
-        left = mover.mass * float(np.linalg.norm(mover.linear @ state.acceleration))
+        theirs = self.theirs
+        touching = [mover.name in contact.bodies for contact in theirs.contacts]
+        forces = theirs.wrenches[touching, 2]
+        weight = mover.mass * float(np.linalg.norm(theirs.gravity))
+        left = mover.mass * float(np.linalg.norm(mover.linear @ theirs.acceleration))
         return left <= FORCES_AGREE * max(weight, float(np.abs(forces).sum()))
 
     def _motion(self, v: Array, omega: Array) -> Motion:
-        down = self.state.gravity / (np.linalg.norm(self.state.gravity) or 1.0)
+        down = self.theirs.gravity / (np.linalg.norm(self.theirs.gravity) or 1.0)
         return Motion(float(np.linalg.norm(v)), float(np.linalg.norm(omega)), float(v @ down))
 
-    def _together(self, touch: Touch, mine: list[int]) -> Bearing:
-        """What the step's contacts of these numbers bear together: friction is their resultant."""
-        contacts = self.answer.step.contacts
-        both = np.array([contacts.d1[mine], contacts.d2[mine]])
-        rubs = np.einsum("jt,tjc->c", self.forces[mine][:, :2], both)
-        each = self._bearing(touch, self.forces[mine], self.exact)
-        return replace(each, friction=float(np.linalg.norm(rubs)))
-
-    def _bearing(self, touch: Touch, wrenches: Array, v: Array) -> Bearing:
-        """What contacts bear and how fast they move.
+    def _bearing(self, contact: StateContact, wrench: Array, v: Array) -> Bearing:
+        """What a contact bears and how fast it moves.
 
         Parameters
         ----------
-        touch : Touch
-        wrenches : ndarray, shape (k, 4)
-            (f_d1, f_d2, f_n, tau_n) of each [N, N m].
+        contact : StateContact
+        wrench : ndarray, shape (4,)
+            (f_d1, f_d2, f_n, tau_n) [N, N m].
         v : ndarray, shape (nv,)
             [m/s, rad/s].
         """
-        f_n = wrenches[:, 2]
-        nearest = touch.nearest
-        mus = np.array([nearest.mu_v, nearest.mu_v, nearest.mu_omega])
-        of_limits = np.abs(wrenches[:, [0, 1, 3]]) / np.where(mus > 0, mus, np.inf)
+        f_d1, f_d2, f_n, tau_n = wrench.tolist()
+        mus = np.array([contact.mu_v, contact.mu_v, contact.mu_omega])
+        of_limits = np.abs([f_d1, f_d2, tau_n]) / np.where(mus > 0, mus, np.inf)
         pyramid = self.answer.cone == PYRAMID
-        used = of_limits.sum(axis=1) if pyramid else np.linalg.norm(of_limits, axis=1)
-        normal = float(f_n.sum())
+        used = of_limits.sum() if pyramid else np.linalg.norm(of_limits)
         return Bearing(
-            normal=normal,
-            friction=float(np.hypot(*wrenches[:, :2].sum(axis=0))),
-            torque=float(abs(wrenches[:, 3].sum())),
-            share=float(used.sum() / normal) if normal > 0 else 0.0,
-            slip=max(contact.slip(v) for contact in touch.slides),
-            spin=max(contact.spin(v) for contact in touch.slides),
+            normal=f_n,
+            friction=float(np.hypot(f_d1, f_d2)),
+            torque=abs(tau_n),
+            share=float(used / f_n) if f_n > 0 else 0.0,
+            slip=contact.slip(v),
+            spin=contact.spin(v),
         )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,36 +16,18 @@ from quasistatic_ref.optional.guests.compared import Bearing, Body, Contact
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.tolerances import DEEP, FAST, FORCES_AGREE, INSIDE_CONE, PIERCES, PRESSES
 
+if TYPE_CHECKING:
+    from mujoco import MjModel
 
-class Words(NamedTuple):
-    """What sentences call an engine and its options.
 
-    Parameters
-    ----------
-    engine : str
-    yields : str
-        Why its friction creeps.
-    slower : str
-        The options with which it yields less.
-    stronger, spins : str
-        The options of friction, and of torsional friction.
-    rests : str
-        What lets a body rest, which a step has not.
-    stiffer : str
-        What keeps loads from pressing bodies into each other.
-    apart : str
-        What keeps bodies from overlapping.
-    """
-
-    engine: str
-    yields: str
-    slower: str
-    stronger: str
-    spins: str
-    rests: str
-    stiffer: str
-    apart: str
-
+STRONGER = "raise friction of the geoms, or what presses the bodies together"
+SPINS = "set condim 4 of the geoms, and the second number of their friction"
+RESTS = "do without what MuJoCo has and a step has not: rolling friction"
+STIFFER = "change solref and solimp of the geoms, or take masses that differ less"
+APART = "change size or pos, or add contact/exclude for bodies that may overlap"
+YIELDS = "MuJoCo documents that its friction yields to any force"
+EDGES = "; in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
+"""It keeps the sum of each pair of opposite edges."""
 
 Named = tuple[str, Finding]
 """The body that a finding is about, and the finding."""
@@ -56,7 +38,7 @@ def findings(
     bodies: Sequence[Body],
     weight: float,
     tolerance: float,
-    words: Words,
+    model: MjModel,
 ) -> Iterator[Named]:
     """All findings.
 
@@ -68,21 +50,22 @@ def findings(
         Of the whole model [N].
     tolerance : float
         Speed up to which a contact holds [m/s].
-    words : Words
+    model : mujoco.MjModel
+        Its options decide how friction yields.
     """
     every = _meetings(contacts, bodies)
     movers = {meeting.contacts[0].bodies: meeting.mover for meeting in every}
     for body in bodies:
         touching = [c for c in contacts if movers[c.bodies] is body]
-        yield from _motion(body, touching, tolerance, words)
+        yield from _motion(body, touching, tolerance, model)
     for meeting in every:
         least = min(body.size for body in meeting.bodies)
         if meeting.depth > PIERCES * least:
-            yield _inside(meeting, least, words)
+            yield _inside(meeting, least)
         elif all(body.rests or body.steady for body in meeting.bodies) and (
             meeting.depth > DEEP or not _borne(contacts, meeting.bodies)
         ):
-            yield from _penetration(meeting, weight, words)
+            yield from _penetration(meeting, weight)
 
 
 class _Meeting(NamedTuple):
@@ -103,7 +86,7 @@ class _Meeting(NamedTuple):
 
     @property
     def theirs(self) -> float:
-        """The engine's normal force [N]."""
+        """MuJoCo's normal force [N]."""
         return sum(c.theirs.normal for c in self.contacts)
 
     @property
@@ -124,17 +107,15 @@ def _meetings(contacts: Sequence[Contact], bodies: Sequence[Body]) -> list[_Meet
 
 
 def _borne(contacts: Sequence[Contact], bodies: Sequence[Body]) -> bool:
-    """Whether the engine's forces balance the loads of some bodies inside their cones."""
+    """Whether MuJoCo's forces balance the loads of some bodies inside their cones."""
     names = {body.name for body in bodies}
     shares = [c.theirs.share for c in contacts if names & {*c.bodies} and c.theirs.normal > 0]
     inside = max(shares, default=0.0) <= 1 + FORCES_AGREE
     return inside and all(body.balanced for body in bodies)
 
 
-def not_unique(
-    contacts: Sequence[Contact], bodies: Sequence[Body], weight: float, words: Words
-) -> Iterator[str]:
-    """Which normal forces of an engine are others than the exact ones, and balance the loads.
+def not_unique(contacts: Sequence[Contact], bodies: Sequence[Body], weight: float) -> Iterator[str]:
+    """Which normal forces of MuJoCo's are others than the exact ones, and balance the loads.
 
     `weight` is that of the whole model [N].
     """
@@ -143,12 +124,12 @@ def not_unique(
         rest = all(body.rests for body in meeting.bodies)
         bound = FORCES_AGREE * max(meeting.theirs, weight)
         if rest and more > bound and _borne(contacts, meeting.bodies):
-            alike = f"{words.engine}'s balance the loads inside the cones, as the exact ones do"
+            alike = "MuJoCo's balance the loads inside the cones, as the exact ones do"
             yield f"{_pairs(meeting.contacts)}: forces are not unique; {alike}"
 
 
 def _motion(
-    body: Body, touching: Sequence[Contact], tolerance: float, words: Words
+    body: Body, touching: Sequence[Contact], tolerance: float, model: MjModel
 ) -> Iterator[Named]:
     """What contacts let a body do."""
     moved = [c for c in touching if c.exact and _motion_of(c.exact, body) > tolerance]
@@ -157,13 +138,13 @@ def _motion(
     creeps = [c for c in touching if c.pair in yielding and _share(touching, c.pair) < INSIDE_CONE]
     rests = body.fastest(body.theirs) <= tolerance
     if slides:
-        yield _slides(body, slides, words)
+        yield _slides(body, slides)
     elif moved:
-        yield _turns(body, moved, words)
+        yield _turns(body, moved)
     elif creeps and body.steady and body.fastest(body.theirs) <= FAST:
-        yield _creeps(body, creeps, words)
+        yield _creeps(body, creeps, model)
     elif touching and rests and body.fastest(body.exact) > tolerance:
-        yield _moves(body, touching, words)
+        yield _moves(body, touching)
 
 
 def _motion_of(side: Bearing, body: Body) -> float:
@@ -172,20 +153,20 @@ def _motion_of(side: Bearing, body: Body) -> float:
 
 
 def _share(touching: Sequence[Contact], pair: str) -> float:
-    """Of what the contacts of a pair could bear together, the share that the engine's do [-]."""
+    """Of what the contacts of a pair could bear together, the share that MuJoCo's do [-]."""
     sides = [c.theirs for c in touching if c.pair == pair and c.theirs.normal > 0]
     normal = sum(side.normal for side in sides)
     return sum(side.share * side.normal for side in sides) / normal if normal else 0.0
 
 
 def _creep(contact: Contact, body: Body) -> float:
-    """The engine's motion of a contact that friction resists [m/s]."""
+    """MuJoCo's motion of a contact that friction resists [m/s]."""
     slip = contact.theirs.slip if contact.mu_v else 0.0
     spin = contact.theirs.spin if contact.mu_omega else 0.0
     return _motion_of(replace(contact.theirs, slip=slip, spin=spin), body)
 
 
-def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Named:
+def _creeps(body: Body, through: Sequence[Contact], model: MjModel) -> Named:
     turn = body.theirs.turn
     creeps = _turning(body)
     numbers = {"turn_rad_s": turn}
@@ -199,11 +180,16 @@ def _creeps(body: Body, through: Sequence[Contact], words: Words) -> Named:
         torque = sum(c.exact.torque for c in through if c.exact)
         bears = f"{1e3 * most:.3g} N mm of torque and {1e3 * torque:.3g} N mm is"
     cause = f"{creeps}, where its contacts could bear {bears} asked for; in the exact answer it "
-    cause += f"sticks; {words.yields}"
-    return _finding("creeps", body, through, words.slower, cause, numbers)
+    cause += f"sticks; {YIELDS}"
+    above = f"impratio above {model.opt.impratio:g}"
+    slower = f"set option {above}, or noslip_iterations"
+    if not model.opt.cone:  # the pyramidal one
+        cause += EDGES
+        slower = f'set option cone="elliptic" first, then {above} and noslip_iterations'
+    return _finding("creeps", body, through, slower, cause, numbers)
 
 
-def _slides(body: Body, through: Sequence[Contact], words: Words) -> Named:
+def _slides(body: Body, through: Sequence[Contact]) -> Named:
     cause = f"{body.name} slides: its friction is at its limit"
     share = 1.0
     if body.free:
@@ -211,45 +197,45 @@ def _slides(body: Body, through: Sequence[Contact], words: Words) -> Named:
         cause = f"{body.name} slides: its contacts hold {share:.2g} of what its load needs, "
         cause += f"{body.bears:.3g} N of {body.needed:.3g} N"
     verb = "sinks" if body.theirs.sinks > body.theirs.speed / 2 else "moves"
-    cause += f"; in {words.engine}, {body.name} {verb} by {1e3 * body.theirs.speed:.3g} mm/s"
-    return _finding("slides", body, through, words.stronger, cause, {"share": share})
+    cause += f"; in MuJoCo, {body.name} {verb} by {1e3 * body.theirs.speed:.3g} mm/s"
+    return _finding("slides", body, through, STRONGER, cause, {"share": share})
 
 
-def _turns(body: Body, through: Sequence[Contact], words: Words) -> Named:
+def _turns(body: Body, through: Sequence[Contact]) -> Named:
     mu_omega = 1e3 * max(c.mu_omega for c in through)
     about = "the line of the two points" if len(through) == 2 else "the normal"
     needed = 1e3 * body.torque / sum(c.exact.normal for c in through if c.exact)
     cause = f"torsional friction {mu_omega:.3g} mm: {body.name} turns about {about}"
     cause += f"; {needed:.3g} mm or more would hold it" if needed else ""
-    cause += f"; in {words.engine}, {_turning(body)}"
-    return _finding("turns", body, through, words.spins, cause, {"mu_omega_mm": mu_omega})
+    cause += f"; in MuJoCo, {_turning(body)}"
+    return _finding("turns", body, through, SPINS, cause, {"mu_omega_mm": mu_omega})
 
 
 def _turning(body: Body) -> str:
     return f"{body.name} turns by {np.degrees(body.theirs.turn):.3g} degrees/s"
 
 
-def _moves(body: Body, through: Sequence[Contact], words: Words) -> Named:
-    cause = f"{body.name} rests in {words.engine}; its contacts, loads and joints alone let it move"
+def _moves(body: Body, through: Sequence[Contact]) -> Named:
+    cause = f"{body.name} rests in MuJoCo; its contacts, loads and joints alone let it move"
     numbers = {"speed_mm_s": 1e3 * body.fastest(body.exact)}
-    return _finding("moves", body, through, words.rests, cause, numbers)
+    return _finding("moves", body, through, RESTS, cause, numbers)
 
 
-def _penetration(meeting: _Meeting, weight: float, words: Words) -> Iterator[Named]:
+def _penetration(meeting: _Meeting, weight: float) -> Iterator[Named]:
     """Whether two bodies are pushed apart by more than their loads."""
     theirs, ours = meeting.theirs, meeting.exact
     pushes = theirs - ours > FORCES_AGREE * max(theirs, weight)
     if not pushes or (meeting.depth <= DEEP and theirs <= PRESSES * ours):
         return
     cause = f"and are pushed apart with {theirs:.3g} N where their loads ask for {ours:.3g} N"
-    yield _penetrates(meeting, cause, words.apart)
+    yield _penetrates(meeting, cause, APART)
 
 
-def _inside(meeting: _Meeting, size: float, words: Words) -> Named:
+def _inside(meeting: _Meeting, size: float) -> Named:
     """Two bodies that are so deep in each other that they are not rigid."""
     cause = f"{meeting.depth / size:.0%} of the distance from the middle to the farthest point of "
     cause += "the smaller one; rigid bodies do not"
-    return _penetrates(meeting, cause, words.stiffer)
+    return _penetrates(meeting, cause, STIFFER)
 
 
 def _penetrates(meeting: _Meeting, cause: str, remedy: str) -> Named:

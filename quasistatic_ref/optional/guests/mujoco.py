@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.errors import ModelError
+from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
@@ -20,8 +20,6 @@ from quasistatic_ref.optional.guests.state_step import (
     contacts_of,
     dropped,
     quasi_dynamic_number,
-    step_from,
-    takes_as_is,
 )
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
@@ -34,6 +32,7 @@ from quasistatic_ref.tolerances import FULL_RANK, LIGHT
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
+DEPTHS = ("closed", "as is")
 AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
 """Coordinates of a joint: of a free one, along the world's axes and about the body's own."""
 
@@ -94,7 +93,9 @@ def step_with(
     InputError, ModelError
         As of :func:`mujoco_step`.
     """
-    as_is = takes_as_is(depth)
+    if depth not in DEPTHS:
+        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
+    as_is = depth == "as is"
     state = mujoco_state(model, data)
     check(state)
     state.run()
@@ -114,11 +115,21 @@ def step_with(
     free = touches.held(every, scale, held.basis)
     kept = [contact for contact, is_free in zip(every, free, strict=True) if not is_free]
     contacts = contacts_of(kept, T, as_is)
-    forces = T.T @ (of_state.others + drag), T.T @ of_state.of_springs
+    tau = T.T @ (of_state.others + drag)
     rows = [row for row in (*limits, *held.rows) if row.holds]
     extra = constraints.extra_of(rows, T.shape[1])
     cone, notes = default_cone(model, any(contact.mu_v for contact in every), extra)
-    step = step_from(h, K_q, M_u, *forces, contacts=contacts, cone=cone, extra=extra)
+    step = StepData(
+        h=h,
+        K_q=K_q,
+        M_u=(M_u + M_u.T) / 2,
+        tau_a=tau[:n_a],
+        tau_u=tau[n_a:],
+        delta_q_bar_a=np.linalg.solve(K_q, (T.T @ of_state.of_springs)[:n_a]),  # Eq. (1)
+        contacts=contacts,
+        cone=cone,
+        extra=extra,
+    )
     left_out = (
         *of_state.left_out, *held.left_out, *free_limits,
         *(f"contact[{every[i].name}]: {touches.HELD}" for i in np.flatnonzero(free)),

@@ -13,9 +13,9 @@ from quasistatic_ref.contact.distance import in_world
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.optional.guests import touches
-from quasistatic_ref.optional.guests.compared import WINDOW, EngineState, Mover, Touch
+from quasistatic_ref.optional.guests.compared import WINDOW, Mover, MujocoAnswer
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import Named, Words
+from quasistatic_ref.optional.guests.findings import APART, Named
 from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
 from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
 
 DRAG = "dampers: their forces at the present velocity are loads"
-EDGES = "; in the pyramidal cone noslip leaves an axis 1/(condim - 1) of mu N"
-"""It keeps the sum of each pair of opposite edges."""
 
 
 def second_opinion(
@@ -87,13 +85,9 @@ def second_opinion(
     mean, later = velocities(active, moves, WINDOW)
     rest = state.data
     drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
-    of_engine = EngineState(
-        touches=tuple(
-            Touch(contact.name, contact, (contact.name,), (contact,), wrench)
-            for contact, wrench in zip(
-                touches.contacts(state), touches.forces(state, now), strict=True
-            )
-        ),
+    theirs = MujocoAnswer(
+        contacts=tuple(touches.contacts(state)),
+        wrenches=touches.forces(state, now),
         movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
         M=state.M,
         gravity=model.opt.gravity,
@@ -109,33 +103,12 @@ def second_opinion(
         left_out = (*coordinates.left_out, *([DRAG] if drag.any() else []))
         return step, replace(coordinates, left_out=left_out)
 
-    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
-    words = _words(model)
-    overlaps = [*_unlisted(state, words)]
+    overlaps = [*_unlisted(state)]
     if start is not None:
         first = mujoco_state(model, start)
         first.run()
-        overlaps += _misplaced(first, words)
-    h = float(model.opt.timestep)
-    return opinion_of(of_engine, step_of, h, tolerance, words, weight, overlaps)
-
-
-def _words(model: MjModel) -> Words:
-    above = f"impratio above {model.opt.impratio:g}"
-    slower = f"set option {above}, or noslip_iterations"
-    if not model.opt.cone:
-        slower = f'set option cone="elliptic" first, then {above} and noslip_iterations'
-    return Words(
-        engine="MuJoCo",
-        yields="MuJoCo documents that its friction yields to any force"
-        + ("" if model.opt.cone else EDGES),
-        slower=slower,
-        stronger="raise friction of the geoms, or what presses the bodies together",
-        spins="set condim 4 of the geoms, and the second number of their friction",
-        rests="do without what MuJoCo has and a step has not: rolling friction",
-        stiffer="change solref and solimp of the geoms, or take masses that differ less",
-        apart="change size or pos, or add contact/exclude for bodies that may overlap",
-    )
+        overlaps += _misplaced(first)
+    return opinion_of(theirs, step_of, model, tolerance, overlaps)
 
 
 def _mover(state: MujocoState, b: int) -> Mover:
@@ -174,24 +147,24 @@ class _Overlap(NamedTuple):
     depth: float
 
 
-def _unlisted(state: MujocoState, words: Words) -> Iterator[Named]:
+def _unlisted(state: MujocoState) -> Iterator[Named]:
     """Findings on geoms that are deep in each other, and that MuJoCo lists no contact of."""
     listed = {tuple(sorted(touch.geom.tolist())) for touch in state.data.contact}
     for overlap in _overlaps(state):
         if overlap.geoms not in listed and overlap.depth > DEEP:
-            yield _penetrates(state, overlap, "now, without a contact of MuJoCo's", words)
+            yield _penetrates(state, overlap, "now, without a contact of MuJoCo's")
 
 
-def _misplaced(state: MujocoState, words: Words) -> Iterator[Named]:
+def _misplaced(state: MujocoState) -> Iterator[Named]:
     """Findings on geoms that start so deep in each other that they cannot be meant to be there."""
     radii = state.model.geom_rbound
     for overlap in _overlaps(state):
         least = min(radii[g] for g in overlap.geoms if radii[g] > 0)
         if overlap.depth > PIERCES * least:
-            yield _penetrates(state, overlap, "at the start", words)
+            yield _penetrates(state, overlap, "at the start")
 
 
-def _penetrates(state: MujocoState, overlap: _Overlap, when: str, words: Words) -> Named:
+def _penetrates(state: MujocoState, overlap: _Overlap, when: str) -> Named:
     """The finding about two geoms, whatever MuJoCo makes of them."""
     a, b = overlap.geoms
     body, other = touches.mover_name(state, a), touches.mover_name(state, b)
@@ -200,7 +173,7 @@ def _penetrates(state: MujocoState, overlap: _Overlap, when: str, words: Words) 
     depth = 1e3 * overlap.depth
     geoms = f"{state.called('geom', a)}/{state.called('geom', b)}"
     cause = f"{geoms}: {body} and {other} overlap by {depth:.3g} mm {when}"
-    return body, Finding("penetrates", True, words.apart, cause, {"depth_mm": depth})
+    return body, Finding("penetrates", True, APART, cause, {"depth_mm": depth})
 
 
 def _overlaps(state: MujocoState) -> Iterator[_Overlap]:

@@ -1,10 +1,10 @@
-"""A second opinion on the contacts of a state: an engine's forces and motions next to exact."""
+"""A second opinion on the contacts of a state: MuJoCo's forces and motions next to exact."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,18 +12,21 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, EngineState
-from quasistatic_ref.optional.guests.findings import Named, Words, findings, not_unique
+from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, MujocoAnswer
+from quasistatic_ref.optional.guests.findings import Named, findings, not_unique
 from quasistatic_ref.optional.guests.state_step import Coordinates
 from quasistatic_ref.simulate.finding import Finding, finding_table
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 
-FORMAT, VERSION = "quasistatic-ref/opinion", 3
+if TYPE_CHECKING:
+    from mujoco import MjModel
+
+FORMAT, VERSION, ENGINE = "quasistatic-ref/opinion", 3, "MuJoCo"
 SHOWN = 1e-6
 """Smallest number that is printed, in its unit; a difference, in a thousandth of what differs."""
 SHORT = 0.01
-"""Time step for forces of what slides, over the engine's [-]: lift-off is 1e-4 of the former."""
+"""Time step for forces of what slides, over MuJoCo's [-]: lift-off is 1e-4 of the former."""
 MOST_LINES = 5
 """Sentences about what is left out that are printed."""
 
@@ -35,24 +38,24 @@ TABLES = Tables({
     TOP: {
         "format": Field("text", "what it is", choices=(FORMAT,)),
         "version": Field("integer", "of this schema", choices=(VERSION,)),
-        "engine": Field("text", "whose answer it is about", choices=("MuJoCo", "Drake")),
-        "h": Field("number", "time step of the exact answer: the engine's own", "s", above=0),
+        "engine": Field("text", "whose answer it is about", choices=(ENGINE,)),
+        "h": Field("number", "time step of the exact answer: MuJoCo's own", "s", above=0),
         "tolerance": Field("number", "speed up to which a contact holds", "m/s", above=0),
         "certificate": Field("text", "proof of the exact answer",
                              choices=("exact", "enclosure", "residual")),
-        "contacts": Field("list of tables", "all contacts of the engine", of=CONTACT),
+        "contacts": Field("list of tables", "all contacts of MuJoCo's", of=CONTACT),
         "bodies": Field("list of tables", "bodies that touch and can move", of=BODY),
         "findings": Field("list of tables", "what is found; exit status 1 if any", of=FINDING),
         "left_out": Field("list of words", "what the exact answer does not have"),
     },
     CONTACT: {
-        "name": Field("text", "as of the step; in MuJoCo its number and geoms"),
+        "name": Field("text", "its number and geoms"),
         "bodies": Field("list of words", "the two bodies; world for what cannot move"),
         "depth": Field("number", "by how much they penetrate", "m"),
         "mu_v": Field("number", "friction", "-", least=0),
         "mu_omega": Field("number", "torsional friction", "m", least=0),
         "pair": Field("text", "what touches, without the number of the contact"),
-        "theirs": Field("table", "the engine's answer", of=BEARING),
+        "theirs": Field("table", "MuJoCo's answer", of=BEARING),
         "exact": Field("a table or null", "null where joints or equalities bear any force",
                        schema=NULL),
     },
@@ -65,16 +68,16 @@ TABLES = Tables({
         "spin": Field("number", "rate about the normal", "rad/s", least=0),
     },
     BODY: {
-        "name": Field("text", "the engine's name"),
+        "name": Field("text", "MuJoCo's name"),
         "size": Field("number", "its farthest point from its centre of mass", "m", least=0),
-        "rests": Field("boolean", "whether the engine has it at rest in the state itself"),
-        "steady": Field("boolean", "whether the engine's motion of it stays as it is"),
+        "rests": Field("boolean", "whether MuJoCo has it at rest in the state itself"),
+        "steady": Field("boolean", "whether MuJoCo's motion of it stays as it is"),
         "free": Field("boolean", "whether nothing but contacts holds it"),
         "needed": Field("number", "the friction that balances its loads", "N", least=0),
         "bears": Field("number", "the sum of mu_v times normal force", "N"),
         "torque": Field("number", "moment that nothing balances", "N m"),
-        "balanced": Field("boolean", "whether the engine's forces on it add up to none"),
-        "theirs": Field("table", "the engine's answer, a mean over 0.1 s", of=MOTION),
+        "balanced": Field("boolean", "whether MuJoCo's forces on it add up to none"),
+        "theirs": Field("table", "MuJoCo's answer, a mean over 0.1 s", of=MOTION),
         "exact": Field("table", "the exact answer, one step from rest", of=MOTION),
     },
     MOTION: {
@@ -96,14 +99,12 @@ TABLES = Tables({
 
 @dataclass(frozen=True, eq=False)
 class Opinion(Plain):
-    """What an engine and the exact model say of the same contacts.
+    """What MuJoCo and the exact model say of the same contacts.
 
     Parameters
     ----------
-    engine : str
-        ``"MuJoCo"`` or ``"Drake"``.
     h : float
-        Time step of the exact answer, the engine's own [s].
+        Time step of the exact answer, MuJoCo's own [s].
     tolerance : float
         Speed up to which a contact holds [m/s].
     certificate : str
@@ -116,7 +117,6 @@ class Opinion(Plain):
         What the exact answer does not have, or holds as it is.
     """
 
-    engine: str
     h: float
     tolerance: float
     certificate: str
@@ -129,14 +129,15 @@ class Opinion(Plain):
     def record(self) -> dict[str, Any]:
         """All of it as plain data, of the schema that ``quasistatic-ref schema opinion`` prints."""
         findings = [finding_table(finding) for finding in self.findings]
-        return {"format": FORMAT, "version": VERSION, **asdict(self), "findings": findings}
+        head = {"format": FORMAT, "version": VERSION, "engine": ENGINE}
+        return {**head, **asdict(self), "findings": findings}
 
     def __str__(self) -> str:
         return "\n".join(self._lines())
 
     def _lines(self) -> Iterator[str]:
         sides = [(c.theirs, c.exact) for c in self.contacts]
-        yield f"{self.engine}'s numbers, the exact ones, and how they differ"
+        yield "MuJoCo's numbers, the exact ones, and how they differ"
         yield from aligned(_table(
             "contact", [c.name for c in self.contacts], sides,
             {"normal [N]": ("normal", 1), "friction [N]": ("friction", 1),
@@ -163,7 +164,7 @@ def _table(
     sides: Sequence[tuple[object, object]],
     columns: Mapping[str, tuple[str, float]],
 ) -> list[tuple[str, ...]]:
-    """Rows with three columns for each number: the engine's, the exact one, how they differ."""
+    """Rows with three columns for each number: MuJoCo's, the exact one, how they differ."""
     rows = [(first, *(word for column in columns for word in (column, "exact", "diff")))]
     for name, (theirs, exact) in zip(names, sides, strict=True):
         cells = []
@@ -183,28 +184,22 @@ def _digits(number: float, size: float = 1.0) -> str:
 
 
 def opinion_of(
-    state: EngineState,
+    theirs: MujocoAnswer,
     step_of: Callable[[float], tuple[StepData, Coordinates]],
-    h: float,
+    model: MjModel,
     tolerance: float,
-    words: Words,
-    weight: float,
-    overlaps: Sequence[Named] = (),
+    overlaps: Sequence[Named],
 ) -> Opinion:
-    """The exact answer next to an engine's, and what is found.
+    """The exact answer next to MuJoCo's, and what is found.
 
     Parameters
     ----------
-    state : EngineState
+    theirs : MujocoAnswer
     step_of : callable
         The step of the state with a time step [s].
-    h : float
-        The engine's time step [s].
+    model : mujoco.MjModel
     tolerance : float
         Speed up to which a contact holds [m/s].
-    words : Words
-    weight : float
-        Of the whole model [N].
     overlaps : sequence of (str, Finding)
         About bodies in each other that contacts do not tell.
 
@@ -215,28 +210,27 @@ def opinion_of(
     """
     if not 0 < tolerance < np.inf:
         raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
+    h = float(model.opt.timestep)
+    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
     step, coordinates = step_of(h)
     T = coordinates.T
     answer = solve_step(step)
     exact = T @ answer.delta_q / h
-    both = Compared(state, answer, exact / h, exact)
+    both = Compared(theirs, answer, exact / h, exact)
     contacts = tuple(both.contacts())
     if any(c.exact and c.exact.slip > tolerance for c in contacts):
         # What slides lifts off by a part of its way, about a h^2, against what presses it.
         short = solve_step(step_of(h * SHORT)[0])
-        both = Compared(state, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
+        both = Compared(theirs, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
         contacts = tuple(both.contacts())
     bodies = tuple(both.bodies())
-    every = [*findings(contacts, bodies, weight, tolerance, words), *overlaps]
-    left_out = [*not_unique(contacts, bodies, weight, words), *coordinates.left_out]
+    every = [*findings(contacts, bodies, weight, tolerance, model), *overlaps]
+    left_out = [*not_unique(contacts, bodies, weight), *coordinates.left_out]
     moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
     if {*moving} - {body for body, _ in every}:
-        left_out.insert(
-            0,
-            f"in {words.engine}, these still move: {', '.join(moving)}; a state at rest says more",
-        )
-    kind = answer.certificate.kind
+        still = f"in MuJoCo, these still move: {', '.join(moving)}; a state at rest says more"
+        left_out.insert(0, still)
     return Opinion(
-        words.engine, h, tolerance, kind, contacts, bodies, tuple(one for _, one in every),
+        h, tolerance, answer.certificate.kind, contacts, bodies, tuple(one for _, one in every),
         tuple(left_out),
     )  # fmt: skip

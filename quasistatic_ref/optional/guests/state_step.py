@@ -1,34 +1,30 @@
-"""A state of an engine as a step: what is the same whichever engine it comes from."""
+"""Contacts and coordinates of a MuJoCo state, as a step has them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import DEEP
-
-DEPTHS = ("closed", "as is")
 
 
 @dataclass(frozen=True, eq=False)
 class Coordinates(Plain):
-    """Where the coordinates of a step are in an engine, and what the step leaves out.
+    """Where the coordinates of a step are in MuJoCo, and what the step leaves out.
 
     Parameters
     ----------
     names : tuple of str, length n_v
         ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
     T : ndarray, shape (nv, n_v)
-        The engine's displacement, per unit of delta_q [-]: what MuJoCo's ``mj_integratePos`` takes
-        is T delta_q, with dt = 1.
+        MuJoCo's displacement, per unit of delta_q [-]: what ``mj_integratePos`` takes is T delta_q,
+        with dt = 1.
     left_out : tuple of str
         What the step does not have, or holds as it is: one sentence for each.
     quasi_dynamic_number : float
@@ -46,13 +42,13 @@ class Coordinates(Plain):
 
 
 class StateContact(NamedTuple):
-    """A contact of a state: one point of two geometries.
+    """A contact of a state: one point of two geoms.
 
     Parameters
     ----------
     name : str
     pair : str
-        What touches, as of all contacts of the two geometries.
+        What touches, as of all contacts of the two geoms.
     bodies : tuple of str
         Alpha's and beta's; ``"world"`` for what cannot move.
     phi : float
@@ -62,7 +58,7 @@ class StateContact(NamedTuple):
     frame : ndarray, shape (3, 3)
         n, d1, d2 [-].
     J : ndarray, shape (4, nv)
-        Of Eq. :eq:`eq-3`, along the engine's velocities.
+        Of Eq. :eq:`eq-3`, along MuJoCo's velocities.
     mu_v, mu_omega : float
         [-, m].
     rows : int
@@ -88,15 +84,8 @@ class StateContact(NamedTuple):
         return float(abs(self.J[3] @ v))
 
 
-def takes_as_is(depth: str) -> bool:
-    """Whether gaps are taken as they are; InputError if `depth` is another word."""
-    if depth not in DEPTHS:
-        raise InputError(f"must be one of {DEPTHS}", field="depth", value=depth)
-    return depth == "as is"
-
-
 def contacts_of(every: Sequence[StateContact], T: Array, as_is: bool) -> Contacts:
-    """Contacts of a step, of whose coordinates T, (nv, n_v), makes the engine's velocities [-]."""
+    """Contacts of a step, of whose coordinates T, (nv, n_v), makes MuJoCo's velocities [-]."""
     frames = np.array([contact.frame for contact in every]).reshape(-1, 3, 3)
     phi = np.array([contact.phi for contact in every])
     closed = np.array([contact.closed for contact in every], dtype=bool)
@@ -110,33 +99,6 @@ def contacts_of(every: Sequence[StateContact], T: Array, as_is: bool) -> Contact
         mu_v=np.array([contact.mu_v for contact in every]),
         mu_omega=np.array([contact.mu_omega for contact in every]),
         rows=np.array([contact.rows for contact in every], dtype=np.int64),
-    )
-
-
-def step_from(
-    h: float, K_q: Array, M_u: Array, tau: Array, of_springs: Array, **rest: Any
-) -> StepData:
-    """A step of what an engine says of a state at rest, the actuated coordinates first.
-
-    Parameters
-    ----------
-    h : float
-        [s].
-    K_q, M_u : ndarray
-    tau, of_springs : ndarray, shape (n_v,)
-        Forces of all but springs, and of springs [N, N m].
-    **rest : object
-        Other fields of StepData.
-    """
-    n_a = len(K_q)
-    return StepData(
-        h=h,
-        K_q=K_q,
-        M_u=(M_u + M_u.T) / 2,
-        tau_a=tau[:n_a],
-        tau_u=tau[n_a:],
-        delta_q_bar_a=np.linalg.solve(K_q, of_springs[:n_a]),  # Eq. (1)
-        **rest,
     )
 
 
@@ -159,7 +121,7 @@ def quasi_dynamic_number(
     ----------
     every : sequence of StateContact
     v : ndarray, shape (nv,)
-        Velocity of the engine.
+        MuJoCo's velocity.
     gravity : ndarray, shape (3,)
     h : float
     """

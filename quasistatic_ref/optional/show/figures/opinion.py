@@ -14,12 +14,12 @@ MOST = 12
 
 
 def opinion_figure(opinion: Any) -> Figure:
-    """Normal forces, shares of the limit, and speeds of bodies: the engine's and the exact ones.
+    """Normal forces, shares of the limit, and speeds of bodies: MuJoCo's and the exact ones.
 
     Parameters
     ----------
     opinion : Opinion
-        Of ``second_opinion`` or ``drake_opinion``.
+        Of ``second_opinion``.
     """
     contacts = sorted(opinion.contacts, key=lambda c: -c.theirs.normal)[:MOST]
     bodies = sorted(opinion.bodies, key=lambda b: -b.fastest(b.theirs))[:MOST]
@@ -29,15 +29,15 @@ def opinion_figure(opinion: Any) -> Figure:
     with figure_style():
         figure, (forces, shares, speeds) = panels(6.3, 1.3 + 0.3 * count, columns=3)
         _bars(forces, names, [c.theirs.normal for c in contacts],
-              [np.nan if one is None else one.normal for one in exact], opinion.engine)  # fmt: skip
+              [np.nan if one is None else one.normal for one in exact])  # fmt: skip
         forces.set(xlabel="normal force [N]")
         _bars(shares, None, [c.theirs.share for c in contacts],
-              [np.nan if one is None else one.share for one in exact], opinion.engine)  # fmt: skip
+              [np.nan if one is None else one.share for one in exact])  # fmt: skip
         shares.set(xlabel="share of the limit of friction", xlim=(0, 1.05))
         shares.axvline(1.0, color="black", linestyle=":", linewidth=1)
         least = 1e3 * opinion.tolerance
         _bars(speeds, [b.name for b in bodies], [1e3 * b.fastest(b.theirs) for b in bodies],
-              [1e3 * b.fastest(b.exact) for b in bodies], opinion.engine)  # fmt: skip
+              [1e3 * b.fastest(b.exact) for b in bodies])  # fmt: skip
         speeds.set_xscale("symlog", linthresh=least)
         speeds.set(xlabel="speed of the body [mm/s]", xlim=(0, None))
         speeds.axvline(least, color="black", linestyle=":", linewidth=1)
@@ -46,12 +46,11 @@ def opinion_figure(opinion: Any) -> Figure:
 
 
 def _bars(
-    axes: Axes, names: Sequence[str] | None, theirs: Sequence[float], exact: Sequence[float],
-    engine: str,
+    axes: Axes, names: Sequence[str] | None, theirs: Sequence[float], exact: Sequence[float]
 ) -> None:  # fmt: skip
     """Two bars for each name, the first at the top."""
     places = np.arange(len(theirs))
-    axes.barh(places - 0.2, theirs, 0.36, label=engine)
+    axes.barh(places - 0.2, theirs, 0.36, label="MuJoCo")
     axes.barh(places + 0.2, exact, 0.36, label="exact", hatch="//", edgecolor="white")
     axes.set_yticks(places, labels=[""] * len(places) if names is None else names)
     axes.invert_yaxis()
