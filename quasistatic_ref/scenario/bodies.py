@@ -91,7 +91,7 @@ def body_entry(
     """
     check_names(table, BODY)
     text = inline_text(table, "urdf")
-    path = path_in(folder, table, "urdf") if text is None else None
+    path = path_in(folder, table, "urdf", roots) if text is None else None
     urdf = text or path
     if urdf is None:
         raise table.error_about("urdf", "is missing")
@@ -120,7 +120,7 @@ def body_entry(
         table=table,
         K_q=value(table, BODY, "K_q"),
         targets=value(table, BODY, "targets"),
-        cloud=path_in(folder, table, "cloud"),
+        cloud=path_in(folder, table, "cloud", roots),
         gravity_compensated=value(table, BODY, "gravity_compensated"),
         wrenches=_wrenches(name, table),
         joint_friction=value(table, BODY, "joint_friction"),

@@ -85,8 +85,10 @@ def parsed(text: str) -> Any:
     return _as_parsed(value)
 
 
-def python_value(field: object, value: Any) -> Any:
-    """A value of Python's as a parser would have returned it, its paths being the user's own.
+def python_value(field: object, value: Any, of_others: bool = False) -> Any:
+    """A value of Python's as a parser would have returned it.
+
+    Its paths are the user's own, unless it is of others.
 
     Raises
     ------
@@ -94,7 +96,7 @@ def python_value(field: object, value: Any) -> Any:
         If it holds itself, or is nested too deeply.
     """
     try:
-        return _as_parsed(plain(value))
+        return plain(value) if of_others else _as_parsed(plain(value))
     except RecursionError:
         raise ScenarioError("is nested too deeply, or holds itself", field=str(field)) from None
 

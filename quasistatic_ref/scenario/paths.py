@@ -2,7 +2,8 @@
 
 A path in a scenario file is relative to the file's folder and leads to a file inside it, symbolic
 links followed: a scenario of another author reads only what came with it. A path given by
-``--set`` is the user's own, and may lead anywhere.
+``--set`` is the user's own, and may lead anywhere. Robots and clouds may lie in the user's roots,
+too, the folders of ``--root``.
 
 ``package://NAME/PATH`` is a file of an installed Python package that keeps robots, as those of
 PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the modules of Python.
@@ -20,13 +21,17 @@ SHARED = Path("cmeel.prefix", "share")
 
 
 class OwnWord(str):
-    """A string that came from ``--set``, not from the file."""
+    """A string that came from ``--set`` or from Python, not from a file."""
 
     __slots__ = ()
 
 
-def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
+def path_in(
+    folder: Path, table: TableReader, field: str, roots: Sequence[Path] = ()
+) -> Path | None:
     """The path in one field, or None where there is no such field.
+
+    It leads into the folder, or into one of the `roots`.
 
     Raises
     ------
@@ -37,7 +42,7 @@ def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
     text = table.text(field, None)
     setting = f"--set {table.name(field)}=PATH"
     remedy = f"move the file there, or give the path on the command line, as {setting}"
-    return None if text is None else _path(folder, table, field, text, remedy)
+    return None if text is None else _path(folder, table, field, text, remedy, roots)
 
 
 def folders_in(folder: Path, table: TableReader, field: str, names: Sequence[str]) -> list[Path]:
@@ -50,19 +55,32 @@ def folders_in(folder: Path, table: TableReader, field: str, names: Sequence[str
     return folders
 
 
-def _path(folder: Path, table: TableReader, field: str, text: str, remedy: str) -> Path:
+def _path(
+    folder: Path,
+    table: TableReader,
+    field: str,
+    text: str,
+    remedy: str,
+    roots: Sequence[Path] = (),
+) -> Path:
     if not text.strip():
         raise table.error_about(field, "must name a file", text)
     path = folder / text
     try:
         if text.startswith(PACKAGE):
             return _installed(table, field, text)
-        inside = isinstance(text, OwnWord) or path.resolve().is_relative_to(folder.resolve())
+        inside = isinstance(text, OwnWord) or lies_in(path, [folder, *roots])
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
         raise table.error_about(field, f"cannot be a path: {error}", text) from None
     if not inside:
         raise table.error_about(field, f"is outside the scenario's folder; {remedy}", text)
     return path
+
+
+def lies_in(path: Path, folders: Sequence[Path]) -> bool:
+    """Whether a path leads into one of some folders, symbolic links followed."""
+    resolved = path.resolve()
+    return any(resolved.is_relative_to(folder.resolve()) for folder in folders)
 
 
 def inline_text(table: TableReader, field: str) -> str | None:

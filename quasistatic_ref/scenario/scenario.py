@@ -27,7 +27,7 @@ from quasistatic_ref.scenario.bodies import (
 from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Changes, apply_settings
-from quasistatic_ref.scenario.paths import folders_in
+from quasistatic_ref.scenario.paths import OwnWord, folders_in
 from quasistatic_ref.scenario.scenario_table import (
     FORMAT,
     LIMITS,
@@ -47,6 +47,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Loads, Targets, Wrenches
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.user_functions import Target
+from quasistatic_ref.solve.backends import is_function
 from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.extension import ExtensionOfQ, OfBodies
@@ -161,7 +162,11 @@ class Scenario(Settings, Plain, Shown):
 
 
 def load_scenario(
-    name: str | Path | Mapping[str, Any], settings: Changes = (), **fields: Any
+    name: str | Path | Mapping[str, Any],
+    settings: Changes = (),
+    *,
+    of_others: bool = False,
+    **fields: Any,
 ) -> Scenario:
     """Load a scenario from a file, by the name of one of the package, or from a mapping.
 
@@ -173,6 +178,10 @@ def load_scenario(
     settings : sequence of str, or mapping of str to object
         Changes, made before anything is checked: ``dotted.key=value``, as after the command
         line's ``--set``; or values by dotted key, ``{"contacts.grip.mu_omega": 0}``.
+    of_others : bool
+        Whether a mapping was written by somebody whom you do not trust, as a client of a server.
+        It then may do what a file in the working folder may: its paths stay in that folder, and
+        its backend is no function. A file always is of others; `settings` and `fields` are yours.
     fields : object
         The same for fields at the top: ``steps=120``.
 
@@ -200,7 +209,7 @@ def load_scenario(
     5
     """
     if isinstance(name, Mapping):
-        tables = scene_tables(name)
+        tables = scene_tables(name, of_others)
         apply_settings(tables, settings, fields)
         check_sizes(tables)
         return _scenario(HERE, TableReader(tables, error=ScenarioError))
@@ -250,7 +259,11 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
             from quasistatic_ref.optional.extensions.of_scenario import of_scenario
         pairs, of_bodies = of_scenario(system, pairs, entries, h, K_q, gravity)
     ordinary = law == CONVEX and of_bodies is None
+    of_users = isinstance(solver.peek("backend"), OwnWord)
     backend = value(solver, SOLVER, "backend")
+    if backend is not None and is_function(backend) and not of_users:
+        problem = "would run code, which no file may; give it as --backend FILE.py:NAME"
+        raise solver.error_about("backend", problem, backend)
     if fast and backend is None:
         with needing("fast"):
             from quasistatic_ref.optional.fast.simulator import default_backend

@@ -137,6 +137,6 @@ def function_at(target: str, folder: str) -> Function:
 
 
 def _look_in(folder: Path) -> None:
-    """Let Python find modules in a folder, before others."""
+    """Let Python find modules in a folder, where no others have their names."""
     if str(folder) not in sys.path:
-        sys.path.insert(0, str(folder))
+        sys.path.append(str(folder))

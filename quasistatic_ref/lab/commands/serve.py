@@ -23,7 +23,7 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If a scene cannot be loaded.
     """
-    scenes = Scenes(shared.scenario_settings(options))
+    scenes = Scenes(shared.scenario_settings(options), options.roots)
     for scene in options.scenes:
         scenes.add(scene)
     lines_served(scenes, sys.stdin, sys.stdout)

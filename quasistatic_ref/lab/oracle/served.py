@@ -1,13 +1,16 @@
 """Steps that another program asks for, and the scenes that they are of."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import models_folder, scenario_path
 from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
+from quasistatic_ref.scenario.paths import lies_in
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
@@ -74,21 +77,24 @@ class Scenes:
     settings : list of str
         Changes of every scene, as :func:`~quasistatic_ref.scenario.scenario.load_scenario` takes
         them.
+    roots : sequence of str or Path
+        Folders from which a client may name files, beside the working folder.
     """
 
-    def __init__(self, settings: list[str]) -> None:
+    def __init__(self, settings: list[str], roots: Sequence[str | Path] = ()) -> None:
         self._settings = settings
+        self._folders = [Path.cwd(), models_folder(), *map(Path, roots)]
         self.by_name: dict[str, Served] = {}
 
     def add(self, scene: str | dict[str, Any], name: str | None = None) -> str:
-        """Load a scene from a file, by its name, or from its tables; the name that it has here.
+        """Load a scene from a file, by its name, or from a client's tables; its name here.
 
         Raises
         ------
         InputError
             As of :func:`~quasistatic_ref.scenario.scenario.load_scenario`.
         """
-        scenario = load_scenario(scene, self._settings)
+        scenario = load_scenario(scene, self._settings, of_others=True)
         name = scenario.path.stem if name is None else name
         self.by_name[name] = Served(scenario, scenario.simulator())
         return name
@@ -119,6 +125,9 @@ class Scenes:
                     words = "a path or a name" if field == "file" else "the tables of a scenario"
                     raise request.error_about(field, f"must be {words}", sent)
                 request.close()
+                if field == "file" and not lies_in(scenario_path(sent), self._folders):
+                    problem = "is outside of the folder that is served; serve with --root FOLDER"
+                    raise request.error_about(field, problem, sent)
                 name = self.add(sent, name)
                 return {"scene": name, **self.by_name[name].record}
         one = self.scene_named(request.text("scene", None))
