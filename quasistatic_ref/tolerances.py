@@ -42,10 +42,6 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the default accuracy: an answer beyond it is not a less exact answer but
 a wrong one."""
 
-WORTHLESS: Final = 1.0
-"""The largest error bound [-] that says anything: where no contact penetrates, x = 0 and lam = 0
-have an error bound of 1."""
-
 LOADED: Final = 1e-9
 """Largest difference between what a URDF says and what was loaded, relative to its size.
 

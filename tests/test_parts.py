@@ -106,9 +106,6 @@ def test_a_solver_a_word_and_a_kind_of_file_need_their_parts(without, tmp_path):
     without("qpsolvers")
     with pytest.raises(InputError, match=r"^qpsolvers:osqp needs .*/optional/qpsolvers$"):
         solve_step(step, "qpsolvers:osqp")
-    without("large")
-    with pytest.raises(InputError, match=r"^certify = \"residual\" needs .*/optional/large$"):
-        solve_step(step, "osqp", certify="residual")
     assert solve_step(step, "osqp").certificate.kind == "exact"
     without("forces")
     with pytest.raises(InputError, match=r"^forces needs quasistatic_ref/optional/forces$"):

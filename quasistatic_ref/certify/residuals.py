@@ -53,7 +53,7 @@ def optimality_residuals(
     Parameters
     ----------
     form : StandardForm
-        The step's H, g, A and b, in SI or in natural units; H and A may be sparse.
+        The step's H, g, A and b, in SI or in natural units.
     delta_q : ndarray, shape (n_v,)
     lam : ndarray, shape (m,)
         Multipliers, contact-major, the user's own rows last.

@@ -37,7 +37,7 @@ class SolverStatistics(NamedTuple):
         The interface by which the solver was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``;
         ``"none"`` without a backend.
     proof_time : float
-        Wall time of the proof, or of the bound of the error [s]; 0 where nothing is claimed.
+        Wall time of the proof, or of the residuals [s]; 0 where nothing is claimed.
     unanswered : bool
         Whether the backend was wanted, and gave no answer: it has no digits then.
     """

@@ -28,7 +28,6 @@ from quasistatic_ref.certify.minimiser import (
 )
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.parts import needing
 from quasistatic_ref.precision import working_precision
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, group_steps
@@ -43,7 +42,7 @@ def verify(
 ) -> Verdict:
     """Whether delta_q is the exact optimum of a step, rounded correctly.
 
-    Where a certificate of another kind claims less: whether that claim holds.
+    Where a certificate claims less, as in the ellipsoid: whether that claim holds.
 
     Parameters
     ----------
@@ -56,8 +55,7 @@ def verify(
         The claimed multipliers on that working set, the user's own rows last.
     claims : Certificate, optional
         All fields but the residuals, which are float64's, are checked. One of another step is
-        refused, and so are kind ``"none"``, which claims nothing, and ``"residual"`` without a
-        bound.
+        refused, and so are the kinds ``"residual"`` and ``"none"``, which prove nothing.
 
     Returns
     -------
@@ -81,10 +79,6 @@ def verify(
     for name, (x, length) in lengths.items():
         if x is not None and np.shape(x) != (length,):
             return Verdict(False, f"{name} has shape {np.shape(x)}; the step wants ({length},)")
-    if claims is not None and claims.kind == "residual":
-        with needing('a certificate of kind "residual"'):
-            from quasistatic_ref.optional.large.judged import bound_verdict
-        return bound_verdict(step, delta_q, lam, claims.error_bound)
     curved = curved_cone(step)
     if curved is not None:
         return curved.verdict(step, delta_q, active, lam, claims)

@@ -7,14 +7,11 @@ from quasistatic_ref.certify.curved_cone import curved_cone
 def in_words(certificate: Certificate) -> str:
     """What a certificate claims of its step, in a sentence or two."""
     if certificate.kind == "residual":
-        known = certificate.error_bound is not None
-        bound = _error_in_words(certificate) if known else "no useful bound of its error"
-        if not certificate.residuals:
-            return f"not exact: {bound}"
         worst = max(certificate.residuals.values())
-        return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
+        return f"not proved: worst residual {worst:.1e} in natural units"
     if certificate.kind == "enclosure":
-        return f"enclosed: {_error_in_words(certificate)}, proved in ball arithmetic"
+        bound = f"at most {certificate.error_bound:.1e}, proved in ball arithmetic"
+        return f"enclosed: the relative error of delta_q in the norm of H is {bound}"
     if certificate.kind != "exact":
         return "nothing is certified"
     step = certificate.step
@@ -34,8 +31,3 @@ def in_words(certificate: Certificate) -> str:
     if certificate.smallest_active_multiplier is not None:
         words.append(f"smallest active multiplier {certificate.smallest_active_multiplier:.1e} N s")
     return "; ".join(words)
-
-
-def _error_in_words(certificate: Certificate) -> str:
-    bound = certificate.error_bound
-    return f"the relative error of delta_q in the norm of H is at most {bound:.1e}"

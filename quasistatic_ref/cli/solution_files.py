@@ -30,10 +30,8 @@ VERSION = 2
 MAY_BE_NULL = {
     ("exact", "smallest_inactive_slack"),
     ("exact", "smallest_active_multiplier"),
-    ("residual", "error_bound"),
 }
-"""Numbers that may be missing: of a step without idle rows, or without active rows, or of an answer
-without a bound."""
+"""Numbers that may be missing: of a step without idle rows, or without active rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,23 +58,15 @@ class SolutionFile:
 
 
 def solution_text(solution: StepSolution) -> str:
-    """The solution of a step as one line of JSON.
-
-    Where a backend's own answer has an error bound, negative multipliers are written as 0.0,
-    because the bound was computed with 0.0 in their place.
-    """
+    """The solution of a step as one line of JSON."""
     step = solution.step
     certificate = solution.certificate
     lam = solution.lam
-    lam_extra = solution.lam_extra
     kind = certificate.kind
-    if kind == "residual" and certificate.error_bound is not None:
-        lam = np.maximum(lam, 0.0)
-        lam_extra = np.maximum(lam_extra, 0.0)
     record = _head(step, "optimal") | {
         "delta_q": solution.delta_q,
         "lam": [lam[a:b] for a, b in pairwise(step.offsets)],
-        "lam_extra": lam_extra,
+        "lam_extra": solution.lam_extra,
         "wrench": rounded_wrenches(step.contacts, lam, step.h, step.cone),
         "certificate": {"kind": kind}
         | {name: getattr(certificate, name) for name in cone(step.cone).claims[kind]},
@@ -154,6 +144,8 @@ def _certificate(table: TableReader, step: StepData) -> Certificate:
     claims: dict[str, Any] = {
         name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]
     }
+    if kind == "residual":
+        table.take("error_bound", None)  # a bound, which an older version wrote: not looked at
     table.close()
     active = claims.get("active", ())
     if active != tuple(sorted(set(active))):

@@ -11,6 +11,9 @@ from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import SolutionFile, rounded_wrenches, solution_read
 from quasistatic_ref.step.data import StepData
 
+UNPROVED = ("residual", "none")
+"""Kinds of certificate that claim nothing which could be proved."""
+
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
@@ -48,8 +51,8 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     assert delta_q is not None
     assert lam is not None
     assert solution.wrench is not None
-    if certificate.kind == "none":
-        return "a certificate of kind 'none' proves nothing; solve with full"
+    if certificate.kind in UNPROVED:
+        return f"a certificate of kind {certificate.kind!r} proves nothing; solve with full"
     right = rounded_wrenches(step.contacts, lam[: step.offsets[-1]], step.h, step.cone)
     for j, (wrench_row, wrench) in enumerate(zip(solution.wrench, right, strict=True)):
         if wrong := wrong_bits(f"wrench[{j}]", wrench_row, wrench):

@@ -295,7 +295,6 @@ def check_takes_cones(name: str, what: str) -> None:
                            value=name)  # fmt: skip
 
 
-RESIDUAL = 'certify = "residual"'
 CERTIFY = ("full", "residual", "off")
 """Ways to certify an answer; :func:`~quasistatic_ref.solve.solve.solve_step` says what each is."""
 
@@ -316,7 +315,7 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
         If the backend is unknown, not installed, does not take the cone, or gives no answer that
         could be certified so.
     InputError
-        If there is no such way to certify, or its folder is not there.
+        If there is no such way to certify.
     """
     check_certify(name, certify)
     if name != NONE:
@@ -331,15 +330,12 @@ def check_certify(name: str | None, certify: str) -> None:
     Raises
     ------
     InputError
-        If it does not exist, or its folder is not there.
+        If it does not exist.
     BackendError
         If it does not without a backend.
     """
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
-    if certify == "residual":
-        with needing(RESIDUAL):
-            from quasistatic_ref.optional.large import bound  # noqa: F401 only whether it is there
     if name == NONE and certify != CERTIFY[0]:
         problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)

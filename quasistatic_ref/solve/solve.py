@@ -26,7 +26,7 @@ from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import groups
-from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
+from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT
 
 FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
@@ -64,8 +64,8 @@ def solve_step(
     certify : str
         ``"full"``: the exact optimum, correctly rounded, the same bits whatever the backend said
         (in the ellipsoid, whose optimum is in general not rational, enclosed to 1e-13 or better);
-        ``"residual"``: the backend's answer, refused if its residuals are not small, with a
-        rigorous bound of its error; ``"off"``: the backend's answer, on its own word.
+        ``"residual"``: the backend's answer, with its residuals, refused if these are not small;
+        ``"off"``: the backend's answer, on its own word.
     extension : Extension, optional
         Constraints and costs of the caller's own. Linear constraints become rows of the step, and
         are certified as such; any others need a backend that takes cones, and get residuals.
@@ -261,8 +261,8 @@ def uncertified(
     answer : NaturalAnswer
         In the natural units of `both` [-].
     certify : str
-        ``"residual"``: refused if its residuals are not small, and with a bound of its error;
-        ``"off"``: not looked at, with a certificate that claims nothing.
+        ``"residual"``: refused if its residuals are not small; ``"off"``: not looked at, with a
+        certificate that claims nothing.
 
     Raises
     ------
@@ -282,7 +282,7 @@ def uncertified(
 def _judged(
     both: StepInBothUnits, solver: Solver, answer: NaturalAnswer, delta_q: Array, lam: Array
 ) -> Certificate:
-    """The residuals of an answer as it is given, in SI units, and a bound of its error."""
+    """The residuals of an answer as it is given, in SI units."""
     check_arithmetic()
     x, y = in_natural(delta_q, lam, both.units)  # SI units may have rounded them: subnormals
     residuals = both.natural_residuals(x, y)
@@ -291,6 +291,4 @@ def _judged(
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, both.si_step, accuracy, residuals)
-    error = solver.error_bound(both, delta_q, lam)
-    useful = error if error <= WORTHLESS else None
-    return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=both.si_step)
+    return Certificate("residual", dict(vars(residuals)), step=both.si_step)

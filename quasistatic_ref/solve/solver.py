@@ -5,7 +5,6 @@ step that its problem was compiled for (:meth:`Solver.fits`). Each interface is 
 of its own, and :func:`~quasistatic_ref.solve.choice.solver_for` chooses among them.
 """
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, Final
@@ -17,11 +16,9 @@ from quasistatic_ref.certify.failures import StepNotSolved
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     QPSOLVERS,
-    RESIDUAL,
     UNSAFE,
     Options,
     backend,
@@ -193,17 +190,6 @@ class Solver(ABC):
             form = both.natural_form
             warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
         return step_optimum(both.si_step, warm)
-
-    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
-
-        Infinite where none is known, as in a curved cone.
-        """
-        if not cone(both.si_step.cone).polyhedral:
-            return math.inf
-        with needing(RESIDUAL):
-            from quasistatic_ref.optional.large.bound import error_bound
-        return error_bound(both.si_step, delta_q, lam)
 
 
 class BackendSolver(Solver):

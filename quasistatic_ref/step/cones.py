@@ -55,7 +55,7 @@ CLAIMS: dict[str, tuple[str, ...]] = {
         "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
         "smallest_active_multiplier", "error_bound",
     ),
-    "residual": ("error_bound",),
+    "residual": (),
     "none": (),
 }  # fmt: skip
 """What a certificate of each kind holds, in a polyhedral cone."""

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Certificate, Extra, InputError, solve_step
-from quasistatic_ref.certify.solution import SolverStatistics, step_solution
+from quasistatic_ref import Extra, InputError, solve_step
 from quasistatic_ref.cli.solution_files import (
     infeasible_text,
     rounded_wrenches,
@@ -16,6 +15,7 @@ from quasistatic_ref.cli.solution_files import (
 )
 from quasistatic_ref.step.files import (
     step_sha256,
+    step_text,
 )
 from tests.closeness import assert_within
 from tests.errors.scene import changed
@@ -60,7 +60,7 @@ def test_a_solution_read_back_is_the_same_bits(tmp_path, certify, kind):
     assert back.certificate.kind == kind
     np.testing.assert_array_equal(back.delta_q, solution.delta_q)
     lam = np.concatenate([solution.lam, solution.lam_extra])
-    np.testing.assert_array_equal(back.lam, np.maximum(lam, 0.0) if kind == "residual" else lam)
+    np.testing.assert_array_equal(back.lam, lam)
     # Both are the same combination; the file's is rounded once.
     size = np.abs(solution.wrench).max()
     assert_within(back.wrench, solution.wrench, ROUNDING * size)
@@ -119,12 +119,15 @@ def test_a_wrench_beyond_float64_is_infinite_with_its_sign():
     assert wrench[0].tolist() == [0.0, -np.inf, np.inf, 0.0]
 
 
-@pytest.mark.parametrize(("bound", "written"), [(1e-9, 0.0), (None, -1e-9)])
-def test_multipliers_below_zero_are_written_as_the_bound_takes_them(bound, written):
-    lam = np.ones(10)
-    lam[1] = -1e-9
-    claims = Certificate("residual", dict.fromkeys(("stationarity", "primal", "dual",
-                         "complementarity"), 0.0), error_bound=bound)  # fmt: skip
-    statistics = SolverStatistics("none", "optimal", None, None, 1e-12)
-    solution = step_solution(PLAIN, np.zeros(5), lam, claims, statistics)
-    assert json.loads(solution_text(solution))["lam"][0][1] == written
+@pytest.mark.parametrize("bound", [1e-9, None])
+def test_a_file_with_a_bound_of_an_older_version_is_read_and_proves_nothing(tmp_path, cli, bound):
+    record = json.loads(solution_text(solve_step(PLAIN, certify="residual")))
+    assert record["certificate"] == {"kind": "residual"}
+    record["certificate"]["error_bound"] = bound
+    step = tmp_path / "step.json"
+    step.write_text(step_text(PLAIN))
+    path = tmp_path / "solution.json"
+    path.write_text(json.dumps(record))
+    assert solution_read(path, PLAIN).certificate.error_bound is None
+    refuted = "refuted: a certificate of kind 'residual' proves nothing; solve with full\n"
+    assert cli("verify", step, path, status=1).out == refuted

@@ -32,7 +32,6 @@ OPTIONAL = (
     "optional/fast",
     "optional/forces",
     "optional/guests",
-    "optional/large",
     "optional/qpsolvers",
     "optional/readers",
     "optional/scans",
@@ -109,7 +108,6 @@ WALLS = {
         "optional/extensions",
         "optional/forces",
         "optional/gap.py",
-        "optional/large",
         "lab/vectors",
     ),
 }

@@ -112,7 +112,7 @@ def proofs():
 
 @pytest.mark.parametrize("name", MODES)
 def test_in_a_mode_of_the_processor_nothing_is_claimed(name):
-    """Solved by two ways and bounded, and the proof verified; and solved "off"."""
+    """Solved by two ways and judged by residuals, and the proof verified; and solved "off"."""
     calls = [*proofs(), partial(solve_step, STEP, "daqp", certify="off")]
     with mode(name):
         words = Counter(word(outcome(call), None) for call in calls)

@@ -1,29 +1,24 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
 H, g, A and b are formed in fractions, which no rounding and no line of the core enters, from the
-plain program's table of each cone. The optimum of a polyhedral cone is proved from the working set
-that a file or the package names: all multipliers and slacks are at least zero. In the ellipsoid
-the package encloses it to 40 digits.
+plain program's table of each cone. In a polyhedral cone an exact file admits no change. In the
+ellipsoid the optimum is that on the rows that a file names, or the package encloses it to 40
+digits.
 """
 
-import math
 from fractions import Fraction
 
 import numpy as np
 from flint import arb
 
-from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import form_optimum
-from quasistatic_ref.certify.form import StepForm
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
-from tests.oracles.rational_kkt import exact, on_rows, proved_optimum, solution
+from tests.oracles.rational_kkt import exact, on_rows, solution
 
 MAY_CHANGE = {
     "exact": (),
     "exact in the ellipsoid": ("lam", "lam_extra", "wrench", "gap"),
     "enclosure": ("delta_q", "lam", "lam_extra", "wrench", "error_bound", "gap"),
-    "residual": ("delta_q", "lam", "lam_extra", "wrench", "error_bound"),
     "infeasible": ("farkas",),
 }
 """What a file of each kind does not fix to the last bit."""
@@ -83,9 +78,9 @@ def nearest_float(x):
 def truth_of(step, good):
     """Whether a forged record of a step still says the truth, given a record that does."""
     kind = good["certificate"]["kind"] if good["status"] == "optimal" else "infeasible"
-    if step.cone == "ellipsoid" and kind in ("exact", "residual"):
+    if step.cone == "ellipsoid" and kind == "exact":
         kind += " in the ellipsoid"
-    known = ("exact in the ellipsoid", "enclosure", "residual")
+    known = ("exact in the ellipsoid", "enclosure")
     judged = Judge(step, good) if kind in known else None
 
     def holds(forged):
@@ -103,9 +98,6 @@ def truth_of(step, good):
             return judged is None
         claims = forged["certificate"]
         bound = Fraction(claims.get("error_bound", 0))
-        if kind == "residual":
-            off = judged.off(forged) + 2 * judged.gap(forged) / judged.free
-            return min(judged.lam(forged)) >= 0 and off <= bound**2 and 0 <= bound <= 1
         near = judged.off(forged) <= bound**2 * ROUNDING and bound <= Fraction(1e-13)
         held = judged.gap(forged) <= Fraction(claims["gap"]) * ROUNDING <= judged.rounding
         return (near or kind != "enclosure") and held and _inside(step, judged.lam(forged))
@@ -113,20 +105,8 @@ def truth_of(step, good):
     return holds
 
 
-def least_bound(step, record):
-    """The smallest float64 that bounds the error of an uncertified answer."""
-    judged = Judge(step, record)
-    square = judged.off(record) + 2 * judged.gap(record) / judged.free
-    bound = math.sqrt(square)
-    while Fraction(bound) ** 2 < square:
-        bound = math.nextafter(bound, math.inf)
-    while Fraction(below := math.nextafter(bound, 0.0)) ** 2 >= square:
-        bound = below
-    return bound
-
-
 class Judge:
-    """The optimum of a step, and how far answers are from it.
+    """The optimum of a step in the ellipsoid, and how far answers are from it.
 
     Parameters
     ----------
@@ -148,12 +128,8 @@ class Judge:
             found = checked_pair(step, arb(2) ** -280, 1536)
             assert found is not None
             return exact([Fraction(int(v.p), int(v.q)) for v in point(found)])
-        if claims["kind"] == "exact":  # where every loaded contact sticks
-            working = [4 * j + i for j, i in claims["active"]]
-            return on_rows(self.program, working)[0]
-        end = form_optimum(StepForm(step))
-        working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
-        return proved_optimum(self.program, working)[0]
+        working = [4 * j + i for j, i in claims["active"]]  # where every loaded contact sticks
+        return on_rows(self.program, working)[0]
 
     def lam(self, record):
         """All multipliers of a record, the user's own rows last."""

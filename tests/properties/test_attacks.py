@@ -5,7 +5,7 @@ The package's exact method names a working set, on which the optimum is proved a
 
 import json
 from fractions import Fraction
-from itertools import cycle, islice, pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 import pytest
@@ -15,12 +15,12 @@ from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.choice import solver_for
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.files import step_text
 from tests.helpers import verify_refusal
 from tests.oracles.attacked_steps import steps
 from tests.oracles.rational_kkt import exact, proved_optimum
 from tests.oracles.solution_truth import (
-    Judge,
     combinations,
     nearest_float,
     program,
@@ -29,7 +29,6 @@ from tests.oracles.solution_truth import (
 )
 
 FAMILIES = ("all scales", "subnormal loads", "nearly singular")
-BACKENDS = ("daqp", "clarabel", "osqp", "piqp", "quadprog")
 
 
 def solution_file(step, backend, certify):
@@ -77,32 +76,12 @@ def test_an_exact_answer_is_that_of_fractions_and_verified(family, tmp_path):
         assert verify_refusal(tmp_path, step_text(step), text) is None
 
 
-@pytest.mark.parametrize("family", FAMILIES)
-def test_a_bound_holds_and_is_verified(family, tmp_path):
-    checked = 0
-    for backend, step in islice(zip(cycle(BACKENDS), steps(family), strict=False), 50):
-        text = solution_file(step, backend, "residual")
-        record = json.loads(text or "{}")
-        bound = record.get("certificate", {}).get("error_bound")
-        if bound is None or record["status"] != "optimal":
-            continue
-        judge = Judge(step, record)
-        square = judge.off(record) + 2 * judge.gap(record) / judge.free
-        assert 0 <= bound <= 1
-        assert square <= Fraction(bound) ** 2
-        assert record["wrench"] == wrenches(step, record["lam"])
-        assert verify_refusal(tmp_path, step_text(step), text) is None
-        checked += 1
-        if checked == 2:
-            return
-    pytest.fail("no backend's answer has a bound")
-
-
-@pytest.mark.parametrize("tau", [1e-323, 1e-312])
-def test_the_bound_of_a_subnormal_answer_is_of_the_answer_as_given(tmp_path, tau):
-    """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has few digits."""
+def test_residuals_of_a_subnormal_answer_are_of_the_answer_as_given():
+    """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has no digit."""
+    tau = 1e-323
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
     solution = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
-    error = abs(Fraction(solution.delta_q[0]) / (Fraction(tau) / 3) - 1)
-    assert Fraction(solution.certificate.error_bound) >= error
-    assert verify_refusal(tmp_path, step_text(step), solution_text(solution)) is None
+    off = abs(3 * Fraction(solution.delta_q[0]) - Fraction(tau))
+    units = StepInBothUnits(step).units
+    natural = off * Fraction(units.coordinate[0]) / Fraction(units.size)
+    assert solution.certificate.residuals["stationarity"] == natural > 0

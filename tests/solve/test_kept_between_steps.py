@@ -31,15 +31,6 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
         solver_for(unlike, "qpsolvers:quadprog").answer(StepInBothUnits(unlike), 1e-9)
 
 
-def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
-    solver = solver_for(pushed_point(), "daqp", fast=True)
-    for m in (0.3, 0.5, 2.0):
-        step = pushed_point(m)
-        answer = solve_step(step, solver, certify="residual")
-        alone = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
-        assert answer.certificate.error_bound == alone.certificate.error_bound
-
-
 def test_without_a_backend_the_exact_method_starts_from_the_working_set_of_the_step_before():
     step = pinch(grip=5.0)
     solver = NoSolver(step, "none")

@@ -29,7 +29,6 @@ PARTS = {
     "fast": (["--fast"], "fast"),
     "forces": (["--set", "record=forces"], 'record = "forces"'),
     "guests": ([], ""),
-    "large": (["--certify", "residual"], 'certify = "residual"'),
     "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
     "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "scans": ([], ""),

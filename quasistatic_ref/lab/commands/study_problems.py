@@ -77,18 +77,19 @@ def _export(options: argparse.Namespace) -> int:
     paths = exported_files(name, problems, options.to, options.out)
     print(f"wrote {len(paths)} files to {options.out}, README.md among them")
     if left := sum(not has_place(one, options.to) for one in chosen):
-        words = "the format has no place for their cones, sparse matrices or missing solutions"
+        words = "the format has no place for their cones or missing solutions"
         print(f"quasistatic-ref: left out {left} problems: {words}", file=sys.stderr)
     return 0
 
 
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.checking import refutation
-    from quasistatic_ref.lab.study.problems.folder import set_read
+    from quasistatic_ref.lab.study.problems.folder import manifest, set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
     folder = problem_set_folder(options.set)
     problems = set_read(folder)
+    others = manifest(folder)["count"] - len(problems)
     wrong = {}
     if options.exact:
         with progress_bar(total=len(problems), unit="problem", words="proved again",
@@ -100,11 +101,14 @@ def _check(options: argparse.Namespace) -> int:
                 bar.update()
     kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in problems)
     if options.json:
-        report = {"problems": len(problems), "answers": kinds, "refuted": wrong}
+        report = {"problems": len(problems), "answers": kinds, "without a proof": others,
+                  "refuted": wrong}  # fmt: skip
         shared.print_json(report)
         return int(bool(wrong))
     counted = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     print(f"{len(problems)} problems, as the manifest lists them: {counted}")
+    if others:
+        print(f"{others} more are not read: their answers are not proved")
     if options.exact:
         print(f"{len(problems) - len(wrong)} answers proved again, {len(wrong)} refuted")
     for name, why in wrong.items():

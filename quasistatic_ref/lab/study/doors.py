@@ -7,7 +7,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from scipy.sparse import issparse
 
 from quasistatic_ref.lab.study.claims import INFEASIBLE, OPTIMAL
 from quasistatic_ref.lab.study.solvers import CVXPY, QPSOLVERS, Solver
@@ -66,7 +65,6 @@ def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
         call = _by_function(function, warm)
 
     def safe(form: StandardForm, options: Options, before: Reply | None) -> Reply:
-        form = form if solver.sparse else _in_arrays(form)
         try:
             return call(form, options, before)
         except Exception as error:  # whatever another package raises
@@ -74,13 +72,6 @@ def call_of(solver: Solver, folder: str) -> tuple[Call, bool]:
             return Reply(None, None, False, words[:WORDS])
 
     return safe, warm
-
-
-def _in_arrays(form: StandardForm) -> StandardForm:
-    """The same with H and A as arrays."""
-    H: Any = form.H
-    A: Any = form.A
-    return form._replace(H=H.toarray(), A=A.toarray()) if issparse(H) else form
 
 
 def _by_cvxpy(name: str) -> Call:

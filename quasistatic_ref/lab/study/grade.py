@@ -193,8 +193,7 @@ def _digits(of: ProblemForms, x: Array, lam: Array | None) -> Mapping[str, float
 
 
 def _digits_of(size: float, of: ProblemForms) -> float:
-    # Of an enclosure no more digits are reported than are known.
-    return digits_of_error(max(size / of.length, of.answer.error))
+    return digits_of_error(size / of.length)
 
 
 def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:

@@ -115,11 +115,6 @@ class Solver:
         known = BACKENDS.get(self.target)
         return self.door in (known.warm if known else self.facts.get("warm", ()))
 
-    @property
-    def sparse(self) -> bool:
-        """Whether it is given sparse matrices as they are; otherwise it is given arrays."""
-        return self.door != QPSOLVERS or bool(self.facts.get("sparse"))
-
     def takes(self, setting: Setting) -> bool:
         """Whether a setting means anything to it."""
         return setting.name in self.options or setting.accuracy is None or "accuracy" in self.facts

@@ -72,7 +72,7 @@ def _solves(run: Run, name: str, k: int, digits: float) -> bool:
 
 
 def proofs(trajectory: Trajectory) -> Iterator[Finding]:
-    """A run that was proved in full, and could have had bounds of its errors in less time."""
+    """A run that was proved in full, and could have had residuals alone in less time."""
     proved = np.isin(trajectory["certificate"], ("exact", "enclosure")).any()
     if not proved or trajectory.header.get("law", CONVEX) != CONVEX:
         return
@@ -82,7 +82,7 @@ def proofs(trajectory: Trajectory) -> Iterator[Finding]:
         yield Finding(
             "time of proof",
             False,
-            'take certify = "residual", which bounds the error of each step in less time',
+            'take certify = "residual", which judges each step by its residuals in less time',
             f"proofs took {proof:.0f} s of the {total:.0f} s of these steps",
             {"proof_s": proof, "total_s": total},
         )

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Final
-
 from quasistatic_ref.optional.fast.program import Program, Workspaces
-from quasistatic_ref.parts import needing
-from quasistatic_ref.solve.backends import RESIDUAL, check_backend
+from quasistatic_ref.solve.backends import check_backend
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet, Solver
@@ -17,14 +13,8 @@ from quasistatic_ref.solve.units import (
     Units,
 )
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
-
-BOUNDED: Final = 1e-6
-"""Largest bound of an answer's error, computed in float64 [-], that is kept as it is.
-
-Of an exact answer float64 gives a bound of about 1e-7. A bound above 1e-6 is computed again in
-balls, which give 1e-8."""
 
 DAQP = "daqp"
 
@@ -73,8 +63,6 @@ class FastSolver(BackendSolver):
         self.program = Program(groups(template))
         self.written: Units | None = None
         self._hessian: HessianInBothUnits | None = None
-        self._bounded_H: Array | None = None
-        self._bound: Callable[[StepInBothUnits, Array, Array], float] = super().error_bound
 
     def in_both_units(self, step: StepData) -> StepInBothUnits:
         """The step in both units; what H gives of them is kept while H is the same array."""
@@ -99,17 +87,3 @@ class FastSolver(BackendSolver):
         reply = kept.reply(self._hessian)
         option_set.kept = kept
         return reply
-
-    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """A bound of the relative error [-]: in float64, and in balls where that is open.
-
-        What H gives of it is kept while H stays.
-        """
-        H = both.hessian.natural_H
-        if self._bounded_H is not H:
-            with needing(RESIDUAL):
-                from quasistatic_ref.optional.large.float_bound import FloatBound
-            self._bounded_H = H
-            self._bound = FloatBound(H).step_error
-        error = self._bound(both, delta_q, lam)
-        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)

@@ -1,17 +1,13 @@
 """Every answer of a set proved again, without a solver."""
 
 import numpy as np
-from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.study.problems.answers import exact_answer
-from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
+from quasistatic_ref.lab.study.problems.problem import SOCP, Problem
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
-from quasistatic_ref.optional.large.float_bound import FloatBound
-from quasistatic_ref.optional.large.sizes import term_sizes
-from quasistatic_ref.step.standard_form import StandardForm
 
 
 def refutation(one: Problem) -> str | None:
@@ -26,8 +22,6 @@ def refutation(one: Problem) -> str | None:
         return farkas_refutation(program_step(*one.form), y)
     if one.facts["kind"] == SOCP:
         return _not_enclosed(one)
-    if one.answer.kind == BOUNDED:
-        return _not_bounded(one)
     warm = np.flatnonzero(one.answer.lam).tolist()
     again = exact_answer(one.form, warm)
     if again.farkas:
@@ -49,14 +43,3 @@ def _not_enclosed(one: Problem) -> str | None:
     far = norm.of_displacement(again.delta_q - one.answer.x) / norm.of_impulse(g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
-
-
-def _not_bounded(one: Problem) -> str | None:
-    natural = one.natural
-    H = csc_matrix(natural.H)
-    A = csc_matrix(natural.A)
-    form = StandardForm(H, natural.g, A, natural.b)
-    sizes = term_sizes(abs(A), np.abs(natural.g))
-    error = FloatBound(H).error(form, sizes, natural.answer.x, natural.answer.lam)
-    worse = error > 1.01 * one.answer.error
-    return f"its error is bounded by {error:.1g} only" if worse else None

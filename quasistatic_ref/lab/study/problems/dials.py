@@ -15,7 +15,6 @@ DIALS = {
     "time_step": _dial("h", "s", 0.1, 1e-4),
     "closest_points": _dial("k", "-", 1.0, 50.0),
     "ellipsoid": _dial("contacts", "-", 2.0, 12.0),
-    "sparse": _dial("bodies", "-", 10.0, 500.0),
     "contacts": _dial("contacts", "-", 2, 200),
     "mass_ratio": _dial("ratio of masses", "-", 1, 1e9),
     "bodies": _dial("bodies", "-", 2, 10),

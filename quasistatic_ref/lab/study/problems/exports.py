@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
@@ -23,7 +22,6 @@ from quasistatic_ref.parts import needed_package
 CARRIED = ("LICENSE*", "CITATION.cff")
 """Files of contact-qp that come with every export."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
-VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
 QPBENCHMARK = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
 """Columns of its Parquet files: min 1/2 x'Px + q'x subject to G x <= h, A x = b, lb <= x <= ub."""
@@ -62,9 +60,8 @@ def exported_files(name: str, problems: Sequence[Problem], to: str, folder: Path
 
 
 def has_place(one: Problem, to: str) -> bool:
-    """Whether a format has a place for a problem: qpbenchmark's for dense rows with a solution."""
-    dense_rows = one.facts["kind"] == QP and not one.sparse
-    return to != PARQUET or (dense_rows and one.feasible)
+    """Whether a format has a place for a problem: qpbenchmark's for rows with a solution."""
+    return to != PARQUET or (one.facts["kind"] == QP and one.feasible)
 
 
 def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
@@ -87,17 +84,12 @@ def _carried_files(name: str, count: int, to: str, folder: Path) -> list[Path]:
 
 
 def _npz(path: Path, problems: Sequence[Problem]) -> Path:
-    """``id``, ``family``, ..., and ``K/H``, ``K/g``, ... of problem K; sparse matrices as CSR."""
+    """``id``, ``family``, ..., and ``K/H``, ``K/g``, ... of problem K."""
     arrays: dict[str, Any] = {
         word: np.array([_word(one.facts[word]) for one in problems]) for word in WORDS
     }
     for k, one in enumerate(problems):
-        for key, value in _parts(one).items():
-            if isinstance(value, csr_matrix):
-                arrays |= {f"{k}/{key}/values": value.data, f"{k}/{key}/columns": value.indices,
-                           f"{k}/{key}/starts": value.indptr}  # fmt: skip
-            else:
-                arrays[f"{k}/{key}"] = value
+        arrays |= {f"{k}/{key}": value for key, value in _parts(one).items()}
     return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
@@ -139,13 +131,9 @@ def parquet_written(path: Path, problems: Sequence[Problem]) -> Path:
 
 
 def _parts(one: Problem) -> dict[str, Any]:
-    """Its numbers by name: matrices dense, unless it is a sparse problem."""
-    sparse = one.sparse
+    """Its numbers by name."""
     arrays: dict[str, Any] = {
-        "H": one.H if sparse else one.H.toarray(),
-        "A": one.A if sparse else one.A.toarray(),
-        "g": one.g,
-        "b": one.b,
+        **one.form._asdict(),
         "length": one.error_length,
     }
     if not one.answer.farkas:

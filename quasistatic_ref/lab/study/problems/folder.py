@@ -27,7 +27,7 @@ from quasistatic_ref.formats.files import (
 from quasistatic_ref.formats.npz import npz_arrays
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.problems.dials import DIALS
-from quasistatic_ref.lab.study.problems.problem import Answer, Problem
+from quasistatic_ref.lab.study.problems.problem import ENCLOSED, EXACT, Answer, Problem
 from quasistatic_ref.solve.units import Units
 
 FORMAT = "quasistatic-ref/problem-set"
@@ -35,6 +35,7 @@ VERSION = 1
 MANIFEST = "manifest.json"
 FACTS = "problems.jsonl"
 NUMBERS = "numbers"
+PROVED = (EXACT, ENCLOSED)
 MATRICES = ("H", "A")
 ANSWERS = ("x", "net", "slack", "lam")
 UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
@@ -83,6 +84,8 @@ def set_read(
 ) -> list[Problem]:
     """The problems of a set, or of some of its families, or those of some names.
 
+    Families with answers that are not proved are left out.
+
     Raises
     ------
     InputError
@@ -90,12 +93,8 @@ def set_read(
     """
     folder = Path(folder)
     head = manifest(folder)
-    known = head["families"]
-    for name in families or ():
-        if name not in known:
-            raise InputError(f"is not a family of the set; it has {', '.join(known)}", value=name)
     try:
-        return _some_problems(folder, list(known), families, ids)
+        return _some_problems(folder, list(head["families"]), families, ids)
     except InputError:
         raise
     except UNREADABLE as error:
@@ -108,6 +107,13 @@ def _some_problems(
 ) -> list[Problem]:
     """The problems of some of the families that a set has, or of some names."""
     lines = _lines(folder / FACTS)
+    unproved = {line["family"] for line in lines if line["answer"]["kind"] not in PROVED}
+    known = [family for family in known if family not in unproved]
+    for name in families or ():
+        if name not in known:
+            words = f"is not a family with proved answers; the set has {', '.join(known)}"
+            raise InputError(words, value=name)
+    lines = [line for line in lines if line["family"] in known]
     names = {line["id"] for line in lines}
     for name in ids or ():
         if name not in names:

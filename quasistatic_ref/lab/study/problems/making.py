@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix
 from quasistatic_ref.certify.norm import error_length, single_loads
 from quasistatic_ref.lab.study.problems.answers import exact_answer
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
-from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
 from quasistatic_ref.lab.study.problems.selection import evenly
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.failures import RunFailed
@@ -19,9 +19,6 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
-
-SPARSE_FROM = 10_000
-"""Entries of a step's J, 4 n_c n_v, from which its problem is tagged as sparse."""
 
 
 def problems_of_runs(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
@@ -72,8 +69,6 @@ def _run(scenario: Scenario) -> Trajectory:
 def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Problem:
     """A problem from a step: what it is, and its exact answer.
 
-    Its matrices are sparse from where PIQP gets sparse ones in a simulation.
-
     Parameters
     ----------
     step : StepData
@@ -109,7 +104,7 @@ def problem_of(step: StepData, name: str, k: int, warm: Sequence[int]) -> Proble
             "unique_multipliers": answer.unique,
             "differentiable": answer.differentiable,
         },
-        "tags": [SPARSE] * (step.contacts.J.size >= SPARSE_FROM),
+        "tags": [],
     }
     units = units_of(form, hessian_in_both_units(form.H))
     return Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)

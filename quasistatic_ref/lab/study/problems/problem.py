@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csr_matrix
 
 from quasistatic_ref.certify.norm import error_length
 from quasistatic_ref.solve.units import Units
@@ -16,10 +16,8 @@ QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
 OPTIMAL = "optimal"
 INFEASIBLE = "infeasible"
-EXACT, ENCLOSED, BOUNDED = "exact", "enclosed", "bounded"
-"""How an answer is known: rounded correctly; off by rounding at most; off by a proved bound."""
-SPARSE = "sparse"
-"""The tag of problems that are too large to be dense."""
+EXACT, ENCLOSED = "exact", "enclosed"
+"""How an answer is known: rounded correctly; off by rounding at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +27,7 @@ class Answer:
     Parameters
     ----------
     kind : str
-        ``"exact"``, ``"enclosed"`` or ``"bounded"``.
+        ``"exact"`` or ``"enclosed"``.
     error : float
         ||x - x*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where only rounding is between.
     x, net : ndarray, shape (n,)
@@ -109,11 +107,6 @@ class Problem:
         return error_length(self.H.toarray(), self.g, x)
 
     @property
-    def sparse(self) -> bool:
-        """Whether its matrices are left without zeros."""
-        return SPARSE in self.facts["tags"]
-
-    @property
     def natural(self) -> "Problem":
         """The same in natural units, without rounding; Farkas vectors are those of SI units."""
         S = self.units.coordinate
@@ -138,7 +131,5 @@ class Problem:
 
     @property
     def form(self) -> StandardForm:
-        """H, g, A, b: arrays, but of a sparse problem H and A in compressed columns."""
-        if self.sparse:
-            return StandardForm(csc_matrix(self.H), self.g, csc_matrix(self.A), self.b)
+        """H, g, A, b as arrays."""
         return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)

@@ -1,1 +1,0 @@
-"""Steps with many bodies: sparse data, solvers and bounds of the error in float64."""
