@@ -1,15 +1,18 @@
-"""Optional parts that are missing: one sentence for a word that needs one, all else as it was."""
+"""Optional parts can be taken away: the grasp keeps its bits, and a word that needs one says so."""
 
+import shutil
+import subprocess
 import sys
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-import quasistatic_ref
+import quasistatic_ref as qr
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.parts import if_there, needing
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
@@ -19,30 +22,109 @@ from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
 
+PACKAGE = Path(qr.__file__).parent
+MODELS = PACKAGE.parent / "models"
+PARTS = sorted(path.parent.name for path in PACKAGE.glob("optional/*/__init__.py"))
+GRASP = "bunny_grasp"
+
+
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory):
+    """A folder with the package as a wheel has it, but for ``lab/``."""
+    folder = tmp_path_factory.mktemp("copied")
+    ignored = shutil.ignore_patterns("__pycache__", "lab")
+    package = shutil.copytree(PACKAGE, folder / "quasistatic_ref", ignore=ignored)
+    shutil.copytree(MODELS, package / "models")
+    return folder
+
+
+def grasp(copied):
+    """The bits of all arrays of the first steps of the grasp, by a copy of the package."""
+    command = [sys.executable, "-m", "quasistatic_ref", "run", GRASP, "--set", "steps=40"]
+    subprocess.run(command, cwd=copied, check=True)
+    with np.load(copied / "results" / f"{GRASP}.npz") as file:
+        return {name: file[name].tobytes() for name in file.files if name != "header"}
+
+
+@pytest.fixture(scope="module")
+def whole(copied):
+    """Those of the whole package."""
+    return grasp(copied)
+
+
+GONE = ["", *(pytest.param(name, marks=pytest.mark.long) for name in PARTS)]
+
+
+@pytest.mark.parametrize("gone", GONE, ids=lambda name: name or "all parts")
+def test_the_grasp_has_the_same_bits_where_a_part_is_deleted(copied, whole, gone):
+    part = copied / "quasistatic_ref" / "optional" / gone
+    kept = part.rename(copied / "kept")
+    try:
+        assert grasp(copied) == whole
+    finally:
+        kept.rename(part)
+
 
 @pytest.fixture
 def without(monkeypatch):
-    """A function that hides the folder of a part."""
+    """A function that hides the folder of a part, or of all parts."""
 
     def hide(folder):
-        missing = f"quasistatic_ref.optional.{folder}"
+        missing = f"quasistatic_ref.{folder.replace('/', '.')}"
+
+        def find_spec(name, path, target=None):
+            if name == missing:
+                raise ModuleNotFoundError(name=name)
+
         for name in [name for name in sys.modules if f"{name}.".startswith(f"{missing}.")]:
             monkeypatch.delitem(sys.modules, name)
-        monkeypatch.setattr(sys, "meta_path", [Missing(missing), *sys.meta_path])
+        finder = SimpleNamespace(find_spec=find_spec)
+        monkeypatch.setattr(sys, "meta_path", [finder, *sys.meta_path])
 
     return hide
 
 
-class Missing:
-    """A finder of modules to which the folder of a part is missing."""
+OPTIONS = {
+    'law = "coulomb"': ("coulomb", ["--law", "coulomb"]),
+    "strict": ("doctor", ["--strict"]),
+    'cone = "ellipsoid"': ("ellipsoid", ["--cone", "ellipsoid"]),
+    "fast": ("fast", ["--fast"]),
+    'record = "forces"': ("forces", ["--set", "record=forces"]),
+    "qpsolvers:clarabel": ("qpsolvers", ["--backend", "qpsolvers:clarabel"]),
+    "a .ply cloud": ("readers", ["--set", "bodies.bunny.cloud=bunny.ply"]),
+    "view": ("show", ["--view"]),
+}
+"""Words of ``run``, and of each the part that it needs, and the options."""
 
-    def __init__(self, folder):
-        self.folder = folder
 
-    def find_spec(self, name, path, target=None):
-        """As Python asks for it."""
-        if name == self.folder:
-            raise ModuleNotFoundError(name=name)
+@pytest.mark.parametrize("word", OPTIONS)
+@pytest.mark.parametrize("every", [False, True], ids=["a part", "all parts"])
+def test_a_word_is_refused_in_a_sentence_that_names_its_part(without, word, every, tmp_path, cli):
+    part, options = OPTIONS[word]
+    gone = "optional" if every else f"optional/{part}"
+    without(gone)
+    command = ["run", GRASP, "--set", "steps=0", "--out", tmp_path, *options]
+    assert f"{word} needs quasistatic_ref/{gone}\n" in cli(*command, status=2).err
+
+
+STEP = random_step(np.random.default_rng(0))
+NAMES = {
+    "smoothed": ("derivatives", lambda: qr.smoothed),
+    "forces": ("forces", lambda: solve_step(STEP).forces),
+    "extension": (
+        "extensions",
+        lambda: solve_step(STEP, extension=Extension(lambda symbols: [])),
+    ),
+}
+"""Names of Python, and of each the part that it needs."""
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_of_python_needs_its_part(without, name):
+    part, use = NAMES[name]
+    without(f"optional/{part}")
+    with pytest.raises(InputError, match=f"^{name} needs quasistatic_ref/optional/{part}$"):
+        use()
 
 
 def test_a_missing_part_is_one_sentence_and_a_mistaken_name_is_no_missing_part(without):
@@ -52,32 +134,19 @@ def test_a_missing_part_is_one_sentence_and_a_mistaken_name_is_no_missing_part(w
         from quasistatic_ref.optional.show.tabel import data_frame
     with pytest.raises(ModuleNotFoundError, match="no_package_of_this_name"), if_there():
         import no_package_of_this_name  # noqa: F401 it does not exist
-    without("show")
+    without("optional/show")
     reached = []
     with if_there():
         from quasistatic_ref.optional.show.table import data_frame
 
         reached.append(data_frame)
     assert reached == []
-    sentence = r"^tables needs quasistatic_ref/optional/show$"
-    with pytest.raises(InputError, match=sentence), needing("tables"):
-        from quasistatic_ref.optional.show.table import data_frame
-
-
-@pytest.mark.parametrize(
-    ("name", "folder"),
-    [("smoothed", "derivatives"), ("coulomb_step", "coulomb")],
-)
-def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
-    without(folder)
-    with pytest.raises(InputError, match=f"^{name} needs quasistatic_ref/optional/{folder}$"):
-        getattr(quasistatic_ref, name)
 
 
 def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
     scenario = load_scenario("sphere_spin", steps=2)
     whole = scenario.run(progress=False)
-    without("doctor")
+    without("optional/doctor")
     run = scenario.run(progress=False)
     unknown = ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer")
     header = {name: value for name, value in whole.header.items() if name != "scene"}
@@ -88,11 +157,10 @@ def test_a_run_without_doctor_is_recorded_and_written(without, tmp_path, cli):
 
 
 def test_without_pages_data_show_their_fields(without):
-    without("show")
+    without("optional/show")
     scenario = load_scenario("block_push", steps=1)
-    step = random_step(np.random.default_rng(0))
-    assert repr(step).startswith("StepData(h=0.01, K_q=array(")
-    assert "phi=array(" in repr(step.contacts)
+    assert repr(STEP).startswith("StepData(h=0.01, K_q=array(")
+    assert "phi=array(" in repr(STEP.contacts)
     assert repr(scenario.simulator()).startswith("Simulator(system=<")
     run = scenario.run(progress=False)
     assert repr(run).startswith("Trajectory(header={'format': 'quasistatic-ref/trajectory'")
@@ -101,34 +169,12 @@ def test_without_pages_data_show_their_fields(without):
         run.to_pandas()
 
 
-def test_a_solver_a_word_and_a_kind_of_file_need_their_parts(without, tmp_path):
-    step = random_step(np.random.default_rng(0))
-    without("qpsolvers")
-    with pytest.raises(InputError, match=r"^qpsolvers:osqp needs .*/optional/qpsolvers$"):
-        solve_step(step, "qpsolvers:osqp")
-    assert solve_step(step, "osqp").certificate.kind == "exact"
-    without("forces")
-    with pytest.raises(InputError, match=r"^forces needs quasistatic_ref/optional/forces$"):
-        _ = solve_step(step).forces
-    with pytest.raises(InputError, match=r'^record = "forces" needs .*/optional/forces$'):
-        load_scenario("sphere_spin", steps=1, record="forces").run(progress=False)
-    without("fast")
-    with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
-        solve_step(step, fast=True)
-    without("extensions")
-    with pytest.raises(InputError, match=r"^extension needs quasistatic_ref/optional/extensions$"):
-        solve_step(step, extension=Extension(lambda symbols: []))
-    without("readers")
-    with pytest.raises(InputError, match=r"a \.ply cloud needs .*/optional/readers$"):
-        point_cloud(tmp_path / "cloud.ply")
-
-
 def test_a_contact_of_curved_solids_needs_its_part(without):
     can = ShapeInWorld(Cylinder(0.02, 0.05), np.eye(3), np.zeros(3))
     box = ShapeInWorld(Box(np.full(3, 0.1)), np.eye(3), np.array([0.0, 0.0, 0.2]))
     gap = solid_pair("can", can, box).phi
     assert gap == pytest.approx(0.05, rel=ROUNDING)  # 0.2 - 0.1 - 0.05
-    without("curved")
+    without("optional/curved")
     part = "quasistatic_ref/optional/curved"
     with pytest.raises(InputError, match=f"^can: contact of cylinder and box needs {part}$"):
         solid_pair("can", can, box)

@@ -2,10 +2,10 @@
 
 Makes one environment of Python 3.11 with the pinned engines and this project (in a temporary
 folder; ``--environment`` keeps it in a folder of yours, and takes what is there), asks each engine,
-or those named, in a process of its own, and writes ``NAME.json``, the page phenomena.md and the
-picture. ``--tables`` only writes page and picture, from the committed results. An engine that is
-missing, or ends in the middle, and a cell without an answer, such as a state that is no number, are
-named in a sentence each; the others are asked, and the exit status is 2.
+or those named, in a process of its own, and writes ``NAME.json`` and the page phenomena.md.
+``--tables`` only writes the page, from the committed results. An engine that is missing, or ends in
+the middle, and a cell without an answer, such as a state that is no number, are named in a sentence
+each; the others are asked, and the exit status is 2.
 """
 
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.formats.files import text_written
-from validation.programs.engines.table import page, picture
+from validation.programs.engines.table import page
 from validation.tools.scripts import RESULTS, ROOT, environment, record_written, script_options
 
 ENGINES = ("quasistatic", "bullet", "dart", "drake", "mujoco")
@@ -92,7 +92,7 @@ def records(results: Path) -> dict[str, dict[str, Any]]:
 
 
 def main() -> int:
-    """Ask, and write page and picture."""
+    """Ask, and write the page."""
     options = script_options(
         __doc__, ENGINES, out=RESULTS / "engines", environment=Path, tables=False
     )
@@ -107,7 +107,6 @@ def main() -> int:
             python = environment(home, "-e", f"{ROOT}[compared]")
             failures = asked(tuple(options.names or ENGINES), python, options.out)
     text_written(options.out / "phenomena.md", page(records(options.out)))
-    picture(records(options.out)).savefig(options.out / "phenomena.png", dpi=150)
     return 2 if failures else 0
 
 

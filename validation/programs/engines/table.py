@@ -1,14 +1,9 @@
-"""The page and the picture of what engines answered."""
+"""The page of what engines answered."""
 
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from textwrap import fill
 from typing import Any
-
-import matplotlib
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
@@ -18,17 +13,11 @@ CROSSES = tomllib.loads((Path(__file__).parent / "crosses.toml").read_text("utf-
 NOT_ASKED = {"not_meaningful": "not asked: measured before this question existed"}
 SLIDING = 4
 """Phenomena of a body that slides, in a table of their own: both can be read on a page."""
-COLOURS = {"holds": "#bfe3cd", "cross": "#f0a3a3", "none": "#e8e8e8", "shown": "#c9d7ea"}
 
 
-def kind(phenomenon: str, cell: dict[str, Any]) -> str:
-    """What a cell is: holds, cross, none (no value), or shown (not judged)."""
-    if "value" not in cell:
-        return "none"
-    question = PHENOMENA[phenomenon]
-    if question.tolerance == float("inf"):
-        return "shown"
-    return "holds" if question.holds(cell["value"]) else "cross"
+def is_wrong(phenomenon: str, cell: dict[str, Any]) -> bool:
+    """Whether a cell has a value, which is not the answer: it gets a cross."""
+    return "value" in cell and not PHENOMENA[phenomenon].holds(cell["value"])
 
 
 def settings(record: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
@@ -43,7 +32,7 @@ def settings(record: dict[str, Any]) -> dict[str, dict[str, dict[str, Any]]]:
 def crosses(record: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Setting and phenomenon of each cross."""
     for setting, row in settings(record).items():
-        yield from ((setting, name) for name, cell in row.items() if kind(name, cell) == "cross")
+        yield from ((setting, name) for name, cell in row.items() if is_wrong(name, cell))
 
 
 def reason(engine: str, setting: str, phenomenon: str) -> str:
@@ -104,7 +93,7 @@ def words_of(phenomenon: str, cell: dict[str, Any], notes: list[str]) -> str:
     """A cell in words; the reason of one without a value becomes a note."""
     if "value" in cell:
         text = number(cell["value"])
-        return f"**{text}** ✗" if kind(phenomenon, cell) == "cross" else text
+        return f"**{text}** ✗" if is_wrong(phenomenon, cell) else text
     note = cell.get("not_meaningful") or f"no answer: {cell['failed']}"
     if note not in notes:
         notes.append(note)
@@ -127,32 +116,3 @@ def merged(marks: list[tuple[str, str, str, str]]) -> list[tuple[str, str, str, 
         (engine, "; ".join(names), "; ".join(titles), why)
         for (engine, why), (names, titles) in rows.items()
     ]
-
-
-def picture(records: dict[str, dict[str, Any]]) -> Figure:
-    """Every cell: green with its value where it holds, red with a cross where it does not."""
-    rows = [
-        (f"{record['name'].split(' (')[0]}: {setting}", row)
-        for record in records.values()
-        for setting, row in settings(record).items()
-    ]
-    with matplotlib.rc_context({"font.size": 7}):
-        figure = Figure(figsize=(11, 0.24 * len(rows) + 1.2), layout="constrained")
-        axes = figure.subplots()
-        for y, (_, row) in enumerate(rows):
-            for x, (name, cell) in enumerate(row.items()):
-                box = Rectangle(
-                    (x - 0.48, y - 0.46), 0.96, 0.92, facecolor=COLOURS[kind(name, cell)]
-                )
-                axes.add_patch(box)
-                text = number(cell["value"]) if "value" in cell else "–"
-                cross = " ✗" if kind(name, cell) == "cross" else ""
-                axes.text(x, y, text + cross, ha="center", va="center")
-        labels = [fill(f"{p.title} [{p.unit}]", 16) for p in PHENOMENA.values()]
-        axes.set_xticks(range(len(labels)), labels)
-        axes.set_yticks(range(len(rows)), [fill(name, 50) for name, _ in rows])
-        axes.xaxis.tick_top()
-        axes.set(xlim=(-0.5, len(labels) - 0.5), ylim=(len(rows) - 0.5, -0.5))
-        axes.tick_params(length=0)
-        axes.spines[:].set_visible(False)
-    return figure

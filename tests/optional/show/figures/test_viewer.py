@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import Body, InputError, System, load_scenario
 from quasistatic_ref.optional.show.figures.draw import force_scale
@@ -59,13 +60,15 @@ def test_links_move_as_in_the_trajectory(commands, pushed):
     track = tracks(sent, f"links/{link}")
     poses = [scenario.system.kinematics(q) for q in run["q"][:-1:2]]
     np.testing.assert_array_equal(track[".position"], [p.t[link] for p in poses])
+    R = Rotation.from_quat(track[".quaternion"]).as_matrix()
+    np.testing.assert_allclose(R, [p.R[link] for p in poses], rtol=0, atol=ROUNDING)
     (whole,) = [
         c["matrix"] for c in sent if c["type"] == "set_transform" and c["path"] == "/meshcat"
     ]
     assert whole[12:15] == (-CENTRE).tolist()
 
 
-def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushed):
+def test_forces_start_at_beta_along_the_force_and_are_as_long_as_it_is_strong(commands, pushed):
     _, run = pushed
     moments, sent = commands
     for j, _ in enumerate(run.pair_names):
@@ -74,6 +77,11 @@ def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushe
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, 1e-9)
         np.testing.assert_allclose(track[".scale"][:, 1], length, rtol=ROUNDING)
+        along = Rotation.from_quat(track[".quaternion"]).apply([0.0, 1.0, 0.0])
+        world = np.array([moment.contacts[j].force for moment in moments])
+        strong = force > 0
+        arrows = force[strong, None] * along[strong]
+        np.testing.assert_allclose(arrows, world[strong], rtol=ROUNDING, atol=ROUNDING)
     assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
