@@ -220,12 +220,13 @@ def _joints(body: Body, urdf: Urdf, model: pin.Model) -> list[tuple[Joint, Array
         if isinstance(joint, TwistJoint):
             joints.append((joint, np.array(joint.at(np.zeros(3), np.zeros(3)))))
             continue
+        effort = float(model.effortLimit[joint.v.start]) or np.inf
+        joint = replace(joint, effort=effort)
         if joint.unit is None:
             lower = float(model.lowerPositionLimit[joint.q.start])
             upper = float(model.upperPositionLimit[joint.q.start])
             bounded = lower <= upper and written.bounded
-            effort = float(model.effortLimit[joint.v.start]) or np.inf
-            joint = replace(joint, limits=(lower, upper) if bounded else None, effort=effort)
+            joint = replace(joint, limits=(lower, upper) if bounded else None)
         joints.append((joint, np.array(joint.at(body.positions.get(written.name, 0.0)))))
     return joints
 

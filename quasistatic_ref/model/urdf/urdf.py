@@ -189,6 +189,9 @@ def _with_twist_joints(model: pin.Model, kinds: dict[str, type[TwistJoint]]) -> 
     after = [made.idx_qs[i] for i in scalar]
     made.lowerPositionLimit[after] = model.lowerPositionLimit[before]
     made.upperPositionLimit[after] = model.upperPositionLimit[before]
+    turns = [i for i in range(1, model.njoints) if model.nvs[i] == 1]
+    efforts = [model.effortLimit[model.idx_vs[i]] for i in turns]
+    made.effortLimit[[made.idx_vs[i] for i in turns]] = efforts
     for number in range(1, model.nframes):  # frame 0 is the universe
         made.addFrame(model.frames[number], False)  # the joints have the inertias
     return made

@@ -146,3 +146,17 @@ def test_what_a_ball_cannot_is_refused():
         scene(True, actuated=["base"], K_q={"base": 40}, targets=away)
     with pytest.raises(ModelError, match=r"arm\.xyz: is unknown"):
         pendulum(True).placed({"arm": {"xyz": [0, 0, 1]}})
+
+
+@pytest.mark.parametrize("more", ["", "ball before", "ball behind"])
+@pytest.mark.parametrize("kind", ["revolute", "prismatic", "continuous"])
+def test_effort_limits_of_other_joints_stay(kind, more):
+    limit = '<limit lower="-1" upper="1" effort="3" velocity="1"/>'
+    first = joint("first", "hook", "a", kind).replace(
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/>', limit
+    )
+    ball = joint("hip", "hook" if more == "ball before" else "a", "bob", "ball") if more else ""
+    links = [link("hook"), link("a"), *([BOB] if more else [])]
+    system = System([Body("arm", robot(*links, first, ball))])
+    (effort,) = (one.effort for one in system.joints if one.name == "arm/first")
+    assert effort == 3.0
