@@ -23,6 +23,8 @@ INERTIA_TRIANGLE: Final = 1e-6
 
 A flat plate has equality; six printed digits break it by up to 1e-6."""
 
+SAME_MOMENT = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
+"""Attributes that some exporters write beside URDF's own."""
 _MOVING = tuple(JOINTS)
 MOST_LINKS = 1000
 """Most links in a file: urdfdom recurses from link to link, and ends the process at long chains."""
@@ -231,8 +233,13 @@ def _inertial(link: Tag) -> tuple[float, Array, Array, Defect | None, float]:
     if mass < 0:
         raise ModelError("must not be negative", field=f"{inertial.where}.mass", value=mass)
     names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    moments = inertial.child("inertia", *names)
+    moments = inertial.child("inertia", *names, *SAME_MOMENT)
     xx, yy, zz, xy, xz, yz = (moments.number(name) for name in names)
+    for twin, name in SAME_MOMENT.items():
+        moment = moments.number(name)
+        if moments.number(twin, moment) != moment:
+            problem = f"must equal {name}, the same moment"
+            raise ModelError(problem, field=f"{moments.where}.{twin}", value=moments.text(twin))
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     printed = [Decimal(moments.text(name).strip()) for name in ("ixx", "iyy", "izz")]
     digit = min((10.0 ** int(x.as_tuple().exponent) for x in printed if x), default=0.0)

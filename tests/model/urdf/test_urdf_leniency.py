@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref import ModelError
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from tests.closeness import assert_within
-from tests.model.urdf.urdf_texts import collision, link, robot, urdf_of_text
+from tests.model.urdf.urdf_texts import INERTIAL, collision, link, robot, urdf_of_text
 
 LIMIT = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
 J = f'<joint name="j" type="revolute"><parent link="a"/><child link="b"/>{LIMIT}</joint>'
@@ -45,6 +45,15 @@ def test_a_declaration_may_stand_after_a_blank_line_or_a_comment(tmp_path, befor
         before + '<?xml version="1.0" encoding="utf-8"?>\n<robot name="r"><link name="a"/></robot>'
     )
     assert loaded(tmp_path, text).links == ("a",)
+
+
+def test_moments_that_are_written_twice_are_one(tmp_path):
+    twice = INERTIAL.replace('iyz="-0.003"', 'iyz="-0.003" iyx="0.001" izx="0.002" izy="-3e-3"')
+    once, again = (
+        loaded(tmp_path, robot(link("a", inertial=text))).file.links["a"].inertia
+        for text in (INERTIAL, twice)
+    )
+    assert once.tobytes() == again.tobytes()
 
 
 EMPTY = {

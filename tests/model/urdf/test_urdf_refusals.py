@@ -58,6 +58,9 @@ REFUSED = {
     ),
     "indefinite": (TWO, 'ixx="0.02"', 'ixx="-0.02"', "inertia: must be positive definite"),
     "no body": (TWO, 'izz="0.04"', 'izz="0.4"', "inertia: is impossible: the largest"),
+    "two moments in one": (
+        TWO, 'ixy="0.001"', 'ixy="0.001" iyx="0.002"', "inertia.iyx: must equal ixy, the same mom",
+    ),
     "zero axis": (TWO, '"0 0 1"', '"0 0 0"', r"joint\[j\].axis.xyz: must not be zero"),
     "degrees": (TWO, "<limit", '<origin rpy_deg="0 0 90"/><limit', "origin.rpy_deg: is unknown"),
     "floating": (TWO, "revolute", "floating", 'not supported.*base = "floating"'),
