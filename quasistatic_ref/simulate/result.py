@@ -18,6 +18,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.wrenches import ContactsOverSteps
+from quasistatic_ref.step.arrays import freeze_copies
 from quasistatic_ref.step.data import Array, StepData
 
 StepArrays = dict[str, NDArray[Any]]
@@ -31,7 +32,7 @@ class StepResult(Plain, Shown):
     Parameters
     ----------
     q : ndarray, shape (n_q,)
-        Configuration after the step.
+        Configuration after the step; a copy, read-only.
     step : StepData
         The problem of the step.
     solution : StepSolution
@@ -40,7 +41,7 @@ class StepResult(Plain, Shown):
     seconds : dict of str to float
         Wall time of the parts: distances, rows, solve, proof, integrate [s]; not compared.
     q_start : ndarray, shape (n_q,), optional
-        Configuration before the step [m, rad, -].
+        Configuration before the step [m, rad, -]; a copy, read-only.
     scene : Scene, optional
         The system and the pairs; not compared, copied or pickled.
 
@@ -60,6 +61,11 @@ class StepResult(Plain, Shown):
     seconds: dict[str, float] = field(compare=False)
     q_start: Array | None = field(default=None, compare=False)
     scene: Scene | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "q")
+        if self.q_start is not None:
+            freeze_copies(self, "q_start")
 
     @classmethod
     def kept(cls) -> tuple[str, ...]:

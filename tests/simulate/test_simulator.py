@@ -28,6 +28,19 @@ def scenario(tmp_path):
     return load_scenario(written_scenario(tmp_path), fast=True)
 
 
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_result_is_no_others_to_change(fast):
+    scenario = load_scenario("sphere_spin", fast=fast)
+    q = scenario.system.q_start.copy()
+    result = scenario.simulator().step(q, np.zeros(0))
+    before = result.forces_on("sphere")
+    q[0] += 1.0
+    assert (result.forces_on("sphere") == before).all()
+    assert not result.q.flags.writeable
+    listed = scenario.simulator().step(scenario.system.q_start.tolist(), [])
+    assert (listed.forces_on("sphere") == before).all()
+
+
 @pytest.fixture
 def lift(tmp_path):
     """A mass of 2 kg on a vertical slide."""

@@ -184,6 +184,7 @@ class FastSimulator(Simulator):
         lap = Stopwatch()
         change = self._sums.actuated_difference(q, q_bar_a)  # which checks both
         load = checked_force(self.system, force)
+        q = np.asarray(q, np.float64)
         self._poses.move(q)
         self._steps.closest()
         lap("distances")
