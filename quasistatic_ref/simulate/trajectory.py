@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, KeysView, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -113,6 +113,16 @@ class Trajectory(Plain, HasPage):
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.arrays})
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.arrays
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.arrays)
+
+    def keys(self) -> KeysView[str]:
+        """Names of its arrays."""
+        return self.arrays.keys()
 
     def __len__(self) -> int:
         return len(self.arrays["t"])

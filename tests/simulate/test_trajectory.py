@@ -103,6 +103,12 @@ def test_the_header_says_what_the_run_was(run):
     }  # fmt: skip
 
 
+def test_it_is_a_mapping_of_its_arrays(run):
+    assert "phi" in run
+    assert "phii" not in run
+    assert list(run) == list(run.keys()) == list(run.arrays)
+
+
 def test_wall_times_are_kept_in_memory_only(tmp_path, run):
     of_steps = {"distances", "rows", "solve", "proof", "integrate"}
     assert set(run.seconds) == {*of_steps, "record", "findings"}
