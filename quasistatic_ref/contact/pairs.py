@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
 from typing import Final
 
 import numpy as np
@@ -172,7 +174,8 @@ class ContactLayout(Plain):
     @property
     def slots(self) -> tuple[str, ...]:
         """A name for the place of each contact: its pair, and its number within that from 0."""
-        return tuple(f"{name}/{self.names[:i].count(name)}" for i, name in enumerate(self.names))
+        numbers: dict[str, Iterator[int]] = defaultdict(count)
+        return tuple(f"{name}/{next(numbers[name])}" for name in self.names)
 
 
 def contact_layout(pairs: Sequence[ContactPair]) -> ContactLayout:

@@ -14,6 +14,7 @@ from quasistatic_ref import (
     Sphere,
     convex_hull,
 )
+from quasistatic_ref.contact.pairs import ContactLayout
 from tests.contact.still import placed_shape
 
 CLOUD = PointCloud(np.eye(3))
@@ -57,3 +58,10 @@ def test_a_mesh_that_is_not_convex_is_refused_unless_its_hull_will_do():
     with pytest.raises(ContactError, match=r"the mesh of b is not convex: .* 20 % more; say hull"):
         pair(FLOOR, dented)
     assert pair(FLOOR, dented, k=5, hull=True).n_c == 5
+
+
+def test_a_place_is_numbered_within_its_pair():
+    none = np.zeros(4)
+    links = np.zeros(4, int)
+    layout = ContactLayout(("a", "b", "a", "a"), links, links, none, none, links)
+    assert layout.slots == ("a/0", "b/0", "a/1", "a/2")
