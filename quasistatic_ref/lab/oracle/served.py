@@ -125,7 +125,7 @@ class Scenes:
                     words = "a path or a name" if field == "file" else "the tables of a scenario"
                     raise request.error_about(field, f"must be {words}", sent)
                 request.close()
-                if field == "file" and not lies_in(scenario_path(sent), self._folders):
+                if isinstance(sent, str) and not lies_in(scenario_path(sent), self._folders):
                     problem = "is outside of the folder that is served; serve with --root FOLDER"
                     raise request.error_about(field, problem, sent)
                 name = self.add(sent, name)
