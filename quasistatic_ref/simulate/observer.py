@@ -1,16 +1,49 @@
 """What watches a run: before each step, after it, and at the end."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from quasistatic_ref.parts import if_there
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.recorder import Recorder
+    from quasistatic_ref.model.system import System
     from quasistatic_ref.simulate.result import StepArrays, StepResult
+    from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.simulate.target import JointTrack
     from quasistatic_ref.simulate.trajectory import Trajectory
+    from quasistatic_ref.step.arrays import Array
+
+
+class Recording(Protocol):
+    """What an observer asks of a run so far: a :class:`~quasistatic_ref.Recorder`.
+
+    Attributes
+    ----------
+    simulator : Simulator
+    system : System
+    start, q : ndarray, shape (n_q,)
+        Where the run started, and where it is [m, rad, -].
+    steps : int
+        Number of steps so far.
+    tracks : sequence of JointTrack
+        What the targets follow, where the run knows.
+    idle_columns : sequence of str
+        Columns of the targets' table that drive nothing.
+    """
+
+    simulator: "Simulator"
+    system: "System"
+    start: "Array"
+    q: "Array"
+    steps: int
+    tracks: "Sequence[JointTrack]"
+    idle_columns: Sequence[str]
+
+    def noted(self, name: str) -> NDArray[Any]:
+        """What an observer kept of each step so far, shape (steps, ...) [any unit]."""
+        ...
 
 
 class Observer:
@@ -27,11 +60,11 @@ class Observer:
     notes: tuple[str, ...] = ()
     every_step: bool = False
 
-    def before(self, recorder: "Recorder") -> None:
+    def before(self, recorder: Recording) -> None:
         """Before a step from `recorder.q`; a QuasistaticError that is raised here ends the run."""
 
     def after(
-        self, recorder: "Recorder", results: "Sequence[StepResult]", arrays: "StepArrays"
+        self, recorder: Recording, results: "Sequence[StepResult]", arrays: "StepArrays"
     ) -> Mapping[str, ArrayLike]:
         """After a step, or several: numbers (steps, ...) [any unit] that are kept, None for NaN.
 
@@ -39,7 +72,7 @@ class Observer:
 
         Parameters
         ----------
-        recorder : Recorder
+        recorder : Recording
             Which has counted these steps.
         results : sequence of StepResult
             Of the last steps.
@@ -49,9 +82,7 @@ class Observer:
         """
         return {}
 
-    def end(
-        self, recorder: "Recorder", trajectory: "Trajectory", interrupted: bool
-    ) -> "Trajectory":
+    def end(self, recorder: Recording, trajectory: "Trajectory", interrupted: bool) -> "Trajectory":
         """At the end, also of a run that failed: its trajectory, perhaps with another header."""
         return trajectory
 

@@ -11,8 +11,8 @@ from scipy.spatial import ConvexHull
 
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import panels, scaled
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
-from quasistatic_ref.step.data import Array
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: dict[str, Any] = {"alpha": 0.5, "edgecolor": "k"}

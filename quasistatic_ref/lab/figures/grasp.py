@@ -14,7 +14,7 @@ from quasistatic_ref.optional.show.figures.moments import Moment, moment
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 
 LEAST = 0.03
 """Smaller rotations are drawn there [deg]."""

@@ -34,7 +34,7 @@ from quasistatic_ref.simulate.account import (
     PairAccount,
     Stop,
 )
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.observer import Recording
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
@@ -42,7 +42,7 @@ from quasistatic_ref.step.friction import slip_norm
 from quasistatic_ref.tolerances import NEAR, SLIDES, SPINS, TOUCHES
 
 
-def scene_notes(recorder: Recorder) -> dict[str, Any]:
+def scene_notes(recorder: Recording) -> dict[str, Any]:
     """Names and constants that the arrays of a trajectory do not hold.
 
     Returns

@@ -24,8 +24,7 @@ from quasistatic_ref.optional.doctor.checks import (
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.simulate.finding import finding_table
-from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.observer import Observer, Recording
 from quasistatic_ref.simulate.result import StepArrays, StepResult
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array, StepData
@@ -46,7 +45,7 @@ class Doctor(Observer):
         self.printed = printed
 
     def after(
-        self, recorder: Recorder, results: Sequence[StepResult], arrays: StepArrays
+        self, recorder: Recording, results: Sequence[StepResult], arrays: StepArrays
     ) -> dict[str, Array]:
         """What is read at the end, of each step.
 
@@ -71,7 +70,7 @@ class Doctor(Observer):
             "layer": boundary_layer(gap, arrays["wrench"]),
         }
 
-    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
+    def end(self, recorder: Recording, trajectory: Trajectory, interrupted: bool) -> Trajectory:
         """The trajectory with its findings."""
         of = Start(recorder.simulator, recorder.start)
         checks: tuple[Check, ...] = OF_SCENE

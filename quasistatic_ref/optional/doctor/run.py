@@ -15,7 +15,8 @@ from quasistatic_ref.optional.doctor.compared import Compared, RunStep
 from quasistatic_ref.optional.doctor.start import SHORT, Start, least
 from quasistatic_ref.simulate.account import PairAccount
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.recorder import POINTS, Recorder
+from quasistatic_ref.simulate.observer import Recording
+from quasistatic_ref.simulate.recorder import POINTS
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.choice import solver_for
 from quasistatic_ref.solve.solve import solve_step
@@ -34,11 +35,11 @@ class Run(Start):
 
     Parameters
     ----------
-    recorder : Recorder
+    recorder : Recording
     trajectory : Trajectory
     """
 
-    def __init__(self, recorder: Recorder, trajectory: Trajectory) -> None:
+    def __init__(self, recorder: Recording, trajectory: Trajectory) -> None:
         super().__init__(recorder.simulator, recorder.start)
         self.recorder = recorder
         self.trajectory = trajectory

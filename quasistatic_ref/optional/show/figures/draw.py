@@ -27,7 +27,7 @@ from quasistatic_ref.optional.show.figures.pens import (
 )
 from quasistatic_ref.optional.show.figures.style import legend_above, scaled
 from quasistatic_ref.optional.show.loads import BEARING
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 
 PARTS: Final = ("contacts", "frames", "cones", "forces")
 """What of contacts can be drawn."""

@@ -18,8 +18,8 @@ from quasistatic_ref.optional.show.figures.looks import (
     force_arrow,
 )
 from quasistatic_ref.optional.show.figures.style import legend_above
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.cones import cone, cone_matrix
-from quasistatic_ref.step.data import Array
 
 FAINT: Final = 0.5
 """Opacity of a cone, in which a load is seen [-]."""

@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.style import scaled
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.model.system import System

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.show.loads import bearing, shown_forces
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 
 SLIP = 1e-9
 """A contact that bears load slides where beta moves along the tangents by more in a step, or turns

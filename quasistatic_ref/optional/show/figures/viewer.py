@@ -35,7 +35,7 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.arrays import Array
 
 FRAMES_PER_SECOND = 30
 LONGEST = 0.25
