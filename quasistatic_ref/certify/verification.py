@@ -29,6 +29,7 @@ from quasistatic_ref.certify.minimiser import (
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.precision import working_precision
+from quasistatic_ref.step.arrays import checked_numbers
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, group_steps
 
@@ -63,6 +64,8 @@ def verify(
 
     Raises
     ------
+    StepDataError
+        If delta_q or lam are no numbers.
     InputError
         If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
 
@@ -75,6 +78,8 @@ def verify(
     """
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
+    delta_q = checked_numbers(delta_q, "delta_q")
+    lam = None if lam is None else checked_numbers(lam, "lam")
     lengths = {"delta_q": (delta_q, step.n_v), "lam": (lam, step.m)}
     for name, (x, length) in lengths.items():
         if x is not None and np.shape(x) != (length,):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref import Extra, solve_step, verify
+from quasistatic_ref import Extra, StepDataError, solve_step, verify
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
@@ -108,3 +108,14 @@ def test_a_certificate_says_which_step_it_is_about(cone, certify):
         assert pickle.loads(pickle.dumps(claims)).is_of(same)
     verdict = verify(other, solution.delta_q, claims.active, solution.lam, claims)
     assert verdict.reason == "the certificate is of another step"
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid"])
+def test_lists_are_verified_as_arrays_are(cone):
+    step = point_on_floor(force=(0.1, 0.0, -1.0)).replace(cone=cone)
+    solution = solve_step(step)
+    certificate = solution.certificate
+    lists = solution.delta_q.tolist(), certificate.active, solution.lam.tolist(), certificate
+    assert verify(step, *lists)
+    with pytest.raises(StepDataError, match=r"^delta_q: "):
+        verify(step, "12", certificate.active)
