@@ -29,6 +29,7 @@ p'(z_c + c p_c) >= 0, and so \|x_c - x\|_H^2 = h (p_c - p)'(z_c - z) <= h c p_c'
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -156,12 +157,13 @@ def _of_group(step: StepData, c: float, near: tuple[Array, Array]) -> ContactFor
         wrench = p[:, WRENCH]
     n_c = step.contacts.n_c
     load = float(wrench[:, 2].sum())
+    gap = c * load  # that this load closes by compliance [m]; a subnormal load may leave zero
     return ContactForces(
         wrench,
         delta_q,
         compliance=np.full(n_c, c),
         imbalance=_left(step, wrench, near[0] - delta_q),
-        sensitivity=float(np.sqrt(n_c)) / (c * load) if load else 0.0,
+        sensitivity=float(np.sqrt(n_c)) / gap if gap else (math.inf if load else 0.0),
     )
 
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import (
+    Contacts,
     Extra,
     InputError,
     StepData,
@@ -370,3 +371,14 @@ def test_whatever_should_not_matter_does_not(monkeypatch):
     wrong = np.nextafter(contact_forces(step).wrench, 1.0)
     monkeypatch.setattr(checks, "independent_forces", lambda *_: wrong)
     assert checks.differences(step, oracle=True)["independent"] == 1
+
+
+@pytest.mark.parametrize("load", [5e-324, 1e-320, 1e-315, 1e-300])
+def test_forces_of_a_tiny_load_are_that_load(load):
+    """But for the millionth that the compliance leaves."""
+    up = [[[0.0], [0.0], [1.0], [0.0]]]
+    n, d1, d2 = np.eye(3)[[2, 0, 1], None]
+    touch = Contacts(("c",), [0.0], n, d1, d2, up, mu_v=[0.0], mu_omega=[0.0], rows=[4])
+    step = StepData(1.0, np.zeros((0, 0)), [[0.5]], [], [-load], [], contacts=touch)
+    solution = solve_step(step)
+    assert solution.forces[0].tolist() == [0.0, 0.0, pytest.approx(load, rel=1e-6, abs=0.0), 0.0]
