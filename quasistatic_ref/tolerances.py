@@ -216,7 +216,7 @@ STALLED: Final = 0.25
 """The same distance over the shape that presses [-], of what is to push and not to press."""
 
 CREEP: Final = 1e-4
-"""Speed up to which a contact of another simulator holds [m/s]: 6 mm in a minute. Friction that is
+"""Speed up to which a contact of MuJoCo's holds [m/s]: 6 mm in a minute. Friction that is
 regularised yields to any force, so that some speed has to count as none."""
 
 FAST: Final = 0.1
@@ -230,14 +230,14 @@ body creeps [-]: what falls or swings from rest is three times as fast."""
 
 INSIDE_CONE: Final = 0.98
 """Share of a contact's limit up to which its friction could bear more [-]: a contact that slides is
-at its limit but for the error of the other solver, some 0.1 %."""
+at its limit but for the error of MuJoCo's solver, some 0.1 %."""
 
 PIERCES: Final = 0.25
 """Depth of two bodies in each other over the size of the smaller one, from its centre of mass to
 its farthest point, above which they are not rigid, whatever presses them there [-]."""
 
 PRESSES: Final = 2.0
-"""Normal forces of another simulator over the exact ones, from which on penetration counts as their
+"""Normal forces of MuJoCo's over the exact ones, from which on penetration counts as their
 cause [-]: forces that no load determines differ by some per cent at rest."""
 
 FORCES_AGREE: Final = 0.01

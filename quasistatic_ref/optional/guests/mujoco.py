@@ -5,29 +5,25 @@ No geometry is translated. Contacts, frames, friction, Jacobians, masses and for
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError, ModelError
+from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.guests import constraints, touches
 from quasistatic_ref.optional.guests.fates import check, kind_of
 from quasistatic_ref.optional.guests.loads import Spring, diagonal_of_H, loads
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural, moved, mujoco_state
-from quasistatic_ref.optional.guests.state_step import (
-    Coordinates,
-    contacts_of,
-    dropped,
-    quasi_dynamic_number,
-)
 from quasistatic_ref.parts import needing
 from quasistatic_ref.solve.units import coordinate_units
-from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.arrays import Array, Indices, freeze_copies
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.extension import Rises
-from quasistatic_ref.tolerances import FULL_RANK, LIGHT
+from quasistatic_ref.tolerances import DEEP, FULL_RANK, LIGHT
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
@@ -35,6 +31,33 @@ if TYPE_CHECKING:
 DEPTHS = ("closed", "as is")
 AXES = {"FREE": ("x", "y", "z", "rx", "ry", "rz"), "BALL": ("rx", "ry", "rz")}
 """Coordinates of a joint: of a free one, along the world's axes and about the body's own."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates(Plain):
+    """Where the coordinates of a step are in MuJoCo, and what the step leaves out.
+
+    Parameters
+    ----------
+    names : tuple of str, length n_v
+        ``joint[knee]``, ``joint[cap].rx``, ``friction of joint[knee]``.
+    T : ndarray, shape (nv, n_v)
+        MuJoCo's displacement, per unit of delta_q [-]: what ``mj_integratePos`` takes is T delta_q,
+        with dt = 1.
+    left_out : tuple of str
+        What the step does not have, or holds as it is: one sentence for each.
+    quasi_dynamic_number : float
+        Largest v / (mu_v g h) of the contacts with friction, of the speed v that was dropped [-]:
+        the drag of the model on that motion, over the friction. It is inf without gravity.
+    """
+
+    names: tuple[str, ...]
+    T: Array
+    left_out: tuple[str, ...]
+    quasi_dynamic_number: float
+
+    def __post_init__(self) -> None:
+        freeze_copies(self, "T")
 
 
 def mujoco_step(
@@ -114,7 +137,7 @@ def step_with(
     every = touches.contacts(state)
     free = touches.held(every, scale, held.basis)
     kept = [contact for contact, is_free in zip(every, free, strict=True) if not is_free]
-    contacts = contacts_of(kept, T, as_is)
+    contacts = touches.step_contacts(kept, T, as_is)
     tau = T.T @ (of_state.others + drag)
     rows = [row for row in (*limits, *held.rows) if row.holds]
     extra = constraints.extra_of(rows, T.shape[1])
@@ -142,8 +165,18 @@ def step_with(
         step = with_rises(step, rises)
     names = (*(coordinate_name(state, dof) for dof in tied.dofs.tolist()), *rubbed)
     T = np.pad(T, ((0, 0), (0, len(rubbed))))
-    number = quasi_dynamic_number(every, data.qvel, model.opt.gravity, h)
+    number = touches.quasi_dynamic_number(every, data.qvel, model.opt.gravity, h)
     return step, Coordinates(names, T, left_out, number)
+
+
+def dropped(v: Array, every: Sequence[touches.StateContact]) -> Iterator[str]:
+    """What any step leaves out: a velocity v, (nv,), and the depth of bodies in each other."""
+    for contact in every:
+        if contact.phi < -DEEP:
+            depth = f"its bodies penetrate by {-1e3 * contact.phi:.3g} mm"
+            yield f"contact[{contact.name}]: {depth}"
+    if v.any():
+        yield f"velocity: dropped; its largest component is {np.abs(v).max():.2g}"
 
 
 def actuated(state: MujocoState, springs: Sequence[Spring], T: Array) -> tuple[Indices, int, Array]:

@@ -3,33 +3,28 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator
-from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import in_world
-from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.guests import touches
-from quasistatic_ref.optional.guests.compared import WINDOW, Mover, MujocoAnswer
+from quasistatic_ref.optional.guests.compared import WINDOW, Compared, Mover, MujocoAnswer
 from quasistatic_ref.optional.guests.fates import kind_of
-from quasistatic_ref.optional.guests.findings import APART, Named
+from quasistatic_ref.optional.guests.findings import findings, not_unique
 from quasistatic_ref.optional.guests.mujoco import step_with
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, awake, mujoco_state
-from quasistatic_ref.optional.guests.opinion import Opinion, opinion_of
-from quasistatic_ref.optional.guests.places import KINDS_OF_GEOMS, candidates, geom_kind, placed
+from quasistatic_ref.optional.guests.opinion import Opinion
+from quasistatic_ref.optional.guests.overlaps import misplaced, unlisted
 from quasistatic_ref.optional.guests.settled import run, velocities
-from quasistatic_ref.optional.guests.state_step import Coordinates
-from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.step.data import StepData
-from quasistatic_ref.tolerances import CREEP, DEEP, PIERCES
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.tolerances import CREEP
 
 if TYPE_CHECKING:
     from mujoco import MjData, MjModel
 
-
+SHORT = 0.01
+"""Time step for forces of what slides, over MuJoCo's [-]: lift-off is 1e-4 of the former."""
 DRAG = "dampers: their forces at the present velocity are loads"
 
 
@@ -74,18 +69,56 @@ def second_opinion(
     >>> opinion.findings, round(opinion.contacts[0].exact.normal, 4)  # a quarter of 1 kg [N]
     ((), 2.4525)
     """
+    if not 0 < tolerance < np.inf:
+        raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
     state = mujoco_state(model, data)
     state.run()
-    active = awake(model)
     now = copy.copy(data)
-    state.mujoco.mj_forward(active, now)
+    state.mujoco.mj_forward(awake(model), now)
+    theirs = _answer(state, data, now)
+    rest = state.data
+    drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
+    h = float(model.opt.timestep)
+    step, coordinates = step_with(model, data, h, "closed", drag)
+    T = coordinates.T
+    answer = solve_step(step)
+    exact = T @ answer.delta_q / h
+    both = Compared(theirs, answer, exact / h, exact)
+    contacts = tuple(both.contacts())
+    if any(c.exact and c.exact.slip > tolerance for c in contacts):
+        # What slides lifts off by a part of its way, about a h^2, against what presses it.
+        short = solve_step(step_with(model, data, h * SHORT, "closed", drag)[0])
+        both = Compared(theirs, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
+        contacts = tuple(both.contacts())
+    bodies = tuple(both.bodies())
+    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
+    every = [*findings(contacts, bodies, weight, tolerance, model), *unlisted(state)]
+    if start is not None:
+        first = mujoco_state(model, start)
+        first.run()
+        every += misplaced(first)
+    left_out = [*not_unique(contacts, bodies, weight), *coordinates.left_out]
+    if drag.any():
+        left_out.append(DRAG)
+    moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
+    if {*moving} - {body for body, _ in every}:
+        still = f"in MuJoCo, these still move: {', '.join(moving)}; a state at rest says more"
+        left_out.insert(0, still)
+    return Opinion(
+        h, tolerance, answer.certificate.kind, contacts, bodies, tuple(one for _, one in every),
+        tuple(left_out),
+    )  # fmt: skip
+
+
+def _answer(state: MujocoState, data: MjData, now: MjData) -> MujocoAnswer:
+    """What MuJoCo says of a state: at rest, as the user has it, and `now`, after ``mj_forward``."""
+    model = state.model
+    active = awake(model)
     moves = copy.copy(now)
     if data.ntree_awake < model.ntree:  # what has slept moves as before after a while
         run(active, moves, WINDOW)
     mean, later = velocities(active, moves, WINDOW)
-    rest = state.data
-    drag = now.qfrc_passive + now.qfrc_actuator - rest.qfrc_passive - rest.qfrc_actuator
-    theirs = MujocoAnswer(
+    return MujocoAnswer(
         contacts=tuple(touches.contacts(state)),
         wrenches=touches.forces(state, now),
         movers=tuple(_mover(state, b) for b in np.flatnonzero(model.body_jntnum).tolist()),
@@ -96,19 +129,6 @@ def second_opinion(
         mean=mean,
         later=later,
     )
-
-    def step_of(h: float) -> tuple[StepData, Coordinates]:
-        """The step of the state under what its dampers bear at its velocity."""
-        step, coordinates = step_with(model, data, h, "closed", drag)
-        left_out = (*coordinates.left_out, *([DRAG] if drag.any() else []))
-        return step, replace(coordinates, left_out=left_out)
-
-    overlaps = [*_unlisted(state)]
-    if start is not None:
-        first = mujoco_state(model, start)
-        first.run()
-        overlaps += _misplaced(first)
-    return opinion_of(theirs, step_of, model, tolerance, overlaps)
 
 
 def _mover(state: MujocoState, b: int) -> Mover:
@@ -130,60 +150,3 @@ def _mover(state: MujocoState, b: int) -> Mover:
     far = np.linalg.norm(state.data.geom_xpos[geoms] - centre, axis=1)
     size = float((far + model.geom_rbound[geoms]).max(initial=0.0))
     return Mover(state.called("body", b), mass, size, bool(free), linear, angular)
-
-
-class _Overlap(NamedTuple):
-    """Two geoms in each other.
-
-    Parameters
-    ----------
-    geoms : tuple of int
-        By their numbers.
-    depth : float
-        [m].
-    """
-
-    geoms: tuple[int, int]
-    depth: float
-
-
-def _unlisted(state: MujocoState) -> Iterator[Named]:
-    """Findings on geoms that are deep in each other, and that MuJoCo lists no contact of."""
-    listed = {tuple(sorted(touch.geom.tolist())) for touch in state.data.contact}
-    for overlap in _overlaps(state):
-        if overlap.geoms not in listed and overlap.depth > DEEP:
-            yield _penetrates(state, overlap, "now, without a contact of MuJoCo's")
-
-
-def _misplaced(state: MujocoState) -> Iterator[Named]:
-    """Findings on geoms that start so deep in each other that they cannot be meant to be there."""
-    radii = state.model.geom_rbound
-    for overlap in _overlaps(state):
-        least = min(radii[g] for g in overlap.geoms if radii[g] > 0)
-        if overlap.depth > PIERCES * least:
-            yield _penetrates(state, overlap, "at the start")
-
-
-def _penetrates(state: MujocoState, overlap: _Overlap, when: str) -> Named:
-    """The finding about two geoms, whatever MuJoCo makes of them."""
-    a, b = overlap.geoms
-    body, other = touches.mover_name(state, a), touches.mover_name(state, b)
-    if body == "world":
-        body, other = other, body
-    depth = 1e3 * overlap.depth
-    geoms = f"{state.called('geom', a)}/{state.called('geom', b)}"
-    cause = f"{geoms}: {body} and {other} overlap by {depth:.3g} mm {when}"
-    return body, Finding("penetrates", True, APART, cause, {"depth_mm": depth})
-
-
-def _overlaps(state: MujocoState) -> Iterator[_Overlap]:
-    """All pairs of geoms that MuJoCo's filters let touch, and that are in each other."""
-    R = state.data.xmat.reshape(-1, 3, 3)
-    for touch in candidates(state):
-        a, b = sorted(touch.geom.tolist())
-        if {geom_kind(state, a), geom_kind(state, b)} <= {*KINDS_OF_GEOMS}:
-            sides = (placed(state, a), placed(state, b))
-            pair = ContactPair(f"{a}/{b}", *sides, 0.0, 0.0, rows=4, k=1)
-            phi = solid_pair(pair.name, *in_world(pair, R, state.data.xpos)).phi
-            if phi < 0:
-                yield _Overlap((a, b), -phi)

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import aligned
-from quasistatic_ref.optional.guests.compared import Body, Compared, Contact, MujocoAnswer
-from quasistatic_ref.optional.guests.findings import Named, findings, not_unique
-from quasistatic_ref.optional.guests.state_step import Coordinates
+from quasistatic_ref.optional.guests.compared import Body, Contact
 from quasistatic_ref.simulate.finding import Finding, finding_table
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import StepData
-
-if TYPE_CHECKING:
-    from mujoco import MjModel
 
 FORMAT, VERSION, ENGINE = "quasistatic-ref/opinion", 3, "MuJoCo"
 SHOWN = 1e-6
 """Smallest number that is printed, in its unit; a difference, in a thousandth of what differs."""
-SHORT = 0.01
-"""Time step for forces of what slides, over MuJoCo's [-]: lift-off is 1e-4 of the former."""
 MOST_LINES = 5
 """Sentences about what is left out that are printed."""
 
@@ -181,56 +171,3 @@ def _table(
 def _digits(number: float, size: float = 1.0) -> str:
     """Three digits of a number; zero for what is rounding of `size`."""
     return f"{number if abs(number) > SHOWN * size else 0.0:.3g}"
-
-
-def opinion_of(
-    theirs: MujocoAnswer,
-    step_of: Callable[[float], tuple[StepData, Coordinates]],
-    model: MjModel,
-    tolerance: float,
-    overlaps: Sequence[Named],
-) -> Opinion:
-    """The exact answer next to MuJoCo's, and what is found.
-
-    Parameters
-    ----------
-    theirs : MujocoAnswer
-    step_of : callable
-        The step of the state with a time step [s].
-    model : mujoco.MjModel
-    tolerance : float
-        Speed up to which a contact holds [m/s].
-    overlaps : sequence of (str, Finding)
-        About bodies in each other that contacts do not tell.
-
-    Raises
-    ------
-    InputError
-        If `tolerance` is not positive.
-    """
-    if not 0 < tolerance < np.inf:
-        raise InputError("must be a positive speed [m/s]", field="tolerance", value=tolerance)
-    h = float(model.opt.timestep)
-    weight = float(model.body_mass.sum() * np.linalg.norm(model.opt.gravity))
-    step, coordinates = step_of(h)
-    T = coordinates.T
-    answer = solve_step(step)
-    exact = T @ answer.delta_q / h
-    both = Compared(theirs, answer, exact / h, exact)
-    contacts = tuple(both.contacts())
-    if any(c.exact and c.exact.slip > tolerance for c in contacts):
-        # What slides lifts off by a part of its way, about a h^2, against what presses it.
-        short = solve_step(step_of(h * SHORT)[0])
-        both = Compared(theirs, short, T @ short.delta_q / (h * SHORT) ** 2, exact)
-        contacts = tuple(both.contacts())
-    bodies = tuple(both.bodies())
-    every = [*findings(contacts, bodies, weight, tolerance, model), *overlaps]
-    left_out = [*not_unique(contacts, bodies, weight), *coordinates.left_out]
-    moving = [body.name for body in bodies if body.fastest(body.theirs) > tolerance]
-    if {*moving} - {body for body, _ in every}:
-        still = f"in MuJoCo, these still move: {', '.join(moving)}; a state at rest says more"
-        left_out.insert(0, still)
-    return Opinion(
-        h, tolerance, answer.certificate.kind, contacts, bodies, tuple(one for _, one in every),
-        tuple(left_out),
-    )  # fmt: skip

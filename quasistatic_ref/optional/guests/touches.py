@@ -1,16 +1,16 @@
-"""The contacts that MuJoCo finds."""
+"""The contacts that MuJoCo finds, and as a step has them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.guests.mujoco_state import MujocoState, Natural
-from quasistatic_ref.optional.guests.state_step import StateContact
 from quasistatic_ref.step.arrays import Array, Mask
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.tolerances import DEEP
 
 if TYPE_CHECKING:
@@ -19,6 +19,49 @@ if TYPE_CHECKING:
 USED_OR_IN_GAP = (0, 1)
 """Values of ``exclude`` of contacts that a step has."""
 HELD = "left out: joints or equalities hold its bodies along the normal, and bear any force there"
+
+
+class StateContact(NamedTuple):
+    """A contact of a state: one point of two geoms.
+
+    Parameters
+    ----------
+    name : str
+    pair : str
+        What touches, as of all contacts of the two geoms.
+    bodies : tuple of str
+        Alpha's and beta's; ``"world"`` for what cannot move.
+    phi : float
+        [m].
+    closed : bool
+        Whether its gap counts as zero, unless gaps are taken as they are.
+    frame : ndarray, shape (3, 3)
+        n, d1, d2 [-].
+    J : ndarray, shape (4, nv)
+        Of Eq. :eq:`eq-3`, along MuJoCo's velocities.
+    mu_v, mu_omega : float
+        [-, m].
+    rows : int
+    """
+
+    name: str
+    pair: str
+    bodies: tuple[str, str]
+    phi: float
+    closed: bool
+    frame: Array
+    J: Array
+    mu_v: float
+    mu_omega: float
+    rows: int
+
+    def slip(self, v: Array) -> float:
+        """Speed of one surface along the other at a velocity v, (nv,) [m/s]."""
+        return float(np.linalg.norm(self.frame[1:] @ (self.J @ v)[:3]))
+
+    def spin(self, v: Array) -> float:
+        """Rate about the normal at a velocity v, (nv,) [rad/s]."""
+        return float(abs(self.J[3] @ v))
 
 
 def numbers(state: MujocoState) -> list[int]:
@@ -135,3 +178,42 @@ def forces(state: MujocoState, data: MjData) -> Array:
         state.mujoco.mj_contactForce(state.model, data, i, its[i])
     its[:, 0] += data.contact.adhesion
     return its[numbers(state)][:, [1, 2, 0, 3]]
+
+
+def step_contacts(every: Sequence[StateContact], T: Array, as_is: bool) -> Contacts:
+    """Contacts of a step, of whose coordinates T, (nv, n_v), makes MuJoCo's velocities [-]."""
+    frames = np.array([contact.frame for contact in every]).reshape(-1, 3, 3)
+    phi = np.array([contact.phi for contact in every])
+    closed = np.array([contact.closed for contact in every], dtype=bool)
+    return Contacts(
+        name=tuple(contact.name for contact in every),
+        phi=phi if as_is else np.where(closed, 0.0, phi),
+        n=frames[:, 0],
+        d1=frames[:, 1],
+        d2=frames[:, 2],
+        J=np.array([contact.J for contact in every]).reshape(-1, 4, len(T)) @ T,
+        mu_v=np.array([contact.mu_v for contact in every]),
+        mu_omega=np.array([contact.mu_omega for contact in every]),
+        rows=np.array([contact.rows for contact in every], dtype=np.int64),
+    )
+
+
+def quasi_dynamic_number(
+    every: Sequence[StateContact], v: Array, gravity: Array, h: float
+) -> float:
+    """Largest v / (mu_v g h) of closed contacts, v the speed at which one slides [-].
+
+    Parameters
+    ----------
+    every : sequence of StateContact
+    v : ndarray, shape (nv,)
+        MuJoCo's velocity.
+    gravity : ndarray, shape (3,)
+    h : float
+    """
+    rubbing = [contact for contact in every if contact.closed and contact.mu_v]
+    fastest = max((contact.slip(v) / contact.mu_v for contact in rubbing), default=0.0)
+    g = float(np.linalg.norm(gravity))
+    if not fastest:
+        return 0.0
+    return fastest / (g * h) if g else np.inf
