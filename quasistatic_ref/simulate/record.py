@@ -28,6 +28,14 @@ FORCES = ("forces", "imbalance", "motion")
 """What a record of forces adds to a light one."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
+OF_STEP = ("t", "certificate", "worst_residual", "digits", "imbalance")
+"""Arrays with one entry a step."""
+OF_CONTACT = {
+    **dict.fromkeys(("phi", "point"), ()),
+    **dict.fromkeys(("alpha", "beta", "n", "d1", "d2"), (3,)),
+    **dict.fromkeys(("wrench", "forces", "motion"), (4,)),
+}
+"""Shape of an entry of arrays that have one for each contact in each step."""
 COST = ("extra_H", "extra_g")
 """What a quadratic cost of an extension adds to a full record."""
 
@@ -90,6 +98,17 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
             raise InputError(problem, field=name, value=arrays[name].shape)
+    n_c = arrays["rows"].size
+    of_steps = {name: (steps, n_c, *shape) for name, shape in OF_CONTACT.items()}
+    of_steps |= dict.fromkeys(OF_STEP, (steps,))
+    shapes = {**dict.fromkeys(CONSTANT, (n_c,)), **(of_steps if steps else {})}
+    for name, shape in shapes.items():
+        if name in arrays and arrays[name].shape != shape:
+            problem = f"must have shape {shape}"
+            raise InputError(problem, field=name, value=arrays[name].shape)
+    if steps and full and arrays["J"].shape[:3] != (steps, n_c, 4):
+        problem = f"must have shape {(steps, n_c, 4, 'n_v')}"
+        raise InputError(problem, field="J", value=arrays["J"].shape)
     multipliers = sum(friction.counts(arrays["rows"]).tolist())
     if steps and arrays["lam"][0].size < multipliers:
         problem = f"must have {multipliers} multipliers a step, as the rows of contacts say"

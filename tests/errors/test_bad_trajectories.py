@@ -131,9 +131,16 @@ CAUSES = {
     "rows of an extension that are not there": (
         lambda run: rewritten(run, header={"extra": ["a"]}), "has no array named 'extra_A'",
     ),
-    "an array of another shape": (
-        lambda run: rewritten(run, {"phi": npy(np.zeros((3, 5)))}), "contacts.phi: must have shape",
-    ),
+    **{
+        f"{name} of another shape": (
+            lambda run, name=name, array=array: rewritten(run, {name: npy(array)}),
+            f" {name}: must have shape ",
+        )
+        for name, array in {
+            "phi": np.zeros((3, 5)), "wrench": np.zeros((3, 1, 4)), "J": np.zeros((3, 2, 3, 8)),
+            "t": np.zeros((3, 1)), "mu_v": ZEROS[:1], "rows": np.full((2, 1), 6),
+        }.items()
+    },
 }  # fmt: skip
 
 
