@@ -32,7 +32,6 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",
     "scenario.scenario": "Scenario load_scenario",
-    "optional.scene_files.scene_file": "scenario_written",
     "optional.scans.body": "scanned_body",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",

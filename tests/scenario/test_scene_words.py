@@ -9,6 +9,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.scenes.systems import RAIL
+from quasistatic_ref.scenario.world_solids import SOLIDS, solid_table
 
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "door"])
@@ -99,3 +100,21 @@ def test_a_body_whose_root_link_has_no_shape_is_answered_with_the_shapes_that_it
     scene["contacts"]["floor"]["beta"] = "hand"
     with pytest.raises(InputError, match=r"beta: has no collision shape; .*known: hand/\*, hand/"):
         qr.load_scenario(scene)
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        qr.HalfSpace((0, 0, 2), 0.1),
+        qr.Box((0.05, 0.06, 0.07)),
+        qr.Sphere(0.1),
+        qr.Cylinder(0.02, 0.1),
+        qr.Capsule(0.02, 0.1),
+        qr.Cone(0.02, 0.1),
+        qr.Ellipsoid((0.01, 0.02, 0.03)),
+    ],
+)
+def test_a_solid_is_itself_in_the_words_of_a_table(solid):
+    kind, sizes = solid_table(solid, "solid")
+    fields = {name: np.array(x) if isinstance(x, list) else x for name, x in sizes.items()}
+    assert SOLIDS[kind].made(None, "solid", **fields) == solid

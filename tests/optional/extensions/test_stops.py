@@ -164,12 +164,3 @@ def test_a_users_extension_stands_beside_the_stops():
     run = pushed_drawer(scenario, 0.0, 2, lambda q: push)
     assert set(run["certificate"].tolist()) == {"exact"}
     assert run["q"][-1, 0] == 0.002
-
-
-def test_a_written_scenario_keeps_its_stops(tmp_path):
-    scenario = qr.load_scenario(scene(drawer()))
-    path = qr.scenario_written(scenario, tmp_path / "scene.toml")
-    again = qr.load_scenario(path)
-    runs = [pushed_drawer(one, 40.0, 3) for one in (scenario, again)]
-    assert runs[0]["q"].tolist() == runs[1]["q"].tolist()
-    assert runs[1]["q"][-1, 0] == pytest.approx(0.002, rel=ROUNDING)

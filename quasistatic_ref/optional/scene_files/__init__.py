@@ -1,1 +1,0 @@
-"""Scenes made in Python, written as files."""
