@@ -107,31 +107,6 @@ def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEP
     return ends
 
 
-def main() -> dict[str, float]:
-    """M_u and tau_u less those by hand; the fall of a step, and its turn without the coupling."""
-    system, q, c, inertia = rod()
-    R = system.kinematics(q).R[system.link("rod")]
-    M_u = system.M_u(q)
-    tau_u = system.gravity_force(q, [0, 0, -GRAVITY])
-    (start, _), (end, _) = falls(LENGTH, TILT, H, coupled=True, steps=1)
-    wrong = np.diff(falls(LENGTH, TILT, H, coupled=False, steps=1), axis=1)[:, 0]
-    turn = np.arctan2(*wrong[0, [2, 0]]) - np.arctan2(*wrong[1, [2, 0]])
-    about = M * LENGTH**2 / 3
-    return {
-        "largest entry of M_u less M_u by hand [kg m]": np.abs(
-            M_u - mass_matrix(M, c, inertia)
-        ).max(),
-        "none [kg m]": 0.0,
-        "largest entry of tau_u less tau_u by hand [N]": np.abs(tau_u - weight(M, c, R)).max(),
-        "none [N]": 0.0,
-        "fall of a step [mm]": 1e3 * float(start[2] - end[2]),
-        "h^2 g [mm]": 1e3 * H**2 * GRAVITY,
-        "turn of a step without the coupling [rad]": float(turn),
-        "h^2 m g (l / 2) cos(tilt) / (m l^2 / 3) [rad]": H**2 * M * GRAVITY * LENGTH / 2
-        * float(np.cos(np.radians(TILT))) / about,
-    }  # fmt: skip
-
-
 def figure(*, length: float = LENGTH, tilt: float = TILT, h: float = H) -> Figure:
     """Origin, centre of mass and weight; and the rod's fall, with the coupling and without.
 

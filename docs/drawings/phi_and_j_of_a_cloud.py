@@ -14,7 +14,6 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.figures.labels import label_axes
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
-from quasistatic_ref.lab.thresholds import slope
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape
@@ -82,19 +81,6 @@ def errors(turns: Array = TURNS, tilt: float = TILT) -> Array:
         predicted = found.phi + np.einsum("ci,civ,v->c", found.n, found.J[:, :3], delta_q)
         worst.append(np.abs(height - predicted).max())
     return np.array(worst)
-
-
-def main() -> dict[str, float]:
-    """The least phi with its formula, and the exponent of the error of its prediction."""
-    system, pair, q = tilted_scene()
-    _, found = geometry(system, pair, q)
-    lowest = points_at(system, q)[:, 2].min()
-    return {
-        "least phi [mm]": 1e3 * found.phi.min(),
-        "least height of a point [mm]": 1e3 * lowest,
-        "exponent of the error of phi + n'J delta_q [-]": slope(TURNS[:8], errors()[:8]),
-        "second order [-]": 2.0,
-    }
 
 
 def figure(*, tilt: float = TILT, k: int = K) -> Figure:

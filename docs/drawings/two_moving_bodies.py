@@ -77,41 +77,6 @@ def by_hand(at: Kinematics, points: ClosestPoints) -> tuple[Array, Array]:
     return of_alpha, of_beta
 
 
-def as_one(at: Kinematics, v: Array, omega: Array) -> Array:
-    """Twists of both bodies when they move as one, v at the world's origin, shape (12,) [m, rad].
-
-    Parameters
-    ----------
-    at : Kinematics
-    v, omega : ndarray, shape (3,)
-        In the world's axes [m], [rad].
-    """
-    twists = [
-        (R.T @ (v + np.cross(omega, t)), R.T @ omega) for R, t in zip(at.R, at.t, strict=True)
-    ]
-    return np.ravel(twists[1:])
-
-
-def main() -> dict[str, float]:
-    """J less J by hand; a motion as one, along n and along the surface; each with its value."""
-    at, points, found = pair_at()
-    J = found.J[0]
-    hand = np.hstack([*by_hand(at, points)]) * np.repeat([-1, 1], 6)
-    omega = np.array([0.1, 0.2, -0.3])
-    moved = J @ as_one(at, np.array([0.02, 0.01, -0.03]), omega)
-    apart = points.phi[0] * np.cross(omega, points.n[0])
-    return {
-        "phi [mm]": 1e3 * points.phi[0],
-        "as it was placed [mm]": 1e3 * PHI,
-        "largest entry of J less J by hand [m]": np.abs(J - hand).max(),
-        "none [m]": 0.0,
-        "both as one: along n [mm]": 1e3 * float(points.n[0] @ moved[:3]),
-        "nothing [mm]": 0.0,
-        "both as one: along the surface [mm]": 1e3 * float(np.linalg.norm(moved[:3])),
-        "phi |w x n| [mm]": 1e3 * float(np.linalg.norm(apart)),
-    }
-
-
 def figure(*, phi: float = PHI, turn: float = TURN) -> Figure:
     """The motions of alpha and beta and their difference; which columns of J a contact has.
 

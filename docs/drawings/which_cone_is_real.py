@@ -45,22 +45,6 @@ def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:
     return np.array([prediction(scene, before, path, "off").pose for before, path in ways])
 
 
-def main() -> dict[str, float]:
-    """How far the object moved, and how far predictions are off, on average."""
-    pair, ratio, pushes = measurements()
-    moved = pose_errors(pushes.before, pushes.after).mean(0)
-    found: dict[str, float] = {
-        f"{PAIR}: mu_omega / mu_v from loads [mm]": 1e3 * ratio,
-        "it moved by [mm]": 1e3 * moved[0],
-        "it turned by [deg]": np.degrees(moved[1]),
-    }
-    for cone in CONES:
-        off = pose_errors(poses(pair, ratio, pushes, cone), pushes.after).mean(0)
-        found[f"{cone}: error [mm]"] = 1e3 * off[0]
-        found[f"{cone}: error of the turn [deg]"] = np.degrees(off[1])
-    return found
-
-
 def figure(*, pair: str = PAIR, cones: Sequence[str] = CONES) -> Figure:
     """Some pushes from above: outlines as measured in grey, as predicted in lines.
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from docs.drawings import corner_loads
 from quasistatic_ref import load_scenario
-from tests.closeness import assert_relative, assert_within
-from tests.tolerances import SCENARIO
+from tests.closeness import assert_close, assert_relative, assert_within
+from tests.tolerances import ROUNDING, SCENARIO
 
 G = 9.81
 H = 0.01
@@ -41,3 +42,11 @@ def test_a_stack_stands_and_each_contact_carries_what_is_above():
     assert_within(q[-1], q[0], SCENARIO)
     loads = n_z.reshape(3, 4).sum(axis=1)
     assert_relative(loads, [1.0 * G, 0.5 * G, 0.2 * G], SCENARIO)
+
+
+def test_a_push_moves_the_load_to_the_corner_ahead():
+    # Moments about a lower corner: m g / 2 -+ F c / (2 w), c the height of the centre of mass.
+    for push, (friction, left, right) in zip(corner_loads.PUSHES, corner_loads.main(), strict=True):
+        half = G / 2
+        shift = push * 0.04 / (2 * 0.05)
+        assert_close([friction, left, right], [-push, half - shift, half + shift], ROUNDING)
