@@ -164,7 +164,8 @@ def scanned_body(
     Raises
     ------
     InputError
-        If the file cannot be read, the unit is doubtful, or the points enclose nothing.
+        If the file cannot be read, the unit is doubtful, the points enclose nothing, or a mesh has
+        a hole, a doubled face or shells that overlap.
 
     Examples
     --------
@@ -242,16 +243,13 @@ def _surface_and_solid(
     return points, _enclosed(points, notes)
 
 
-def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Array, Solid | None]:
-    """The same of a mesh of vertices, (V, 3) [m], and triangles, (T, 3)."""
-    surface = closed_mesh(vertices, triangles, notes)
-    if surface is not None:
-        notes.append(f"a closed mesh of {len(triangles)} triangles")
-        vertices, triangles = surface
-        return _points_on(vertices, triangles), Solid.of_triangles(vertices[triangles])
-    notes.append("the mesh is not closed: its surface is taken as points")
-    points = _points_on(vertices, triangles)
-    return points, _enclosed(points, notes)
+def _of_mesh(vertices: Array, triangles: Indices, notes: list[str]) -> tuple[Array, Solid]:
+    """The same of a closed mesh: its corners, and points that are uniform over its area."""
+    mesh = closed_mesh(vertices, triangles, notes)
+    notes.append(f"a closed mesh of {len(triangles)} triangles")
+    points, _ = trimesh.sample.sample_surface(mesh, ON_MESH, seed=0)
+    corners = mesh.triangles.reshape(-1, 3)
+    return np.unique(np.concatenate([corners, points]), axis=0), Solid.of_triangles(mesh.triangles)
 
 
 def _enclosed(points: Array, notes: list[str]) -> Solid | None:
@@ -287,10 +285,3 @@ def _metres(points: Array, unit: str | None) -> float:
         problem = f"is {extent:.4g} m long if it is in metres; say its unit: --unit mm, or m"
         raise InputError(problem, field="unit")
     return 1.0
-
-
-def _points_on(vertices: Array, triangles: Indices) -> Array:
-    """Points on a mesh: its corners, and others uniform over its area, shape (N, 3) [m]."""
-    mesh = trimesh.Trimesh(vertices, triangles, process=False)
-    points, _ = trimesh.sample.sample_surface(mesh, ON_MESH, seed=0)
-    return np.unique(np.concatenate([vertices, points]), axis=0)
