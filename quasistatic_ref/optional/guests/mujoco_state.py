@@ -155,14 +155,23 @@ def awake(model: MjModel) -> MjModel:
     return adapted
 
 
-def check_finite(data: MjData) -> None:
-    """Refuse a state that is not of finite numbers.
+def check_finite(model: MjModel, data: MjData) -> None:
+    """Refuse a model or a state that is not of finite numbers, which MuJoCo compiles.
 
     Raises
     ------
     ModelError
-        Naming the field of ``MjData``.
+        Naming the field of ``MjModel`` or ``MjData``, or the time step.
     """
+    h = model.opt.timestep
+    if not 0 < h < np.inf:
+        raise ModelError("must be a positive time [s]", field="option.timestep", value=h)
+    for owner, what in ((model, "model"), (model.opt, "option")):
+        for name in dir(owner):
+            numbers = getattr(owner, name)
+            is_float = isinstance(numbers, np.ndarray) and numbers.dtype.kind == "f"
+            if is_float and not np.isfinite(numbers).all():
+                raise ModelError("must contain finite numbers only", field=f"{what}.{name}")
     for name in STATE:
         if not np.isfinite(getattr(data, name)).all():
             raise ModelError("must contain finite numbers only", field=f"data.{name}")
@@ -177,7 +186,7 @@ def mujoco_state(model: MjModel, data: MjData) -> MujocoState:
         If nothing in the model can move, or the state is not of finite numbers.
     """
     mujoco = needed_package("mujoco", "engines", "mujoco_step")
-    check_finite(data)
+    check_finite(model, data)
     adapted = awake(model)
     adapted.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     adapted.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER

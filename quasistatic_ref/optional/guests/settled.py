@@ -60,7 +60,7 @@ def settled(
         mujoco.mj_resetDataKeyframe(model, data, numbered(model, "keyframe", keyframe))
     for name, value in (control or {}).items():
         data.ctrl[numbered(model, "actuator", name)] = value
-    check_finite(data)
+    check_finite(model, data)
     run(model, data, seconds)
     return data
 

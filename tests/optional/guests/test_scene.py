@@ -221,6 +221,30 @@ def test_a_table_that_is_none_is_refused(table, says, tmp_path):
         mujoco_scenario(model(), targets=path)
 
 
+@pytest.mark.parametrize(
+    ("spoilt", "number", "field"),
+    [
+        ("opt.timestep", 0.0, "option.timestep"),
+        ("opt.timestep", np.nan, "option.timestep"),
+        ("opt.gravity", np.nan, "option.gravity"),
+        ("jnt_stiffness", np.nan, "model.jnt_stiffness"),
+        ("geom_size", np.inf, "model.geom_size"),
+    ],
+)
+@pytest.mark.parametrize("asked", ["scene", "opinion"])
+def test_numbers_that_no_step_can_take_are_refused_by_name(spoilt, number, field, asked):
+    bad = model()
+    owner, _, name = spoilt.rpartition(".")
+    owner = bad.opt if owner else bad
+    if isinstance(getattr(owner, name), np.ndarray):
+        getattr(owner, name).flat[0] = number
+    else:
+        setattr(owner, name, number)
+    ask = mujoco_scenario if asked == "scene" else qr.second_opinion
+    with pytest.raises(ModelError, match=f"^{field}: must "):
+        ask(bad, mujoco.MjData(bad))
+
+
 def test_joints_without_servos_have_springs_and_fields_their_names():
     """A joint gives way by load / k; one with a servo takes no spring."""
     text = SCENE[: SCENE.index("<equality>")] + "</mujoco>"
