@@ -59,7 +59,7 @@ def served(tables, roots=()):
     """What a server answers to a client that sends a scene."""
     out = io.StringIO()
     request = json.dumps({"scene": "sent", "tables": tables})
-    lines_served(Scenes([], roots), io.StringIO(f"{request}\n"), out)
+    lines_served(Scenes([], roots), io.BytesIO(request.encode()), out)
     return json.loads(out.getvalue().splitlines()[-1])
 
 
@@ -121,7 +121,7 @@ def test_a_client_reads_from_folders_that_the_user_names(folder, tmp_path):
     requests = [{"scene": "sent", "tables": scene}, {"file": str(tmp_path / "other.toml")},
                 {"file": "/etc/hostname"}]  # fmt: skip
     (tmp_path / "other.toml").write_text("")
-    lines_served(scenes, io.StringIO("".join(json.dumps(one) + "\n" for one in requests)), out)
+    lines_served(scenes, io.BytesIO("\n".join(map(json.dumps, requests)).encode()), out)
     _, sent, known, unknown = map(json.loads, out.getvalue().splitlines())
     assert sent["scene"] == "sent"
     assert "format: is missing" in known["error"]

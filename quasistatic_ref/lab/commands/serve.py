@@ -4,6 +4,7 @@ import argparse
 import sys
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.oracle.pipes import lines_served
 from quasistatic_ref.lab.oracle.served import Scenes
 
@@ -21,10 +22,12 @@ def run(options: argparse.Namespace) -> int:
     Raises
     ------
     InputError
-        If a scene cannot be loaded.
+        If a scene cannot be loaded, or standard input is closed.
     """
     scenes = Scenes(shared.scenario_settings(options), options.roots)
     for scene in options.scenes:
         scenes.add(scene)
-    lines_served(scenes, sys.stdin, sys.stdout)
+    if sys.stdin is None:
+        raise InputError("is closed: requests are read from it", field="standard input")
+    lines_served(scenes, sys.stdin.buffer, sys.stdout)
     return 0

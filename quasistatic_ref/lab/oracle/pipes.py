@@ -1,7 +1,7 @@
 """Requests and answers over a pipe: a line of JSON each."""
 
 import json
-from typing import IO
+from typing import IO, Any
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
@@ -19,27 +19,41 @@ def greeting(scenes: Scenes) -> str:
     return json_text({**head, "scenes": known})
 
 
-def line_answer(scenes: Scenes, line: str) -> str:
+def line_answer(scenes: Scenes, line: bytes) -> str:
     """The line that answers a line: what was asked for, or why not, in a sentence."""
     head = {}
     try:
         request = _request(line)
         if "id" in request:
-            head = {"id": request.take("id")}
+            head = {"id": _echoed(request)}
         return json.dumps({**head, **scenes.answer(request)})
     except QuasistaticError as error:
         status = 2 if isinstance(error, InputError) else 3
         return json.dumps({**head, "error": str(error), "status": status})
 
 
-def _request(line: str) -> TableReader:
+def _request(line: bytes) -> TableReader:
     try:
-        return TableReader(json.loads(line, object_pairs_hook=unique_fields))
+        text = line.decode("utf-8")
+    except UnicodeDecodeError:
+        raise InputError("is not UTF-8 text", field="the line") from None
+    try:
+        return TableReader(json.loads(text, object_pairs_hook=unique_fields))
     except (ValueError, RecursionError) as error:
         raise InputError(f"is not JSON: {error}", field="the line") from None
 
 
-def lines_served(scenes: Scenes, lines: IO[str], out: IO[str]) -> None:
+def _echoed(request: TableReader) -> Any:
+    """The id of a request, any JSON."""
+    echo = request.take("id")
+    try:
+        json.dumps(echo, allow_nan=False)
+    except ValueError:
+        raise InputError("must be JSON, which has no such number", field="id", value=echo) from None
+    return echo
+
+
+def lines_served(scenes: Scenes, lines: IO[bytes], out: IO[str]) -> None:
     """Answer each line of `lines` with one on `out`, until there are no more."""
     print(greeting(scenes), file=out, flush=True)
     while line := lines.readline():

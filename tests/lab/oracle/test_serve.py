@@ -24,7 +24,7 @@ def answers(*requests, scenes=("sphere_spin",), settings=()):
         known.add(scene)
     lines = [one if isinstance(one, str) else json.dumps(one) for one in requests]
     out = io.StringIO()
-    lines_served(known, io.StringIO("".join(f"{line}\n" for line in lines)), out)
+    lines_served(known, io.BytesIO("".join(f"{line}\n" for line in lines).encode("latin-1")), out)
     return [json.loads(line) for line in out.getvalue().splitlines()]
 
 
@@ -79,6 +79,8 @@ MISTAKES = {
     '{"q": [0, 0, -9, 0, 0, 0, 1]}': ("deeper than limits.penetration", 3),
     '{"scene": "ball", "q": []}': ("scene: is not a scene here", 2),
     '{"file": "no_such"}': ("no_such", 2),
+    "\xff": ("the line: is not UTF-8 text", 2),
+    '{"id": NaN, "q": []}': ("id: must be JSON, which has no such number", 2),
     '{"tables": 3}': ("tables: must be the tables of a scenario", 2),
 }
 
@@ -89,6 +91,11 @@ def test_what_cannot_be_is_a_sentence_and_the_next_line_is_answered():
         assert words in answer["error"]
         assert answer["status"] == status
     assert last == {"q": BALL}
+
+
+def test_a_server_without_standard_input_says_so(monkeypatch, cli):
+    monkeypatch.setattr(sys, "stdin", None)
+    assert "standard input: is closed" in cli("serve", "sphere_spin", status=2).err
 
 
 def test_the_line_on_the_page_is_answered_by_the_step_of_the_simulator():
