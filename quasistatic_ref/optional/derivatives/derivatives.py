@@ -23,8 +23,8 @@ from quasistatic_ref.optional.derivatives.gradient import (
 )
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles, out_of_reach
 from quasistatic_ref.optional.derivatives.program_reasons import row_obstacles, target_obstacles
+from quasistatic_ref.optional.derivatives.step.nearly import nearly_weak
 from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
-from quasistatic_ref.optional.derivatives.step.reach import Reach
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.law import CONVEX
@@ -91,22 +91,20 @@ def derivatives(
     result = _certified(simulator, q, q_bar_a, force)
     rates = StepRates(simulator, q, result)
     equations = Equations(touching_rows(result.solution, rates.far))
-    reach = Reach(equations, rates.data)
-    near = reach.within(nearly * rates.units)
+    near = nearly_weak(equations, equations.rates(rates.data), rates.data, nearly * rates.units)
     if len(near):
         equations = Equations(equations.of.unloaded(near))
     if towards is not None:
         one = combined(rates.data, directed(rates.places, towards, "towards"))
         equations = Equations(equations.beyond(one))
     touching = equations.of
-    x_rates = reach.rates if touching is reach.touching else equations.rates(rates.data)
-
+    x_rates = equations.rates(rates.data)
     obstacles = [
         *geometry_obstacles(simulator, rates, touching, out_of_reach(simulator, rates)),
         *target_obstacles(simulator, rates),
         *row_obstacles(simulator, rates, touching, x_rates, {*map(tuple, near)}),
     ]
-    return gradient(rates, x_rates.x, obstacles, equations.along, reach)
+    return gradient(rates, x_rates.x, obstacles, equations.along)
 
 
 def check_nearly(nearly: float) -> None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 
@@ -12,38 +11,19 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
-from quasistatic_ref.optional.derivatives.step.reach import NEVER, Distance, Reach
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.arrays import checked_numbers
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
-
-
-class NextKink(NamedTuple):
-    """How far a derivative holds, to first order.
-
-    Parameters
-    ----------
-    distance : float
-        By how much the parameter may change [of the parameter]; 0 where there is no derivative,
-        infinite where no kink is ahead.
-    where : str
-        The rows that begin or end to bear load there, or why there is no derivative.
-    """
-
-    distance: float
-    where: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Derivatives(Shown, Plain):
     """Derivatives of the configuration after a step, in tangent coordinates on both sides.
 
-    Columns without a derivative are NaN, and `reasons` says why. So are those whose derivative
-    ends nearer than the `nearly` of
-    :func:`~quasistatic_ref.optional.derivatives.derivatives.derivatives`.
+    Columns without a derivative are NaN, and `reasons` says why. So are those that are nearer to a
+    kink than the `nearly` of :func:`~quasistatic_ref.optional.derivatives.derivatives.derivatives`.
 
     Parameters
     ----------
@@ -60,7 +40,7 @@ class Derivatives(Shown, Plain):
     dq_dmasses : ndarray, shape (n_v, L)
         By the mass of each link, its inertia about its centre of mass staying [per kg].
     differentiable : bool
-        Whether all of them exist, and hold farther than that.
+        Whether all of them exist, and none is that near to a kink.
     reasons : tuple of Reason
         Why those that are NaN do not; empty if all exist.
     result : StepResult
@@ -80,7 +60,6 @@ class Derivatives(Shown, Plain):
     result: StepResult
     _rates: StepRates = field(compare=False, repr=False)
     _along: Callable[[DataRates], Array] = field(compare=False, repr=False)
-    _reach: Reach | None = field(compare=False, repr=False)
 
     def along(self, **directions: Array | float) -> Array:
         """The one-sided derivative of q+ along a direction, shape (n_v,).
@@ -103,62 +82,14 @@ class Derivatives(Shown, Plain):
         InputError
             If a name or a shape is wrong, or the reasons are others.
         """
-        direction, one = self._one(directions, "along")
-        x = np.ravel(self._along(one))
-        return np.asarray(self._rates.onward @ x + self._rates.carried @ direction[: len(x)])
-
-    def reach_along(self, **directions: Array | float) -> NextKink:
-        """How far the derivative along a direction holds; `directions` and errors as `along`.
-
-        Returns
-        -------
-        NextKink
-            Its distance in multiples of the direction.
-        """
-        _, one = self._one(directions, "reach_along")
-        return self._named(NEVER if self._reach is None else self._reach.along(one))
-
-    @property
-    def reaches(self) -> dict[str, tuple[NextKink, ...]]:
-        """How far each column holds to both sides, by field; computed when it is read."""
-        reaches = {}
-        for name, place in self._rates.places.items():
-            missing = np.isnan(getattr(self, name)).reshape(len(self.dq_dq), -1).any(axis=0)
-            ahead = (self._ahead(p, name, bad) for p, bad in enumerate(missing, place.start))
-            reaches[name] = tuple(ahead)
-        return reaches
-
-    @property
-    def reach(self) -> float:
-        """The least of these distances, in natural units [-]; computed when it is read."""
-        distances = np.array([kink.distance for kinks in self.reaches.values() for kink in kinks])
-        units = self._rates.units
-        some = units > 0  # that of a link without mass is zero: no change of it matters
-        return float((distances[some] / units[some]).min(initial=np.inf))
-
-    def _ahead(self, p: int, name: str, missing: bool) -> NextKink:
-        """How far a column holds."""
-        for why in self.reasons if missing else ():
-            if why.kind not in reason.NO_KINK and name in why.fields:
-                return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
-        return self._named(NEVER if self._reach is None else self._reach.either(p))
-
-    def _named(self, kink: Distance) -> NextKink:
-        step = self.result.step
-        names = cone(step.cone).row_names
-        rows = [f"row {names[i]} of {step.contacts.name[j]}" for j, i in kink.rows]
-        return NextKink(kink.t, ", ".join(rows))
-
-    def _one(self, directions: Mapping[str, Array | float], where: str) -> tuple[Array, DataRates]:
-        """A direction of all parameters, shape (P,), and the rates of the data along it."""
-        direction = directed(self._rates.places, directions, where)
+        direction = directed(self._rates.places, directions, "along")
         used = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for obstacle in self.reasons:
             if obstacle.kind not in reason.ONE_SIDED and used & set(obstacle.fields):
-                raise InputError(
-                    "has no one-sided derivative here: " + obstacle.sentence, field=where
-                )
-        return direction, combined(self._rates.data, direction)
+                problem = "has no one-sided derivative here: " + obstacle.sentence
+                raise InputError(problem, field="along")
+        x = np.ravel(self._along(combined(self._rates.data, direction)))
+        return np.asarray(self._rates.onward @ x + self._rates.carried @ direction[: len(x)])
 
 
 def gradient(
@@ -166,7 +97,6 @@ def gradient(
     x: Array,
     obstacles: Sequence[Obstacle],
     along: Callable[[DataRates], Array],
-    reach: Reach | None,
 ) -> Derivatives:
     """The derivatives of the configuration.
 
@@ -179,8 +109,6 @@ def gradient(
         Why some of them do not exist.
     along : callable
         Rates of the data by one parameter -> how delta_q changes as that grows, n_v numbers.
-    reach : Reach or None
-        The distances to kinks; None of a smoothed step, which has none.
     """
     columns = rates.onward @ x
     columns[:, : len(x)] += rates.carried
@@ -195,7 +123,6 @@ def gradient(
         result=rates.result,
         _rates=rates,
         _along=along,
-        _reach=reach,
     )
 
 

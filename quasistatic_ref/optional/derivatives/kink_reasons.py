@@ -11,7 +11,6 @@ from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.reason import Obstacle
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
-from quasistatic_ref.optional.derivatives.turned_tangents import stays
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Mask
@@ -44,9 +43,7 @@ def geometry_obstacles(
         if j not in felt and (smooth or safe[j]):
             continue
         frictionless = not contacts.mu[j, 0] or cone(simulator.cone).name == "frictionless"
-        if kind == reason.TANGENTS and (
-            frictionless or (touching and stays(step, rates.x, touching, j))
-        ):
+        if kind == reason.TANGENTS and frictionless:
             continue
         blurred = kind != reason.CROSSING and rates.contacts.blurred[j]
         fields = tuple(rates.places) if blurred else FIELDS

@@ -97,4 +97,4 @@ def smoothed(
     ]
     x = barrier_rates(step, barrier, rates.data)
     along = partial(barrier_rates, step, barrier)
-    return gradient(rates, x, obstacles, along, None)
+    return gradient(rates, x, obstacles, along)

@@ -21,7 +21,8 @@ MANY = "closest points are not unique"
 NO_NORMAL = "no normal at zero distance"
 """Vertices or edges that just touch."""
 TANGENTS = "tangents switch axis"
-"""Two axes of the world are equally far from the normal, and the pyramid turns."""
+"""Two axes of the world are equally far from the normal, and the pyramid turns: a jump where the
+contact slides. Whether it does is not looked at."""
 RIM = "level rim"
 """All points of a rim are equally near to the other body."""
 HALF_TURN = "half a turn"
@@ -42,9 +43,6 @@ ONE_SIDED: Final = (WEAK, NEARLY)
 
 SMOOTH_POINTS: Final = (FEATURE, CROSSING)
 """Those of contacts whose points, normal and tangents do not jump."""
-
-NO_KINK: Final = (*ONE_SIDED, ZERO_FRICTION)
-"""Those that leave the distance to the next kink as it is."""
 
 
 class Reason(NamedTuple):

@@ -1,0 +1,130 @@
+"""States so near to a kink of the rows that a derivative would be wrong: (R41)."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import PointCloud, derivatives, load_scenario
+from quasistatic_ref.optional.derivatives.gradient import combined, directed
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.step.nearly import nearly_weak
+from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
+from quasistatic_ref.optional.derivatives.step.touching import BEARING, touching_rows
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.tolerances import NEARLY
+from tests.closeness import assert_within
+from tests.optional.derivatives.free_bodies import (
+    BOX,
+    FLOOR,
+    NONE,
+    G,
+    H,
+    falling_ball,
+    free,
+    verdict,
+)
+from tests.tolerances import ROUNDING
+
+W = 0.3 * G
+X, _, Z = np.eye(6)[:3]
+POINT = PointCloud(np.zeros((1, 3)))
+
+
+@pytest.mark.parametrize("gap", [3e-14, -3e-14])
+def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap):
+    """Above the floor it falls on, below it its load is 3e-14 m times m / h^2."""
+    simulator, q = falling_ball(gap)
+    found, kinds = verdict(simulator, q)
+    assert BEARING < abs(gap) / (H**2 * G) < NEARLY
+    assert kinds == {reason.NEARLY}
+    assert "settled: nearly a kink at row +d1 of c0/0" in {why.sentence for why in found.reasons}
+    assert len(found.reasons) == 6
+    assert np.isnan(found.dq_dq[:, 2]).all()
+    for way, slope in ((Z, 1.0), (-Z, 0.0)):
+        np.testing.assert_allclose(found.along(q=way)[2], slope * way[2], atol=ROUNDING)
+        one = derivatives(simulator, q, NONE, towards={"q": way})
+        np.testing.assert_allclose(one.dq_dq[2, 2], slope, atol=ROUNDING)
+    exact = derivatives(simulator, q, NONE, nearly=0.0)
+    assert exact.differentiable
+    np.testing.assert_allclose(exact.dq_dq[2, 2], float(gap > 0), atol=ROUNDING)
+
+
+@pytest.mark.parametrize("gap", [-1e-15, -1e-17])
+def test_a_ball_whose_load_is_rounding_is_at_the_kink(gap):
+    simulator, q = falling_ball(gap)
+    found, kinds = verdict(simulator, q)
+    assert kinds == {reason.WEAK}
+    assert found.result.solution.lam.any()
+
+
+@pytest.mark.parametrize("gap", [1e-10, -1e-10])
+def test_a_ball_a_little_farther_from_the_kink_has_derivatives(gap):
+    found, _ = verdict(*falling_ball(gap))
+    assert found.differentiable
+
+
+@pytest.mark.parametrize(("spare", "near"), [(1e-10, True), (1e-6, False)])
+def test_a_point_that_nearly_slides_is_at_a_kink_of_all_rows_but_one(spare, near):
+    """It is pushed along x by mu W (1 - spare): all of its load but that share is on row -d1."""
+    simulator, q = free(POINT, (0, 0, 0), FLOOR, mu=(0.5, 0.0))
+    found, kinds = verdict(simulator, q, 0.5 * W * (1 - spare) * X)
+    assert kinds - {reason.ZERO_FRICTION} == ({reason.NEARLY} if near else set())
+    rows = {why.where[1] for why in found.reasons if why.kind == reason.NEARLY}
+    assert rows <= {"+d1", "+d2", "-d2", "+spin", "-spin"}
+    assert ("+d1" in rows) == near
+    assert np.isnan(found.dq_dtau[:, 0]).any() == near
+
+
+def test_a_settled_grasp_is_nearly_at_a_kink_and_has_a_derivative_on_each_side():
+    """The derivative of its own side is wrong by about one on the other, 1e-11 away."""
+    scenario = load_scenario("bunny_grasp", steps=60, fast=True)
+    simulator = scenario.simulator()
+    q = scenario.run(progress=False).q[59]
+    target = scenario.targets(60 * scenario.h)
+    found = derivatives(simulator, q, target)
+    assert {why.kind for why in found.reasons} == {reason.NEARLY}
+    own = derivatives(simulator, q, target, nearly=0.0)
+    assert own.differentiable
+    way = np.eye(simulator.system.n_v)[0]
+    eps = 1e-7
+    wrong = []
+    for e in (way, -way):
+        there = simulator.step(simulator.system.integrate(q, eps * e), target).q
+        change = simulator.system.difference(found.result.q, there) / eps
+        assert_within(found.along(q=e), change, 1e-5)
+        wrong.append(np.abs(own.dq_dq @ e - change).max())
+    assert max(wrong) > 1
+
+
+SMALL = 1e-2
+"""How far a force goes, over the change for which rows are named: the angles between rows, which
+(R41) leaves out, are larger."""
+
+
+def weak_rows(simulator, q, force, way, change):
+    """The rows that touch, and those that a change along a way would nearly make weak."""
+    result = simulator.step(q, NONE, force)
+    rates = StepRates(simulator, q, result)
+    equations = Equations(touching_rows(result.solution, rates.far))
+    one = combined(rates.data, directed(rates.places, {"tau": way}, "way"))
+    named = nearly_weak(equations, equations.rates(one), one, np.array([change]))
+    touching = {(int(j), int(i)) for j, i in (*equations.of.strict, *equations.of.idle)}
+    return touching, {(int(j), int(i)) for j, i in named}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_r41_rows_that_a_small_force_changes_are_named(seed):
+    """Of a block on its corners, whose steps are linear in the force piece by piece."""
+    rng = np.random.default_rng(seed)
+    simulator, q = free(BOX, (0, 0, 0.05), FLOOR, k=4, mu=(0.4, 0.01))
+    arms = np.array([1.0, 1.0, 1.0, 0.05, 0.05, 0.05])
+    changed = spared = 0
+    for _ in range(60):
+        force, way = W * arms * rng.normal(size=(2, 6))
+        change = 10.0 ** rng.uniform(-3, 1)
+        before, named = weak_rows(simulator, q, force, way, change)
+        for sign in (1, -1):
+            after, _ = weak_rows(simulator, q, force + sign * SMALL * change * way, way, change)
+            assert before ^ after <= named
+            changed += bool(before ^ after)
+            spared += bool(before - named)
+    assert min(changed, spared) > 3
