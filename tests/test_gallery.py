@@ -18,7 +18,7 @@ SCRIPTS = sorted(GALLERY.glob("*.py"))
 IMPORTED = {"matplotlib.pyplot", "numpy", "quasistatic_ref"}
 SHORT = {"a_closed_loop", "gradient_of_a_step", "spun_sphere"}
 """Scripts that README's line runs; the others are long."""
-DPI = 60
+DPI = 100
 TOLERANCE = 6
 """Root mean square over all pixels, of 255; an empty figure is off by some 30."""
 

@@ -28,14 +28,16 @@ _, end = pose(1.0)
 formula = ahead * np.array([np.sin(turn), 1 - np.cos(turn), 0]) / turn
 assert np.abs(end - formula).max() < 1e-15
 
-figure, axes = plt.subplots(figsize=(4.6, 3.6), layout="constrained")
+figure, axes = plt.subplots(figsize=(5.4, 3.8), layout="constrained")
 path = np.array([pose(share)[1] for share in np.linspace(0, 1, 60)])
-axes.plot(*1e3 * path[:, :2].T, color="black", label="path of the origin")
+axes.plot(*1e3 * path[:, :2].T, color="black", label="path")
 outline = np.array([[-1, -1, 0], [1, -1, 0], [1.6, 0, 0], [1, 1, 0], [-1, 1, 0]]) * 0.008
 for share in np.linspace(0, 1, 6):
     R, t = pose(share)
     axes.fill(*1e3 * (outline @ R.T + t)[:, :2].T, facecolor="0.85", edgecolor="black")
+turned = 1e3 * (outline @ R.T + [ahead, 0, 0])[:, :2].T
+axes.fill(*turned, fill=False, linestyle=":", label="straight, then turned")
 axes.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
 axes.set_title(f"it ends at ({1e3 * end[0]:.1f}, {1e3 * end[1]:.1f}) mm")
-axes.legend()
+axes.legend(loc="center right")
 plt.show()

@@ -5,8 +5,9 @@ The least squeeze that holds a bar
 Two fingers hold a bar at a distance d from its centre of mass. The weight pulls the bar down, and
 turns it about the axis of the fingers.
 
-In the paper's pyramid both loads share one normal force. The fingers have to press with
-m g / (2 mu_v) + m g d / (2 mu_omega).
+Against sliding alone each finger has to press with u = m g / (2 mu_v), against the turn alone with
+w = m g d / (2 mu_omega). In the paper's pyramid both loads share one normal force, u + w. In the
+ellipsoid it is the root of u^2 + w^2, and in the product of both limits the larger one.
 """
 
 import matplotlib.pyplot as plt
@@ -23,7 +24,7 @@ d1 = np.array([[0.0, 1, 0], [0.0, 1, 0]])
 d2 = np.cross(normals, d1)
 
 
-def holds(squeeze, lever):
+def holds(cone, squeeze, lever):
     """Whether the bar stays where it is, at a squeeze [N] of fingers at a lever [m]."""
     J = np.zeros((2, 4, 8))
     for j, n in enumerate(normals):
@@ -39,23 +40,28 @@ def holds(squeeze, lever):
     step = qr.StepData(
         h=0.01, K_q=stiffness * np.eye(2), M_u=np.diag([m, m, m, 1e-4, 1e-4, 1e-4]),
         tau_a=np.zeros(2), tau_u=[0, 0, -m * gravity, 0, 0, 0],
-        delta_q_bar_a=np.full(2, squeeze / stiffness), contacts=fingers,
+        delta_q_bar_a=np.full(2, squeeze / stiffness), contacts=fingers, cone=cone,
     )  # fmt: skip
     return np.abs(qr.solve_step(step).delta_q).max() < 1e-12
 
 
 # %%
 # Three per cent less than the formula slips, three per cent more holds.
-levers = np.linspace(0, 0.05, 6)
-least = m * gravity / (2 * mu_v) + m * gravity * levers / (2 * mu_omega)
-assert not any(holds(0.97 * N, d) for N, d in zip(least, levers, strict=True))
-assert all(holds(1.03 * N, d) for N, d in zip(least, levers, strict=True))
+levers = np.linspace(0, 0.06, 7)
+u = m * gravity / (2 * mu_v)
+w = m * gravity * levers / (2 * mu_omega)
+least = {"pyramid": u + w, "ellipsoid": np.hypot(u, w), "product": np.maximum(u, w)}
 
-figure, axes = plt.subplots(figsize=(4.5, 3.2), layout="constrained")
-axes.plot(1e3 * levers, least, color="0.6", linewidth=3, label="closed form")
-axes.plot(1e3 * levers, 1.03 * least, "k^", label="a step holds")
-axes.plot(1e3 * levers, 0.97 * least, "kv", markerfacecolor="none", label="a step slips")
+figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
+for (cone, forces), line in zip(least.items(), ("-", "--", "-."), strict=True):
+    assert not any(holds(cone, 0.97 * N, d) for N, d in zip(forces, levers, strict=True))
+    assert all(holds(cone, 1.03 * N, d) for N, d in zip(forces, levers, strict=True))
+    axes.plot(1e3 * levers, forces, line, label=f"{cone}, closed form")
+    last = cone == "product"
+    axes.plot(1e3 * levers, 1.03 * forces, "k^", label="a step holds" if last else None)
+    axes.plot(1e3 * levers, 0.97 * forces, "kv", markerfacecolor="none",
+              label="a step slips" if last else None)  # fmt: skip
 axes.set(xlabel="lever d [mm]", ylabel="squeeze of each finger [N]")
-axes.set_title(f"at {1e3 * levers[-1]:g} mm: {least[-1]:.2f} N")
+axes.set_title(f"at {1e3 * levers[-1]:g} mm: {least['pyramid'][-1]:.2f} N in the pyramid")
 axes.legend()
 plt.show()

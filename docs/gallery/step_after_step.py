@@ -6,7 +6,7 @@ A finger on a spring pushes a block along one axis. A run is a loop: where thing
 J, the program gives delta_q, and q goes on by it.
 
 While the finger's target moves at v, the finger is m v / (h K_q) behind it. When the target stops,
-so do both, soon after.
+so do both, soon after. The force on the block is m v / h: the drag of steps that start from rest.
 """
 
 import matplotlib.pyplot as plt
@@ -14,7 +14,7 @@ import numpy as np
 
 import quasistatic_ref as qr
 
-K_q, m, h, v, moves, gap = 5000.0, 0.5, 0.01, 0.02, 1.2, 0.005
+K_q, m, h, v, moves, gap = 500.0, 0.5, 0.02, 0.02, 1.2, 0.001
 
 # %%
 # The program of one step: delta_q is (finger, block), and the block is ahead of the finger.
@@ -35,20 +35,28 @@ def one_step(q, q_bar):
 
 # %%
 # The loop.
-times = np.arange(1, 161) * h
+times = np.arange(1, 121) * h
 targets = v * np.minimum(times, moves)
 q = [np.array([0.0, gap])]
+force = []
 for q_bar in targets:
-    q.append(q[-1] + one_step(q[-1], q_bar).delta_q)
+    answer = one_step(q[-1], q_bar)
+    q.append(q[-1] + answer.delta_q)
+    force.append(answer.wrench[0, 2])
 q = np.array(q)
 
-lag = targets[119] - q[120, 0]
+lag = targets[59] - q[60, 0]
 assert abs(lag - m * v / (h * K_q)) < 1e-9
-assert np.abs(np.diff(q[-5:], axis=0)).max() < 1e-12
+assert abs(force[59] - m * v / h) < 1e-6
+assert np.abs(np.diff(q[-5:], axis=0)).max() < 1e-11
 
-figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
+figure, (axes, right) = plt.subplots(1, 2, figsize=(7.6, 3.2), layout="constrained")
 for name, place in {"target": targets, "finger": q[1:, 0], "block": q[1:, 1]}.items():
     axes.plot(times, 1e3 * place, {"target": ":", "finger": "-", "block": "--"}[name], label=name)
 axes.set(xlabel="time t [s]", ylabel="x [mm]", title=f"the finger lags by {1e3 * lag:.1f} mm")
 axes.legend()
+right.step(times, force, label="force")
+right.axhline(m * v / h, color="black", linestyle=":", label="m v / h")
+right.set(xlabel="time t [s]", ylabel="force [N]")
+right.legend(loc="right")
 plt.show()

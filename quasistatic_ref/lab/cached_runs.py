@@ -1,4 +1,4 @@
-"""Runs of the scenarios that come along, each made once for all that look at it."""
+"""Both runs of the grasp, each made once for all that look at it."""
 
 from functools import cache
 
@@ -9,22 +9,10 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 
 @cache
-def scenario_run(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
-    """A scenario that comes along, loaded and run; a second time without work.
-
-    Parameters
-    ----------
-    name : str
-    settings : str
-        Changes of it, as ``dotted.key=value``.
-    """
-    scenario = load_scenario(name, settings, fast=True)
-    return scenario, scenario.run(progress=False)
-
-
 def grasp(case: str) -> tuple[Scenario, Trajectory]:
-    """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``."""
-    return scenario_run("bunny_grasp", *CASES[case])
+    """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``; a second time without work."""
+    scenario = load_scenario("bunny_grasp", CASES[case], fast=True)
+    return scenario, scenario.run(progress=False)
 
 
 def lift(case: str) -> tuple[LinkMotion, slice]:

@@ -14,24 +14,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from docs.drawings import (
-    a_screw,
     both_laws,
-    boundary_layer,
     cone_surfaces,
     contact_geometry,
     corner_loads,
-    finger_spring_block,
     free_body,
-    gradient_of_a_push,
     mass_of_a_free_body,
     metres,
     phi_and_j_of_a_cloud,
-    pinch_threshold,
     plan_a_push,
     sliding_block,
-    solver_digits,
     the_program,
-    the_step_loop,
     two_moving_bodies,
     what_smoothing_does,
     where_no_gradient_is,
@@ -43,10 +36,9 @@ from validation.tools.scripts import RESULTS, script_options
 
 Record = Mapping[str, Any]
 DRAWN = (
-    a_screw, both_laws, boundary_layer, cone_surfaces, contact_geometry, corner_loads,
-    finger_spring_block, free_body, gradient_of_a_push, mass_of_a_free_body, metres,
-    phi_and_j_of_a_cloud, pinch_threshold, plan_a_push, sliding_block, solver_digits, the_program,
-    the_step_loop, two_moving_bodies, what_smoothing_does, where_no_gradient_is,
+    both_laws, cone_surfaces, contact_geometry, corner_loads, free_body, mass_of_a_free_body,
+    metres, phi_and_j_of_a_cloud, plan_a_push, sliding_block, the_program, two_moving_bodies,
+    what_smoothing_does, where_no_gradient_is,
 )  # fmt: skip
 """Each is the figure of its name."""
 

@@ -1,4 +1,4 @@
-"""One small free body on a floor, and a finger that nudges it, to look at gradients."""
+"""One small free body on a floor, to look at gradients."""
 
 import numpy as np
 
@@ -30,28 +30,6 @@ def body_at_rest(shape: Shape, height: float) -> tuple[Simulator, Array]:
     pair = ContactPair("floor", world_plane(), placed, MU_V, MU_OMEGA, 6, 1)
     simulator = Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)))
     return FastSimulator(simulator), system.q_start
-
-
-def nudged_ball(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
-    """A ball at the origin and a finger next to it, at some x and y [m]; q has shape (14,).
-
-    Parameters
-    ----------
-    finger : Sphere or HalfSpace
-        In a frame along the world's axes.
-    finger_at : (float, float)
-        x and y of its frame [m].
-    """
-    hand = Body.of_shape("hand", Sphere(RADIUS), MASS, actuated=("base",), xyz=(*finger_at, RADIUS))
-    ball = Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, RADIUS))
-    system = System([hand, ball])
-    ball_shape = on_link(system, "ball", Sphere(RADIUS))
-    pairs = [
-        ContactPair("floor", world_plane(), ball_shape, MU_V, MU_OMEGA, 6, 1),
-        ContactPair("push", on_link(system, "hand", finger), ball_shape, MU_V, MU_OMEGA, 6, 1),
-    ]
-    K_q = np.diag([2000.0] * 3 + [20.0] * 3)
-    return FastSimulator(Simulator(system, pairs, h=H, K_q=K_q)), system.q_start
 
 
 def points(*places: tuple[float, float, float]) -> PointCloud:
